@@ -1,0 +1,15 @@
+#include "bake/jobs/context.h"
+
+namespace oriel {
+
+void Context::warning(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  if (warn) warn(message);
+}
+
+void Context::report(std::string_view stage, double fraction, std::uint64_t rays) {
+  const std::lock_guard lock(mutex_);
+  if (progress) progress({stage, fraction, rays});
+}
+
+}  // namespace oriel

@@ -1,0 +1,29 @@
+// glTF 2.0 files into a Scene.
+#pragma once
+
+#include <filesystem>
+
+#include "bake/jobs/context.h"
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+struct ImportOptions {
+  int scene = -1;               // which scene of the file; -1: its default, else the first
+  Vec3 sky{0};                  // constant sky radiance, cd/m²
+  std::uint64_t max_bytes = std::uint64_t{16} << 30;  // refuse files and allocations beyond it
+};
+
+struct ImportedScene {
+  Scene scene;
+  std::vector<std::pair<std::string, std::string>> inputs;  // file name (relative to the scene file) and its XXH3-128
+};
+
+// Reads a .gltf (external or embedded buffers and images) or a .glb. The file is told by its first bytes, not its name.
+// Everything is validated: JSON depth and types, every index, bounds, finite numbers, node cycles. Degenerate triangles
+// are dropped with one warning per mesh, a non-finite vertex is an error; what is not supported gets one warning
+// each through context.warning. Errors: kIo where a file cannot be read, kInvalid where the content breaks glTF 2.0
+// (found, expected and where) or requires an extension that Oriel does not know.
+Result<ImportedScene> import_gltf(const std::filesystem::path& path, const ImportOptions& options, Context& context);
+
+}  // namespace oriel

@@ -1,0 +1,39 @@
+// What the surface is at a point: textures, vertex colours and factors resolved into the parameters of light transport.
+#pragma once
+
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+// Reflection parameters at a point. Diffuse albedo kd and specular lobe are those of glTF 2.0 appendix B
+// (metallic-roughness), see docs/conventions.md.
+struct ShadePoint {
+  Vec3 base_color{1};     // linear
+  Vec3 diffuse{0};        // (1 - metallic) * (1 - transmission) * base colour
+  Vec3 f0{0.04f};         // specular reflectance at normal incidence
+  float f90 = 1;          // at grazing incidence
+  float alpha = 1;        // GGX width: roughness²; 0 is a mirror
+  Vec3 transmission{0};   // colour of thin, straight transmission: light that passes, after Fresnel
+  Vec3 emission{0};       // cd/m², front side only unless double-sided
+  float coverage = 1;     // alpha test or blend: 0 lets light pass as if nothing were there
+};
+
+// barycentric: weights of the triangle's second and third vertex.
+ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
+
+// Coverage alone (cheap): 1 for opaque materials.
+float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
+
+// The share of light along a straight ray that passes the surface there: coverage and thin transmission, [0,1].
+Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
+
+// False where every point has transmittance 0: rays need not look.
+bool may_transmit(const SceneMaterial& material);
+
+// A texture value, RGBA in [0,1], bilinear (or nearest), `srgb` decodes colour channels to linear.
+Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb);
+
+// The mean emission of a triangle over its emission texture, cd/m².
+Vec3 mean_emission(const Scene& scene, std::uint32_t triangle);
+
+}  // namespace oriel

@@ -1,0 +1,63 @@
+// Ray queries against a scene. Embree stands behind this header and nowhere else.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "bake/scene/scene.h"
+#include "formats/core/result.h"
+
+namespace oriel {
+
+// Scene space, metres. direction: unit. Intersections with distance in (0, max_distance).
+struct Ray {
+  Vec3 origin{0};
+  Vec3 direction{0, 0, 1};
+  float max_distance = 3.0e38f;
+};
+
+struct Hit {
+  std::uint32_t triangle = ~0u;  // into Scene::triangles; ~0u: nothing was hit
+  float distance = 0;            // metres
+  Vec2 barycentric{0};           // weights of the triangle's second and third vertex
+  bool front = true;             // the ray came from the front (counter-clockwise) side
+  explicit operator bool() const { return triangle != ~0u; }
+};
+
+struct AccelOptions {
+  bool reproducible = false;  // pin the instruction set (SSE4.2), so that results do not depend on the CPU's type
+};
+
+// Immutable once built; queries may run from any thread. Holds a reference to the scene, which must outlive it.
+// Rays that are not finite are answered as misses (Debian's Embree would abort on them).
+class Accel {
+ public:
+  // kInvalid when the scene has no triangle, kRuntime when Embree fails (out of memory).
+  static Result<Accel> build(const Scene& scene, const AccelOptions& options = {});
+  Accel(Accel&&) noexcept;
+  Accel& operator=(Accel&&) noexcept;
+  ~Accel();
+
+  const Scene& scene() const;
+
+  // The nearest surface, whatever its material.
+  Hit intersect(const Ray& ray) const;
+  // Share of light, per channel, that passes along the ray: 0 where an opaque surface is in the way, else the product
+  // of what alpha-masked and transmissive surfaces let through.
+  Vec3 transmittance(const Ray& ray) const;
+
+ private:
+  struct Impl;
+  explicit Accel(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// The point of a triangle, by interpolation: more precise than origin + t * direction.
+Vec3 point_on(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
+
+// A ray origin moved off the surface towards `side` (unit geometric normal on the side the ray leaves to), by a distance
+// that covers the rounding error of p and no more: no self-intersection at distance 0 and no light leaks.
+// Wächter & Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection".
+Vec3 offset_origin(const Vec3& p, const Vec3& side);
+
+}  // namespace oriel

@@ -1,0 +1,45 @@
+// Maps from the unit square to other domains, each beside its pdf. u in [0,1)².
+#pragma once
+
+#include <algorithm>
+
+#include "formats/core/vec.h"
+
+namespace oriel {
+
+// Concentric map, Shirley & Chiu 1997. pdf = 1/π per unit area of the unit disk.
+inline Vec2 square_to_disk(const Vec2& u) {
+  const Vec2 o = 2.0f * u - Vec2(1.0f);
+  if (o.x == 0 && o.y == 0) return Vec2(0.0f);
+  const bool wide = std::abs(o.x) > std::abs(o.y);
+  const float r = wide ? o.x : o.y;
+  const float phi = wide ? kPi / 4 * (o.y / o.x) : kPi / 2 - kPi / 4 * (o.x / o.y);
+  return r * Vec2(std::cos(phi), std::sin(phi));
+}
+
+// Directions around +z with density cosθ/π per steradian (Malley).
+inline Vec3 square_to_cosine_hemisphere(const Vec2& u) {
+  const Vec2 d = square_to_disk(u);
+  return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
+}
+inline float cosine_hemisphere_pdf(float cos_theta) { return std::max(0.0f, cos_theta) / kPi; }
+
+// pdf = 1/(4π).
+inline Vec3 square_to_sphere(const Vec2& u) {
+  const float z = 1.0f - 2.0f * u.x;
+  const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  return {r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z};
+}
+
+// Barycentric weights of the second and third vertex; uniform over the triangle, pdf = 1/area.
+// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+inline Vec2 square_to_triangle(const Vec2& u) {
+  if (u.y > u.x) {
+    const float x = u.x * 0.5f;
+    return {x, u.y - x};
+  }
+  const float y = u.y * 0.5f;
+  return {u.x - y, y};
+}
+
+}  // namespace oriel

@@ -1,0 +1,41 @@
+// Materials and their base colour textures, as the player needs them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/core/vec.h"
+
+namespace oriel {
+
+enum class AlphaMode : std::uint8_t { kOpaque = 0, kMask = 1, kBlend = 2 };
+enum class Wrap : std::uint8_t { kRepeat = 0, kClamp = 1, kMirror = 2 };
+
+// RGBA, 8 bits a channel, rows from the top, colour sRGB-encoded and alpha linear.
+struct Texture {
+  std::string name;
+  std::uint32_t width = 0, height = 0;
+  Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+  bool nearest = false;               // magnification filter: nearest instead of linear
+  std::vector<std::uint8_t> texels;   // 4 * width * height
+};
+
+struct Material {
+  std::string name;
+  Vec3 base_color{1};                    // linear, [0,1]; multiplies the texture and the vertex colour
+  float alpha = 1;                       // [0,1], multiplies the texture's and the vertex colour's alpha
+  std::int32_t base_color_texture = -1;  // into Pack::textures
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  bool unlit = false;                    // shown as base colour, takes no part in light transport
+  float metallic = 0, roughness = 1;     // [0,1]; averages over the material's texture where it has one
+  float ior = 1.5f;                      // of the dielectric part
+  Vec3 f0{0.04f};                        // reflectance at normal incidence: metals' colour, dielectrics' from ior and specular
+  float transmission = 0;                // [0,1], thin
+  Vec3 emission{0};                      // cd/m², the average over its texture where it has one
+  std::int32_t kernel = -1;              // into Pack::kernels: K, for reflective materials
+  std::int32_t fresnel_map = -1;         // into Pack::fresnel_maps: R
+};
+
+}  // namespace oriel

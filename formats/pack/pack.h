@@ -1,0 +1,45 @@
+// Everything an .oriel pack holds, in memory. docs/format.md is the specification of the file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/assets/brdf_kernel.h"
+#include "formats/assets/camera.h"
+#include "formats/assets/fresnel_map.h"
+#include "formats/assets/lightmap.h"
+#include "formats/assets/material.h"
+#include "formats/assets/mesh.h"
+#include "formats/assets/radiance_map.h"
+#include "formats/core/bytes.h"
+
+namespace oriel {
+
+// A section that this version does not know, kept as it lies in the file so that rewriting a pack loses nothing.
+struct UnknownSection {
+  std::uint32_t kind = 0;
+  std::uint32_t codec = 0;
+  std::uint64_t raw_bytes = 0;
+  Bytes stored;
+};
+
+struct Pack {
+  // JSON: tool, version, every option, seed, hashes of the inputs.
+  std::string provenance;
+  // JSON: what was modelled, what was omitted and why, errors and costs per stage.
+  std::string plan;
+  Mesh mesh;
+  Vec3 sky{0};  // constant sky radiance, cd/m²
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<LightmapPage> lightmaps;
+  std::vector<Reflector> reflectors;
+  std::vector<RadianceMap> radiance_maps;
+  std::vector<BrdfKernel> kernels;
+  std::vector<FresnelMap> fresnel_maps;
+  std::vector<Camera> cameras;
+  std::vector<CameraPath> paths;
+  std::vector<UnknownSection> unknown;
+};
+
+}  // namespace oriel
