@@ -1,4 +1,5 @@
-// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights, the constant sky.
+// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights. The constant sky is
+// left to cosine-distributed rays, which sample it best.
 #pragma once
 
 #include "bake/trace/accel.h"
@@ -6,40 +7,42 @@
 namespace oriel {
 
 struct LightSample {
-  Vec3 direction{0};       // unit, from the point to the light
+  Vec3 direction{0, 0, 1};  // unit, from the point to the light
   float distance = 3.0e38f;
-  Vec3 radiance_over_pdf{0};  // incident radiance divided by the density below; for delta lights the irradiance on a
-                              // facing plane divided by the probability of picking that light
-  float pdf = 0;           // per steradian, including the choice of the light; 0 for delta lights
+  Vec3 estimate{0};  // incident radiance over pdf; for delta lights the irradiance on a facing plane over the
+                     // probability of picking that light. Times f·cosθ: an unbiased estimate of reflected light
+  float pdf = 0;     // per steradian, including the choice of the light; 0 for delta lights
 };
 
+// Immutable; holds a reference to the scene.
 class LightSet {
  public:
   explicit LightSet(const Scene& scene);
 
   bool empty() const { return picks_.empty(); }
-  // Emitted power, lm where radiance is in cd/m²: emissive triangles, point and spot lights; per channel.
+  // Emitted power per channel, lm: emissive triangles, point and spot lights. Not the sky, not directional lights.
   DVec3 power() const { return power_; }
 
-  // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point.
+  // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate of
+  // 0 where that point cannot shine on p.
   LightSample sample(const Vec3& p, float u, const Vec2& v) const;
-  // The density with which sample() would choose `direction` towards that hit of an emissive triangle.
-  float pdf(const Vec3& p, const Hit& hit, const Vec3& direction) const;
-  // The same for a ray that leaves the scene, 0 where the sky is black.
-  float sky_pdf() const;
+  // The density per steradian with which sample() chooses the hit point of an emissive triangle from p.
+  float pdf(const Vec3& p, const Hit& hit) const;
 
  private:
-  enum class Kind : std::uint8_t { kTriangle, kPunctual, kSky };
   struct Pick {
-    Kind kind;
-    std::uint32_t index;
+    bool punctual;
+    std::uint32_t index;  // of a triangle or of Scene::lights
     float probability;
   };
+  LightSample sample_triangle(const Pick& pick, const Vec3& p, const Vec2& v) const;
+  LightSample sample_punctual(const Pick& pick, const Vec3& p) const;
+  void add(bool punctual, std::uint32_t index, double weight);
+
   const Scene* scene_;
   std::vector<Pick> picks_;
-  std::vector<float> cdf_;
-  std::vector<float> triangle_pdf_;  // by triangle: probability of the pick over its area, 0 for the others
-  float sky_probability_ = 0;
+  std::vector<double> cdf_;          // cumulative weights, unnormalised until the constructor's end
+  std::vector<float> triangle_pdf_;  // by triangle: probability of its pick over its area, per m²; empty: no emitter
   DVec3 power_{0};
 };
 

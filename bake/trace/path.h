@@ -1,7 +1,5 @@
-// The path tracer that both the radiosity textures and the reference frames use.
+// The path tracer that the radiosity textures and the reference frames share.
 #pragma once
-
-#include <atomic>
 
 #include "bake/trace/bsdf.h"
 #include "bake/trace/lights.h"
@@ -10,24 +8,54 @@
 namespace oriel {
 
 struct PathOptions {
-  int max_bounces = 64;          // a cut far beyond what matters; Russian roulette ends paths before it
-  int roulette_from = 4;         // bounces that are never ended by chance
+  int max_bounces = 4096;  // only a guard: Russian roulette ends paths long before
+  int roulette_from = 3;   // bounces that are never ended by chance
 };
 
-// Light that arrives along a ray, all bounces (unbiased but for max_bounces). Emission met directly is counted when
-// bsdf_pdf is 0 (camera rays, delta lobes), else by multiple importance sampling against light sampling from
-// `from` with density bsdf_pdf (balance heuristic).
-Vec3 path_radiance(const Accel& accel, const LightSet& lights, const Ray& ray, float bsdf_pdf, Sampler& sampler,
-                   const PathOptions& options, std::uint64_t& rays);
+// What a path needs to know of the scene.
+struct Transport {
+  const Accel& accel;
+  const LightSet& lights;
+  PathOptions options;
+};
 
-// Irradiance estimate at a point from one path: light sampling and a cosine-distributed ray combined by MIS. lux.
-// n: unit shading normal; ng: unit geometric normal on the same side.
+// A surface as a path meets it.
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  Vec2 barycentric{0};
+  Vec3 position{0};
+  Vec3 geometric_normal{0, 0, 1};  // unit, on the side of wo
+  Vec3 normal{0, 0, 1};            // unit shading normal, on the side of wo
+  ShadePoint shade;
+  bool emits = false;     // towards wo
+  bool reflects = false;  // towards wo: false for the back of a one-sided surface
+};
+
+// Everything but the shading parameters: cheap, no texture is read.
+SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction);
+// The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit).
+SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction);
+
+struct PathLight {
+  Vec3 emitted{0};         // met directly, through glass and cut-outs only
+  Vec3 scattered{0};       // after one reflection or more
+  bool back_face = false;  // the first surface met was the back of a one-sided one
+};
+
+// Light arriving along a ray, all bounces: unbiased. With bsdf_pdf > 0, emission met directly is weighted against light
+// sampling from ray.origin (balance heuristic, Veach 1997); with 0 it counts in full.
+PathLight trace_path(const Transport& transport, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays);
+
+// Light reflected by a surface towards wo (unit, world), all bounces; its own emission and straight transmission excluded.
+Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                     std::uint64_t& rays);
+
+// One estimate of the irradiance at a point, lux: light sampling and a cosine-distributed ray, combined by MIS.
 struct IrradianceSample {
-  Vec3 direct{0};    // from emitters without a bounce
-  Vec3 indirect{0};
-  bool back_face = false;  // the ray met the back of a one-sided opaque surface
+  Vec3 direct{0};    // straight from emitters
+  Vec3 indirect{0};  // after one reflection or more
+  bool back_face = false;
 };
-IrradianceSample path_irradiance(const Accel& accel, const LightSet& lights, const Vec3& p, const Vec3& n, const Vec3& ng,
-                                 Sampler& sampler, const PathOptions& options, std::uint64_t& rays);
+IrradianceSample sample_irradiance(const Transport& transport, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays);
 
 }  // namespace oriel

@@ -1,6 +1,6 @@
 #include "formats/core/half.h"
 
-#include <ImathHalf.h>
+#include <Imath/half.h>
 
 #include <algorithm>
 

@@ -1,0 +1,139 @@
+#include "bake/cli/arguments.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "bake/run/version.h"
+
+namespace oriel {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, reflections, 256 paths a texel
+  oriel-bake house.glb -o house.oriel --texel 5cm --samples 1024     finer and with half the noise
+  oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
+  oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a third of the size, no mirror images
+
+Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
+130 stopped by the user (nothing half-written is left).)";
+
+// A CLI11 validator out of one of our parsers: the message says what was found and what was expected.
+template <class Parser>
+CLI::Validator checked(Parser parse, const char* name) {
+  return CLI::Validator(
+      [parse](std::string& text) {
+        const auto result = parse(text);
+        return result ? std::string() : result.error().message;
+      },
+      name);
+}
+
+struct Texts {
+  std::string texel = "10cm", memory = "64MiB", sky = "0", atlas = "auto", only;
+  bool quiet = false, json_log = false;
+  int resolution = 0;
+};
+
+void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+  app.add_option("--atlas", texts.atlas, "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's TEXCOORD_1)")
+      ->check(CLI::IsMember({"auto", "uv1"}))
+      ->capture_default_str();
+  auto* texel = app.add_option("--texel", texts.texel, "Size of a lightmap texel on a surface. Smaller shows finer shadows; time and size grow with its inverse square")
+                    ->check(checked(parse_length, "LENGTH"))
+                    ->capture_default_str();
+  app.add_option("--resolution", texts.resolution, "Side of the lightmap page in texels: with --atlas uv1 the page the coordinates are meant for, with auto the page that everything shall fit on")
+      ->check(CLI::Range(16, 16384))
+      ->excludes(texel);
+  app.add_option("--max-page", bake.atlas.max_page, "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
+      ->check(CLI::Range(64, 16384))
+      ->capture_default_str();
+}
+
+void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+  app.add_option("--samples", bake.radiosity.samples, "Paths a texel, best a power of two. The error falls with the square root; each texel's standard error is stored")
+      ->check(CLI::Range(1u, 1u << 24))
+      ->capture_default_str();
+  app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")->check(checked(parse_color, "L|R,G,B"))->capture_default_str();
+}
+
+void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+  app.add_option("--only", texts.only, "Leave components out, comma-separated list of: radiosity, radiance, material")->type_name("LIST");
+  app.add_option("--max-reflectors", bake.reflectors.max_reflectors, "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  app.add_option("--views", bake.views.views_per_element, "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option("--map-resolution", bake.capture.map_resolution, "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  app.add_option("--memory", texts.memory, "Limit of all radiance maps together; views are thinned out to keep it")
+      ->check(checked(parse_bytes, "SIZE"))
+      ->capture_default_str();
+}
+
+Status resolve(const Texts& texts, Arguments& args) {
+  BakeOptions& bake = args.bake;
+  ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
+  ORIEL_TRY(bake.capture.memory, parse_bytes(texts.memory));
+  ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
+  bake.atlas.resolution = texts.resolution;
+  if (texts.atlas == "uv1") {
+    bake.atlas.source = AtlasOptions::Source::kUv1;
+    if (texts.resolution == 0) return fail(ErrorCode::kUsage, "--atlas uv1", "needs --resolution N, the side of the page its coordinates are meant for");
+  }
+  if (!texts.only.empty()) {
+    bake.with_radiance = bake.with_material = false;
+    for (const std::string& part : CLI::detail::split(texts.only, ',')) {
+      if (part == "radiance")
+        bake.with_radiance = true;
+      else if (part == "material")
+        bake.with_material = true;
+      else if (part != "radiosity")
+        return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance or material", part);
+    }
+  }
+  args.style = texts.json_log               ? ProgressPrinter::Style::kJson
+               : texts.quiet                ? ProgressPrinter::Style::kQuiet
+               : ::isatty(STDERR_FILENO)    ? ProgressPrinter::Style::kBar
+                                            : ProgressPrinter::Style::kPlain;
+  return {};
+}
+
+}  // namespace
+
+Arguments parse_arguments(int argc, char** argv) {
+  Arguments args;
+  Texts texts;
+  CLI::App app("Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
+               "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with oriel-inspect.",
+               "oriel-bake");
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("oriel-bake ") + kVersion);
+  app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures")->required();
+  app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all")->required();
+  add_atlas_options(app, texts, args.bake);
+  add_light_options(app, texts, args.bake);
+  add_reflection_options(app, texts, args.bake);
+  app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
+  app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The bytes of the pack do not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  app.add_option("--seed", args.seed, "Of every random number: another seed gives another, equally good, estimate")->capture_default_str();
+  app.add_flag("--reproducible", args.bake.reproducible, "Pin the instruction set: the same bytes on every x86-64 CPU, about 15 % slower");
+  app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
+  auto* quiet = app.add_flag("--quiet", texts.quiet, "No progress; warnings and errors only");
+  app.add_flag("--json-log", texts.json_log, "Progress, warnings and errors as JSON lines on stderr")->excludes(quiet);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    args.exit_code = app.exit(error) == 0 ? 0 : 1;
+    return args;
+  }
+  if (const Status resolved = resolve(texts, args); !resolved) {
+    std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
+    args.exit_code = 1;
+  }
+  return args;
+}
+
+}  // namespace oriel

@@ -1,0 +1,20 @@
+// The command line of oriel-bake.
+#pragma once
+
+#include "bake/cli/progress.h"
+#include "bake/run/options.h"
+
+namespace oriel {
+
+struct Arguments {
+  BakeOptions bake;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;
+  std::filesystem::path report;  // empty: none
+  int exit_code = -1;            // >= 0: end at once with it (--help, --version, a usage error already printed)
+};
+
+Arguments parse_arguments(int argc, char** argv);
+
+}  // namespace oriel

@@ -1,0 +1,164 @@
+#include "bake/radiosity/radiosity.h"
+
+#include <algorithm>
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiosity/dilate.h"
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
+
+struct Run {
+  std::size_t page, first, last;
+};
+
+// What the paths of one texel found.
+struct TexelSums {
+  DVec3 sum{0}, squares{0};
+  std::uint32_t count = 0;
+};
+
+class Baker {
+ public:
+  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, std::uint64_t seed)
+      : t_(t), atlas_(atlas), options_(options), seed_(seed) {}
+
+  TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
+    TexelSums sums;
+    const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
+    for (std::uint32_t k = 0; k < options_.samples; ++k) {
+      Sampler sampler(seed_, stream, k);
+      const Vec2 uv = sampler.next2();
+      const TexelPoint point = sample_texel(atlas_, map, i, Vec3(uv, sampler.next1()));
+      const Vec3 normal = geometric_normal(t_.accel.scene(), point.triangle);
+      const SurfacePoint surface = geometry_at(t_.accel.scene(), {point.triangle, 0, point.barycentric, true}, -normal);
+      const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays);
+      if (e.back_face && buried(surface, sampler, rays)) continue;
+      const DVec3 value(e.direct + e.indirect);
+      sums.sum += value;
+      sums.squares += value * value;
+      ++sums.count;
+    }
+    return sums;
+  }
+
+ private:
+  // A point inside a closed body sees nothing but the backs of its faces; one outside rarely meets three in a row.
+  bool buried(const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays) const {
+    const Scene& scene = t_.accel.scene();
+    for (int probe = 0; probe < 2; ++probe) {
+      const Vec3 direction =
+          glm::normalize(frame_from_normal(surface.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
+      ++rays;
+      const Hit hit = t_.accel.intersect({spawn_origin(scene, surface.triangle, surface.barycentric, direction), direction});
+      if (!hit || hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided)
+        return false;
+    }
+    return true;
+  }
+
+  const Transport& t_;
+  const Atlas& atlas_;
+  const RadiosityOptions& options_;
+  std::uint64_t seed_;
+};
+
+void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::size_t texel) {
+  // A handful of points that escaped the probes do not make a texel visible.
+  if (sums.count * 16 < asked || sums.count == 0) {
+    page.state[texel] = TexelState::kBuried;
+    return;
+  }
+  const double n = sums.count;
+  const DVec3 mean = sums.sum / n;
+  const DVec3 variance = glm::max(DVec3(0), sums.squares / n - mean * mean);
+  page.irradiance[texel] = Vec3(mean);
+  page.standard_error[texel] = Vec3(glm::sqrt(variance / std::max(1.0, n - 1)));
+  page.state[texel] = TexelState::kValid;
+}
+
+// Texel area in m²: its fragments' share of their triangles' surface.
+double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
+  double area = 0;
+  for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f) {
+    const TexelFragment& fragment = map.fragments[f];
+    const auto& uv = atlas.uv[fragment.triangle];
+    const DVec2 size(map.width, map.height);
+    const DVec2 a = DVec2(uv[1] - uv[0]) * size, b = DVec2(uv[2] - uv[0]) * size;
+    const double texels = 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    if (texels > 0) area += std::min(1.0, fragment.area / texels) * triangle_area(scene, fragment.triangle);
+  }
+  return area;
+}
+
+RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                          std::span<const LightmapPage> pages) {
+  RadiosityReport report;
+  DVec3 sum(0);
+  for (std::size_t p = 0; p < pages.size(); ++p)
+    for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
+      const std::uint32_t texel = texel_map[p].texel[i];
+      if (pages[p].state[texel] != TexelState::kValid) {
+        ++report.buried;
+        continue;
+      }
+      ++report.texels;
+      const Vec3& e = pages[p].irradiance[texel];
+      sum += DVec3(e);
+      report.max = glm::max(report.max, e);
+      report.incident_lm += DVec3(e) * texel_area_m2(scene, atlas, texel_map[p], i);
+    }
+  if (report.texels == 0) return report;
+  report.mean = Vec3(sum / static_cast<double>(report.texels));
+  double squares = 0;
+  for (std::size_t p = 0; p < pages.size(); ++p)
+    for (const std::uint32_t texel : texel_map[p].texel) {
+      if (pages[p].state[texel] != TexelState::kValid) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double denominator = pages[p].irradiance[texel][c] + 0.01 * report.mean[c];
+        if (denominator > 0) squares += std::pow(pages[p].standard_error[texel][c] / denominator, 2);
+      }
+    }
+  report.relative_error = std::sqrt(squares / (3.0 * static_cast<double>(report.texels)));
+  return report;
+}
+
+}  // namespace
+
+Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                                 const RadiosityOptions& options, Context& context) {
+  Radiosity result;
+  std::vector<Run> runs;
+  for (std::size_t p = 0; p < texel_map.size(); ++p) {
+    const TexelMapPage& map = texel_map[p];
+    const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
+    LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size), std::vector<TexelState>(size)};
+    result.pages.push_back(std::move(page));
+    for (std::size_t first = 0; first < map.texel.size(); first += kRun)
+      runs.push_back({p, first, std::min(first + kRun, map.texel.size())});
+  }
+  const Baker baker(transport, atlas, options, context.seed);
+  std::atomic<std::uint64_t> total_rays{0};
+  const auto body = [&](std::size_t r) {
+    const Run& run = runs[r];
+    std::uint64_t rays = 0;
+    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i)
+      store(baker.bake(texel_map[run.page], run.page, i, rays), options.samples, result.pages[run.page],
+            texel_map[run.page].texel[i]);
+    total_rays += rays;
+  };
+  ORIEL_TRY_VOID(parallel_for(context, "radiosity", runs.size(), body, &total_rays));
+  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+  result.report = summarize(transport.accel.scene(), atlas, texel_map, result.pages);
+  result.report.rays = total_rays;
+  for (std::size_t p = 0; p < texel_map.size(); ++p) {
+    fill_buried(atlas, texel_map[p], result.pages[p]);
+    dilate(options.dilation, result.pages[p]);
+  }
+  return result;
+}
+
+}  // namespace oriel

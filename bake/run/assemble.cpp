@@ -1,0 +1,114 @@
+#include "bake/run/assemble.h"
+
+#include <map>
+#include <tuple>
+
+namespace oriel {
+namespace {
+
+// Copies vertices on demand, one for each (scene vertex, lightmap uv) pair.
+class VertexSplitter {
+ public:
+  VertexSplitter(const Scene& scene, Mesh& mesh) : scene_(scene), mesh_(mesh), first_(scene.positions.size(), kNone) {}
+
+  std::uint32_t vertex(std::uint32_t v, const Vec2& lightmap_uv, const SceneMaterial& material) {
+    for (std::uint32_t at = first_[v]; at != kNone; at = next_[at])
+      if (mesh_.lightmap_uvs[at] == lightmap_uv) return at;
+    const auto added = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.push_back(scene_.positions[v]);
+    mesh_.normals.push_back(scene_.normals[v]);
+    const TextureSlot& slot = material.base_color_texture;
+    const Vec2 uv = slot.texcoord == 0 ? scene_.uv0[v] : scene_.uv1[v];
+    mesh_.uvs.push_back(slot.image < 0 ? Vec2(0) : Vec2(slot.image_from_uv * Vec3(uv, 1)));
+    mesh_.lightmap_uvs.push_back(lightmap_uv);
+    if (!scene_.colors.empty()) mesh_.colors.push_back(scene_.colors[v]);
+    next_.push_back(first_[v]);
+    first_[v] = added;
+    return added;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+  const Scene& scene_;
+  Mesh& mesh_;
+  std::vector<std::uint32_t> first_, next_;  // a list of copies by scene vertex
+};
+
+MeshPart& part_for(Mesh& mesh, const Surface& surface, std::int32_t page, bool new_surface) {
+  if (new_surface || mesh.parts.back().lightmap_page != page) {
+    MeshPart part;
+    part.name = surface.name;
+    part.first_index = static_cast<std::uint32_t>(mesh.indices.size());
+    part.material = surface.material;
+    part.lightmap_page = page;
+    mesh.parts.push_back(std::move(part));
+  }
+  return mesh.parts.back();
+}
+
+}  // namespace
+
+AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas) {
+  AssembledMesh out;
+  Mesh& mesh = out.mesh;
+  mesh.origin = scene.origin;
+  out.first_index.resize(scene.triangles.size());
+  VertexSplitter splitter(scene, mesh);
+  for (const Surface& surface : scene.surfaces) {
+    // One part a page: a surface's charts may lie on several.
+    std::map<std::int32_t, std::vector<std::uint32_t>> by_page;
+    for (std::uint32_t t = surface.first_triangle; t < surface.first_triangle + surface.triangle_count; ++t)
+      by_page[atlas.page[t]].push_back(t);
+    const SceneMaterial& material = scene.materials[surface.material];
+    bool new_surface = true;
+    for (const auto& [page, triangles] : by_page) {
+      MeshPart& part = part_for(mesh, surface, page, new_surface);
+      new_surface = false;
+      for (const std::uint32_t t : triangles) {
+        out.first_index[t] = static_cast<std::uint32_t>(mesh.indices.size());
+        for (int corner = 0; corner < 3; ++corner)
+          mesh.indices.push_back(splitter.vertex(scene.triangles[t][corner], page < 0 ? Vec2(0) : atlas.uv[t][corner], material));
+      }
+      part.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - part.first_index;
+    }
+  }
+  return out;
+}
+
+void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vector<Material>& materials,
+                        std::vector<Texture>& textures) {
+  std::map<std::tuple<std::int32_t, Wrap, Wrap, bool>, std::int32_t> known;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const SceneMaterial& in = scene.materials[i];
+    const MaterialSummary& mean = maps.summaries[i];
+    Material m;
+    m.name = in.name;
+    m.base_color = in.base_color;
+    m.alpha = in.alpha;
+    m.alpha_mode = in.alpha_mode;
+    m.alpha_cutoff = in.alpha_cutoff;
+    m.double_sided = in.double_sided;
+    m.unlit = in.unlit;
+    m.metallic = mean.metallic;
+    m.roughness = mean.roughness;
+    m.ior = in.ior;
+    m.f0 = mean.f0;
+    m.transmission = mean.transmission;
+    m.emission = mean.emission;
+    m.kernel = maps.kernel[i];
+    m.fresnel_map = maps.fresnel_map[i];
+    const TextureSlot& slot = in.base_color_texture;
+    if (slot.image >= 0) {
+      const auto [at, added] =
+          known.try_emplace({slot.image, slot.wrap_s, slot.wrap_t, slot.nearest}, static_cast<std::int32_t>(textures.size()));
+      if (added) {
+        const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
+        textures.push_back({image.name, image.width, image.height, slot.wrap_s, slot.wrap_t, slot.nearest, image.texels});
+      }
+      m.base_color_texture = at->second;
+    }
+    materials.push_back(std::move(m));
+  }
+}
+
+}  // namespace oriel

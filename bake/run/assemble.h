@@ -1,0 +1,22 @@
+// The scene as a pack holds it.
+#pragma once
+
+#include "bake/atlas/atlas.h"
+#include "bake/material/materials.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+struct AssembledMesh {
+  Mesh mesh;
+  std::vector<std::uint32_t> first_index;  // by scene triangle: its three entries in mesh.indices start here
+};
+
+// Vertices are split where lightmap coordinates part; parts are runs of one surface on one page, in the scene's order.
+AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas);
+
+// Pack materials with indices into `maps` (K, R), and the base colour textures that they use.
+void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vector<Material>& materials,
+                        std::vector<Texture>& textures);
+
+}  // namespace oriel

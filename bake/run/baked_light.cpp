@@ -1,0 +1,36 @@
+#include "bake/run/baked_light.h"
+
+#include <algorithm>
+
+#include "bake/trace/albedo.h"
+
+namespace oriel {
+
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle, const Vec2& barycentric) {
+  const std::int32_t index = atlas.page[triangle];
+  if (index < 0) return Vec3(0);
+  const LightmapPage& page = pages[static_cast<std::size_t>(index)];
+  const auto& corners = atlas.uv[triangle];
+  const Vec2 uv = corners[0] + barycentric.x * (corners[1] - corners[0]) + barycentric.y * (corners[2] - corners[0]);
+  const float x = std::clamp(uv.x * static_cast<float>(page.width) - 0.5f, 0.0f, static_cast<float>(page.width - 1));
+  const float y = std::clamp(uv.y * static_cast<float>(page.height) - 0.5f, 0.0f, static_cast<float>(page.height - 1));
+  const auto x0 = static_cast<std::uint32_t>(x), y0 = static_cast<std::uint32_t>(y);
+  const std::uint32_t x1 = std::min(x0 + 1, page.width - 1), y1 = std::min(y0 + 1, page.height - 1);
+  const auto texel = [&](std::uint32_t i, std::uint32_t j) { return page.irradiance[std::size_t{j} * page.width + i]; };
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
+}
+
+Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages, const Hit& hit,
+                    const Vec3& towards_eye) {
+  const SurfacePoint surface = surface_at(scene, hit, -towards_eye);
+  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+  if (material.unlit) return surface.shade.base_color;
+  Vec3 light = surface.emits ? surface.shade.emission : Vec3(0);
+  if (!surface.reflects) return light;
+  const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, towards_eye));
+  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + r;
+  return light + share / kPi * baked_irradiance(atlas, pages, hit.triangle, hit.barycentric);
+}
+
+}  // namespace oriel

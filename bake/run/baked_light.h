@@ -1,0 +1,21 @@
+// The baked lightmap as light that surfaces send out: what radiance maps see.
+#pragma once
+
+#include <span>
+
+#include "bake/atlas/atlas.h"
+#include "bake/trace/path.h"
+#include "formats/assets/lightmap.h"
+
+namespace oriel {
+
+// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does. 0 for triangles
+// without a chart.
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle, const Vec2& barycentric);
+
+// Radiance that a hit surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
+// specular part as a wide lobe R E/π, and its own emission. Constant cost: no further ray.
+Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages, const Hit& hit,
+                    const Vec3& towards_eye);
+
+}  // namespace oriel

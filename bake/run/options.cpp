@@ -1,0 +1,85 @@
+#include "bake/run/options.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+namespace oriel {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double factor;
+};
+
+// A number and one of the units (the first is the default where none is given).
+Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what, const char* example) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  if (error == std::errc() && std::isfinite(value) && value > 0)
+    for (const Unit& u : units)
+      if (unit == u.name || (unit.empty() && &u == units.data())) return value * u.factor;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
+}
+
+}  // namespace
+
+Result<float> parse_length(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
+  ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));
+  return static_cast<float>(metres);
+}
+
+Result<std::uint64_t> parse_bytes(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};
+  ORIEL_TRY(const double bytes, parse_quantity(text, kUnits, "size", "64MiB or 2GB"));
+  if (bytes > 0x1p60) return fail(ErrorCode::kUsage, "", "found '{}', expected at most 1 EiB", text);
+  return static_cast<std::uint64_t>(bytes);
+}
+
+Result<Vec3> parse_color(const std::string& text) {
+  Vec3 color(0);
+  const char* at = text.data();
+  const char* end = text.data() + text.size();
+  int count = 0;
+  while (count < 3) {
+    const auto [next, error] = std::from_chars(at, end, color[count]);
+    if (error != std::errc() || !std::isfinite(color[count]) || color[count] < 0) break;
+    ++count;
+    at = next;
+    if (at == end || *at != ',') break;
+    ++at;
+  }
+  if (at == end && count == 1) return Vec3(color.x);
+  if (at == end && count == 3) return color;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected one value or three with commas, none negative, such as 100 or 90,95,100", text);
+}
+
+std::string options_json(const BakeOptions& o, std::uint64_t seed) {
+  const nlohmann::ordered_json json = {
+      {"seed", seed},
+      {"reproducible", o.reproducible},
+      {"scene_index", o.import.scene},
+      {"sky_cd_m2", {o.import.sky.r, o.import.sky.g, o.import.sky.b}},
+      {"atlas", o.atlas.source == AtlasOptions::Source::kUv1 ? "uv1" : "auto"},
+      {"texel_m", o.atlas.texel_m},
+      {"resolution", o.atlas.resolution},
+      {"max_page", o.atlas.max_page},
+      {"padding", o.atlas.padding},
+      {"samples", o.radiosity.samples},
+      {"dilation", o.radiosity.dilation},
+      {"radiance", o.with_radiance},
+      {"material", o.with_material},
+      {"max_reflectors", o.reflectors.max_reflectors},
+      {"max_reflector_roughness", o.reflectors.max_roughness},
+      {"min_reflector_area_m2", o.reflectors.min_area_m2},
+      {"element_m", o.views.element_m},
+      {"views_per_element", o.views.views_per_element},
+      {"map_resolution", o.capture.map_resolution},
+      {"map_memory", o.capture.memory},
+  };
+  return json.dump();
+}
+
+}  // namespace oriel

@@ -1,0 +1,42 @@
+// Everything that a user can ask of a bake, and how it is told and recorded.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bake/atlas/atlas.h"
+#include "bake/material/materials.h"
+#include "bake/radiance/capture.h"
+#include "bake/radiance/reflectors.h"
+#include "bake/radiance/views.h"
+#include "bake/radiosity/radiosity.h"
+#include "bake/scene/import.h"
+
+namespace oriel {
+
+struct BakeOptions {
+  std::filesystem::path scene;   // .glb or .gltf
+  std::filesystem::path output;  // .oriel
+  ImportOptions import;
+  AtlasOptions atlas;
+  RadiosityOptions radiosity;
+  ReflectorOptions reflectors;
+  ViewOptions views;
+  CaptureOptions capture;
+  MaterialOptions material;
+  bool with_radiance = true;   // radiance maps behind reflectors
+  bool with_material = true;   // kernels; Fresnel maps are always there, the diffuse part needs them too
+  bool reproducible = false;   // the same bytes on every CPU type
+};
+
+// "5cm", "0.05m", "50mm", "0.05" (metres) as metres. Error kUsage.
+Result<float> parse_length(const std::string& text);
+// "64MiB", "2GiB", "500000" (bytes). Error kUsage.
+Result<std::uint64_t> parse_bytes(const std::string& text);
+// "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
+Result<Vec3> parse_color(const std::string& text);
+
+// The options that can change a pack's bytes, as JSON: for provenance. Threads and paths are not among them.
+std::string options_json(const BakeOptions& options, std::uint64_t seed);
+
+}  // namespace oriel

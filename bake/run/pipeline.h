@@ -1,0 +1,27 @@
+// The composition root: the only place that wires stages together.
+#pragma once
+
+#include "bake/run/options.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+  std::uint64_t rays = 0;
+};
+
+struct BakeResult {
+  Pack pack;
+  std::vector<StageTime> times;         // wall clock; not in the pack, whose bytes depend on input and options only
+  std::vector<std::string> omissions;   // what was not modelled, and why
+};
+
+// Scene file → pack in memory. Errors as the stages give them; kStopped when context.stop was set.
+Result<BakeResult> bake(const BakeOptions& options, Context& context);
+
+// The bake as JSON for people's dashboards: the pack's plan and provenance, and the times that it does not hold.
+std::string report_json(const BakeResult& result);
+
+}  // namespace oriel

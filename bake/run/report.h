@@ -1,0 +1,24 @@
+// What a pack says of itself, as JSON.
+#pragma once
+
+#include "bake/run/pipeline.h"
+
+namespace oriel {
+
+// Facts of one bake that the plan tells of. Nothing here depends on the clock or the number of threads.
+struct BakeFacts {
+  const Scene& scene;
+  const Atlas& atlas;
+  const RadiosityReport& radiosity;
+  const Pack& pack;
+  const std::vector<std::string>& omissions;
+  DVec3 emitted_lm{0};
+  std::uint64_t radiance_rays = 0;
+};
+
+std::string plan_json(const BakeFacts& facts);
+
+std::string provenance_json(const BakeOptions& options, std::uint64_t seed,
+                            const std::vector<std::pair<std::string, std::string>>& inputs);
+
+}  // namespace oriel

@@ -1,0 +1,226 @@
+#include "bake/trace/path.h"
+
+#include "bake/trace/albedo.h"
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+// Straight passes through cut-outs and glass that one path segment may make; a stack of more is taken as black.
+constexpr int kMaxPasses = 256;
+
+float balance(float pdf, float other) { return pdf / (pdf + other); }
+
+// The scattering of a surface in world space. A shading normal tilts the lobe, and a part of it falls below the geometric
+// surface; that part is mirrored back above it, in evaluation, pdf and sampling alike. So no energy is lost at smooth normals
+// (a closed sphere of triangles stays an exact furnace), and light never leaks through.
+class Shading {
+ public:
+  Shading(const SurfacePoint& surface, const Vec3& wo_world)
+      : surface_(surface),
+        frame_(frame_from_normal(surface.normal)),
+        wo_(glm::transpose(frame_) * wo_world),
+        tilted_(glm::dot(surface.normal, surface.geometric_normal) < 1 - 1e-6f) {}
+
+  Vec3 fold(const Vec3& w) const { return w - 2 * glm::dot(w, surface_.geometric_normal) * surface_.geometric_normal; }
+
+  // Sum of g over w and its mirror image; w above the geometric surface, g takes local directions.
+  template <class G>
+  auto both(const Vec3& w, const G& g) const {
+    auto value = g(local(w));
+    if (tilted_) value += g(local(fold(w)));
+    return value;
+  }
+  Vec3 eval(const Vec3& wi) const {
+    return both(wi, [&](const Vec3& w) { return bsdf_eval(surface_.shade, wo_, w); });
+  }
+  float pdf(const Vec3& wi) const {
+    return both(wi, [&](const Vec3& w) { return bsdf_pdf(surface_.shade, wo_, w); });
+  }
+  static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
+  float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
+
+  Vec3 local(const Vec3& w) const { return glm::transpose(frame_) * w; }
+  // A sampled local direction as a world direction above the geometric surface.
+  Vec3 above(const Vec3& w) const {
+    const Vec3 world = glm::normalize(frame_ * w);
+    return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
+  }
+  const Vec3& wo() const { return wo_; }
+
+ private:
+  const SurfacePoint& surface_;
+  Mat3 frame_;
+  Vec3 wo_;
+  bool tilted_;
+};
+
+// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with which
+// the other strategy would have chosen that direction.
+template <class Reflect, class Pdf>
+Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays, const Reflect& reflect,
+                   const Pdf& pdf_of) {
+  const float u = sampler.next1();
+  const Vec2 v = sampler.next2();
+  if (t.lights.empty()) return Vec3(0);
+  const LightSample light = t.lights.sample(surface.position, u, v);
+  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return Vec3(0);
+  Vec3 value = light.estimate * reflect(light.direction);
+  if (max_component(value) <= 0) return Vec3(0);
+  if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
+  ++rays;
+  const Vec3 origin = spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, light.direction);
+  return value * t.accel.transmittance({origin, light.direction, light.distance});
+}
+
+Vec3 sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading, Sampler& sampler,
+                        std::uint64_t& rays) {
+  return sample_lights(
+      t, surface, sampler, rays, [&](const Vec3& wi) { return shading.eval(wi); }, [&](const Vec3& wi) { return shading.pdf(wi); });
+}
+
+// One path, vertex by vertex.
+class Walk {
+ public:
+  Walk(const Transport& t, Sampler& sampler, std::uint64_t& rays) : t_(t), sampler_(sampler), rays_(rays) {}
+
+  PathLight follow(Ray ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
+    PathLight light;
+    throughput_ = throughput;
+    from_ = ray.origin;
+    pdf_ = bsdf_pdf;
+    int passes = 0;
+    bool first = true;
+    while (bounce < t_.options.max_bounces && passes < kMaxPasses) {
+      ++rays_;
+      const Hit hit = t_.accel.intersect(ray);
+      Vec3& sink = first ? light.emitted : light.scattered;
+      if (!hit) {
+        sink += throughput_ * t_.accel.scene().sky;
+        break;
+      }
+      const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
+      if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
+        ray.origin = spawn_origin(t_.accel.scene(), hit.triangle, hit.barycentric, ray.direction);
+        ++passes;
+        continue;
+      }
+      if (surface.emits) {
+        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit)) : 1.0f;
+        sink += throughput_ * surface.shade.emission * weight;
+      }
+      if (!surface.reflects) {
+        light.back_face = first && passes == 0;
+        break;
+      }
+      const Step step = scatter(surface, ray, light);
+      if (step == Step::kEnd) break;
+      if (step == Step::kPassed) {
+        ++passes;
+        continue;
+      }
+      first = false;
+      passes = 0;
+      if (++bounce >= t_.options.roulette_from && !survive()) break;
+    }
+    return light;
+  }
+
+ private:
+  enum class Step { kEnd, kPassed, kBounced };
+
+  // Light sampling at the surface, then the next ray.
+  Step scatter(const SurfacePoint& surface, Ray& ray, PathLight& light) {
+    const Shading shading(surface, -ray.direction);
+    light.scattered += throughput_ * sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
+    const float u = sampler_.next1();
+    const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler_.next2());
+    if (!sample) return Step::kEnd;
+    const bool passes = sample->lobe == Lobe::kTransmission;
+    const Vec3 direction = passes ? ray.direction : shading.above(sample->wi);
+    throughput_ *= sample->weight;
+    if (!(max_component(throughput_) > 0)) return Step::kEnd;
+    ray = {spawn_origin(t_.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+    // Straight transmission continues the same segment: light sampling from the last vertex sees through glass too.
+    if (passes) return Step::kPassed;
+    from_ = surface.position;
+    pdf_ = sample->delta ? 0 : shading.pdf(direction);
+    return Step::kBounced;
+  }
+
+  bool survive() {
+    const float q = std::min(1.0f, max_component(throughput_));
+    if (sampler_.next1() >= q) return false;
+    throughput_ /= q;
+    return true;
+  }
+
+  const Transport& t_;
+  Sampler& sampler_;
+  std::uint64_t& rays_;
+  Vec3 throughput_{1};
+  Vec3 from_{0};   // last vertex that chose a direction
+  float pdf_ = 0;  // with this density
+};
+
+}  // namespace
+
+SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
+  SurfacePoint s;
+  s.triangle = hit.triangle;
+  s.barycentric = hit.barycentric;
+  s.position = point_on(scene, hit.triangle, hit.barycentric);
+  const UVec3& t = scene.triangles[hit.triangle];
+  const float side = hit.front ? 1.0f : -1.0f;
+  s.geometric_normal = side * geometric_normal(scene, hit.triangle);
+  const Vec2& b = hit.barycentric;
+  s.normal = normalize_or(
+      side * ((1 - b.x - b.y) * scene.normals[t.x] + b.x * scene.normals[t.y] + b.y * scene.normals[t.z]), s.geometric_normal);
+  // Seen from below its shading normal, a surface is shaded with its geometric one.
+  if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
+  s.reflects = hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+  return s;
+}
+
+SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
+  SurfacePoint s = geometry_at(scene, hit, direction);
+  s.shade = shade_point(scene, hit.triangle, hit.barycentric);
+  s.emits = s.reflects && max_component(s.shade.emission) > 0;
+  return s;
+}
+
+PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {
+  return Walk(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
+}
+
+Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler, std::uint64_t& rays) {
+  if (!surface.reflects) return Vec3(0);
+  const Shading shading(surface, wo);
+  Vec3 light = sample_lights_bsdf(t, surface, shading, sampler, rays);
+  const float u = sampler.next1();
+  const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
+  if (!sample || sample->lobe == Lobe::kTransmission) return light;
+  const Vec3 direction = shading.above(sample->wi);
+  const Ray ray{spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+  const float pdf = sample->delta ? 0 : shading.pdf(direction);
+  const PathLight rest = Walk(t, sampler, rays).follow(ray, pdf, 1, sample->weight);
+  return light + rest.emitted + rest.scattered;
+}
+
+IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays) {
+  IrradianceSample s;
+  const Shading shading(surface, surface.normal);
+  s.direct = sample_lights(
+      t, surface, sampler, rays, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      [&](const Vec3& wi) { return shading.cosine(wi) / kPi; });
+  const Vec3 direction = shading.above(square_to_cosine_hemisphere(sampler.next2()));
+  const Ray ray{spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+  const float pdf = std::max(shading.cosine(direction) / kPi, 1e-12f);
+  const PathLight light = Walk(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
+  s.direct += kPi * light.emitted;  // cosθ / pdf = π
+  s.indirect = kPi * light.scattered;
+  s.back_face = light.back_face;
+  return s;
+}
+
+}  // namespace oriel

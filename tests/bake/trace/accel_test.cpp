@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bake/trace/accel.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+using test::SceneParts;
+
+TEST(Accel, HitsAQuadWhereGeometrySays) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const Hit hit = accel.intersect({{0.25f, 3, 0.5f}, {0, -1, 0}});
+  ASSERT_TRUE(hit);
+  EXPECT_FLOAT_EQ(hit.distance, 3);
+  EXPECT_TRUE(hit.front);
+  const Vec3 p = point_on(scene, hit.triangle, hit.barycentric);
+  EXPECT_NEAR(p.x, 0.25f, 1e-6f);
+  EXPECT_NEAR(p.z, 0.5f, 1e-6f);
+  EXPECT_FALSE(accel.intersect({{0.25f, -3, 0.5f}, {0, 1, 0}}).front);
+  EXPECT_FALSE(accel.intersect({{2, 3, 0}, {0, -1, 0}}));
+  EXPECT_EQ(accel.transmittance({{0, 1, 0}, {0, -1, 0}, 0.5f}), Vec3(1));
+  EXPECT_EQ(accel.transmittance({{0, 1, 0}, {0, -1, 0}, 1.5f}), Vec3(0));
+}
+
+TEST(Accel, AnswersImpossibleRaysAsMisses) {
+  SceneParts parts;
+  parts.box("box", parts.diffuse(Vec3(0.5f)), Vec3(-1), Vec3(1));
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  EXPECT_FALSE(accel.intersect({Vec3(nan), {0, 0, 1}}));
+  EXPECT_FALSE(accel.intersect({Vec3(0), Vec3(inf)}));
+  EXPECT_FALSE(accel.intersect({Vec3(1e30f), {0, 0, 1}}));
+  EXPECT_FALSE(accel.intersect({Vec3(0), {0, 0, 1}, nan}));
+  EXPECT_FALSE(accel.intersect({Vec3(0), {0, 0, 1}, -1}));
+}
+
+TEST(Accel, RefusesAnEmptyScene) {
+  const Scene scene;
+  const auto accel = Accel::build(scene);
+  ASSERT_FALSE(accel);
+  EXPECT_EQ(accel.error().code, ErrorCode::kInvalid);
+}
+
+// Rays that start on a closed sphere and go inwards must all meet its far side, at every scale and far from the centre:
+// no self-intersection, no leak.
+class AccelScale : public testing::TestWithParam<float> {};
+
+TEST_P(AccelScale, NoSelfIntersectionAndNoLeak) {
+  const float scale = GetParam();
+  SceneParts parts;
+  parts.sphere("sphere", parts.diffuse(Vec3(0.5f)), Vec3(0.3f, -2, 0.7f) * scale, scale, 4, true);
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  int self = 0, leaks = 0;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    Sampler sampler(1, 2, i);
+    const auto triangle = static_cast<std::uint32_t>(sampler.next1() * static_cast<float>(scene.triangles.size()));
+    const Vec2 b = square_to_triangle(sampler.next2());
+    const Vec3 n = geometric_normal(scene, triangle);
+    const Vec3 d = glm::normalize(frame_from_normal(n) * square_to_cosine_hemisphere(sampler.next2()));
+    if (glm::dot(d, n) < 1e-3f) continue;
+    const Hit hit = accel.intersect({spawn_origin(scene, triangle, b, d), d});
+    leaks += !hit || !hit.front;
+    self += hit && hit.triangle == triangle;
+  }
+  EXPECT_EQ(self, 0);
+  EXPECT_EQ(leaks, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Scales, AccelScale, testing::Values(1e-6f, 1e-4f, 1.0f, 1e3f, 1e6f));
+
+TEST(Accel, CutOutsAndGlassLetLightPass) {
+  SceneParts parts;
+  SceneMaterial glass;
+  glass.metallic = 0;
+  glass.specular = 0;
+  glass.transmission = 1;
+  glass.base_color = {0.5f, 0.25f, 1};
+  SceneMaterial hole;
+  hole.alpha = 0.2f;
+  hole.alpha_mode = AlphaMode::kMask;
+  parts.quad("glass", parts.add(glass), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.quad("hole", parts.add(hole), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.quad("glass 2", 0, {-1, 2, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.quad("wall", parts.diffuse(Vec3(0.5f)), {-1, -5, 1}, {2, 0, 0}, {0, 0, -2});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const Vec3 t = accel.transmittance({{0.1f, 4, 0.2f}, {0, -1, 0}, 8});
+  EXPECT_NEAR(t.r, 0.25f, 1e-6f);
+  EXPECT_NEAR(t.g, 0.0625f, 1e-6f);
+  EXPECT_NEAR(t.b, 1, 1e-6f);
+  EXPECT_EQ(accel.transmittance({{0.1f, 4, 0.2f}, {0, -1, 0}, 100}), Vec3(0));
+}
+
+}  // namespace
+}  // namespace oriel

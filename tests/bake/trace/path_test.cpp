@@ -1,0 +1,147 @@
+// The path tracer against closed forms.
+#include <gtest/gtest.h>
+
+#include "bake/trace/path.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+using test::SceneParts;
+
+struct Mean {
+  Vec3 direct, indirect;
+};
+
+// Mean irradiance at the middle of a triangle.
+Mean irradiance_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, std::uint32_t samples) {
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  const Transport transport{accel, lights, {}};
+  DVec3 direct(0), indirect(0);
+  std::uint64_t rays = 0;
+  const SurfacePoint p = geometry_at(scene, {triangle, 0, barycentric, true}, -geometric_normal(scene, triangle));
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    Sampler sampler(1, 0, i);
+    const IrradianceSample e = sample_irradiance(transport, p, sampler, rays);
+    direct += DVec3(e.direct);
+    indirect += DVec3(e.indirect);
+  }
+  return {Vec3(direct / double(samples)), Vec3(indirect / double(samples))};
+}
+
+// A closed sphere of albedo ρ and uniform radiance L: E = πL / (1 - ρ) everywhere, at every scale.
+class Furnace : public testing::TestWithParam<std::pair<float, float>> {};
+
+TEST_P(Furnace, HoldsTheSeries) {
+  const auto [albedo, scale] = GetParam();
+  SceneParts parts;
+  parts.sphere("sphere", parts.diffuse(Vec3(albedo), Vec3(2)), Vec3(0), scale, 3, true);
+  const Scene scene = parts.finish();
+  const float expected = kPi * 2 / (1 - albedo);
+  const Mean e = irradiance_at(scene, 5, Vec2(1.0f / 3), albedo > 0.9f ? 65536 : 8192);
+  // Four standard errors of the roulette's path lengths.
+  EXPECT_NEAR((e.direct + e.indirect).g / expected, 1, 0.015);
+  EXPECT_NEAR(e.direct.g / (kPi * 2), 1, 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(Albedos, Furnace,
+                         testing::Values(std::pair{0.0f, 1.0f}, std::pair{0.5f, 1.0f}, std::pair{0.8f, 1.0f}, std::pair{0.95f, 1.0f},
+                                         std::pair{0.5f, 1e-4f}, std::pair{0.5f, 1e6f}));
+
+TEST(Path, PointSpotAndDirectionalLights) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  Light point;
+  point.position = {0, 2, 0};
+  point.intensity = {100, 50, 25};
+  parts.scene().lights = {point};
+  const auto centre = [&] { return irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 16); };  // (0, 0, 0)
+  EXPECT_NEAR(centre().direct.r, 25, 0.01);
+  EXPECT_NEAR(centre().direct.b, 6.25, 0.01);
+
+  Light spot = point;
+  spot.type = LightType::kSpot;
+  spot.direction = glm::normalize(Vec3(1, -1, 0));
+  spot.outer_cone_rad = 0.5f;
+  parts.scene().lights = {spot};
+  EXPECT_EQ(centre().direct, Vec3(0)) << "45° off a cone of 29°";
+  spot.direction = {0, -1, 0};
+  parts.scene().lights = {spot};
+  EXPECT_NEAR(centre().direct.r, 25, 0.01);
+
+  Light sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = glm::normalize(Vec3(0, -1, 1));
+  sun.intensity = Vec3(1000);
+  parts.scene().lights = {sun};
+  EXPECT_NEAR(centre().direct.g, 1000 * std::sqrt(0.5f), 0.1);
+
+  parts.scene().lights.clear();
+  parts.scene().sky = Vec3(10);
+  EXPECT_NEAR(centre().direct.g, 10 * kPi, 0.01);
+}
+
+// A square emitter of side 1 facing the floor from height 1: configuration factor dA → coaxial square (Howell B-4).
+TEST(Path, AreaLightHasItsFormFactor) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.quad("light", parts.diffuse(Vec3(0), Vec3(100)), {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1});
+  const float x = 0.5f, root = std::sqrt(1 + x * x);
+  const float factor = 4 * (1 / (2 * kPi)) * (2 * x / root * std::atan(x / root));
+  EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 4096).direct.g / (kPi * 100 * factor), 1, 5e-3);
+}
+
+// Light sampling alone reads low where a whole face emits beside the receiver: MIS must not.
+TEST(Path, AdjoiningEmitterIsNotReadLow) {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0)), {0, 0, 1}, {1, 0, 0}, {0, 0, -1});
+  parts.quad("wall", parts.diffuse(Vec3(0), Vec3(1 / kPi)), {0, 0, 1}, {0, 0, -1}, {0, 1, 0});  // faces +x
+  // Mean over the floor: the factor of two unit squares with a common edge (Howell C-14).
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  const Transport transport{accel, lights, {}};
+  double sum = 0;
+  std::uint64_t rays = 0;
+  constexpr std::uint32_t kSamples = 32768;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    Sampler sampler(1, 0, i);
+    const Vec2 u = sampler.next2();
+    const Vec2 b = u.x + u.y > 1 ? 1.0f - u : u;
+    const std::uint32_t t = u.x + u.y > 1 ? 1 : 0;
+    const SurfacePoint p = geometry_at(scene, {t, 0, b, true}, {0, -1, 0});
+    sum += sample_irradiance(transport, p, sampler, rays).direct.g;
+  }
+  EXPECT_NEAR(sum / kSamples, 0.200044, 0.001);
+}
+
+TEST(Path, LightFindsItsWayOverAMirror) {
+  // A black floor under a downward-facing wall of light that only a mirror overhead can show it.
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  SceneMaterial mirror;
+  mirror.metallic = 1;
+  mirror.roughness = 0;
+  parts.quad("mirror", parts.add(mirror), {-50, 2, -50}, {100, 0, 0}, {0, 0, 100});  // faces down
+  parts.quad("panel", parts.diffuse(Vec3(0), Vec3(100)), {-0.5f, 1, 0.5f}, {1, 0, 0}, {0, 0, -1});  // faces up
+  // The mirrored panel lies at height 3 and faces down; the panel itself (one-sided, black) hides a square of half side
+  // 0.5 at height 1, that is of half side 1.5 at height 3: all of it.
+  EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 1024).indirect.g, 0, 1e-6);
+  parts.scene().triangles.resize(4);
+  parts.scene().triangle_surface.resize(4);
+  parts.scene().surfaces.resize(2);
+  parts.quad("panel", 2, {2, 1, 0.5f}, {1, 0, 0}, {0, 0, -1});
+  const Mean e = irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 65536);
+  // Midpoint quadrature of ∫ L cos cos / r² over the mirrored panel.
+  double expected = 0;
+  for (int i = 0; i < 100; ++i)
+    for (int j = 0; j < 100; ++j) {
+      const double px = 2 + (i + 0.5) / 100, pz = -0.5 + (j + 0.5) / 100, r2 = px * px + pz * pz + 9;
+      expected += 100 * 9 / (r2 * r2) * 1e-4;
+    }
+  EXPECT_EQ(e.direct, Vec3(0));
+  EXPECT_NEAR(e.indirect.g / expected, 1, 0.03);
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,167 @@
+// Samplers, warps and BSDFs: every sampler against its pdf by χ², energy against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "bake/trace/albedo.h"
+#include "bake/trace/bsdf.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+TEST(Sampler, IsAFunctionOfItsArguments) {
+  Sampler a(1, 2, 3), b(1, 2, 3), c(1, 2, 4), d(2, 2, 3);
+  EXPECT_EQ(a.next1(), b.next1());
+  EXPECT_EQ(a.next2(), b.next2());
+  EXPECT_NE(c.next1(), d.next1());
+}
+
+// 256 points of a (0,2)-sequence: one in each of 16 × 16 cells, one in each of 256 columns and rows.
+TEST(Sampler, PairsAreStratified) {
+  for (int pair = 0; pair < 5; ++pair) {
+    std::set<int> cells, columns, rows;
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      Sampler sampler(7, 9, i);
+      for (int skip = 0; skip < pair; ++skip) sampler.next2();
+      const Vec2 p = sampler.next2();
+      ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+      cells.insert(static_cast<int>(p.x * 16) * 16 + static_cast<int>(p.y * 16));
+      columns.insert(static_cast<int>(p.x * 256));
+      rows.insert(static_cast<int>(p.y * 256));
+    }
+    EXPECT_EQ(cells.size(), 256u);
+    EXPECT_EQ(columns.size(), 256u);
+    EXPECT_EQ(rows.size(), 256u);
+  }
+}
+
+// χ² of directions on the hemisphere in an equal-area grid of (cosθ, φ): how many standard deviations above its mean.
+template <class Draw, class Pdf>
+double chi2_excess(const Draw& draw, const Pdf& pdf) {
+  constexpr int kRows = 16, kColumns = 24, kSub = 12;
+  constexpr std::uint32_t kSamples = 200000;
+  std::vector<double> found(kRows * kColumns), expected(kRows * kColumns);
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    // Independent numbers: Sobol's are too even for a χ² test.
+    const auto u = [&](std::uint64_t k) { return static_cast<float>(mix64(mix64(i * 8 + k)) >> 40) * 0x1p-24f; };
+    const auto w = draw(u(0), Vec2(u(1), u(2)));
+    if (!w || w->z <= 0) continue;
+    const double phi = std::atan2(w->y, w->x) / (2 * kPiD) + 0.5;
+    const int row = std::min(kRows - 1, static_cast<int>(w->z * kRows)), column = std::min(kColumns - 1, static_cast<int>(phi * kColumns));
+    found[row * kColumns + column] += 1;
+  }
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column)
+      for (int a = 0; a < kSub; ++a)
+        for (int b = 0; b < kSub; ++b) {
+          const double z = (row + (a + 0.5) / kSub) / kRows, phi = 2 * kPiD * ((column + (b + 0.5) / kSub) / kColumns - 0.5);
+          const double r = std::sqrt(1 - z * z);
+          expected[row * kColumns + column] += pdf(Vec3(r * std::cos(phi), r * std::sin(phi), z)) * kSamples * 2 * kPiD / (kRows * kColumns * kSub * kSub);
+        }
+  double chi2 = 0;
+  int cells = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (expected[i] > 10) {
+      chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
+      ++cells;
+    }
+  return (chi2 - cells) / std::sqrt(2.0 * cells);
+}
+
+TEST(Warp, CosineHemisphereMatchesItsPdf) {
+  const auto draw = [](float, const Vec2& v) { return std::optional<Vec3>(square_to_cosine_hemisphere(v)); };
+  EXPECT_LT(chi2_excess(draw, [](const Vec3& w) { return cosine_hemisphere_pdf(w.z); }), 5);
+  EXPECT_GT(chi2_excess(draw, [](const Vec3&) { return 1 / (2 * kPi); }), 20) << "the checker must see a wrong pdf";
+}
+
+TEST(Warp, TriangleIsUniform) {
+  DVec2 mean(0);
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    Sampler sampler(3, 4, i);
+    const Vec2 b = square_to_triangle(sampler.next2());
+    ASSERT_TRUE(b.x >= 0 && b.y >= 0 && b.x + b.y <= 1);
+    mean += DVec2(b) / 4096.0;
+  }
+  EXPECT_NEAR(mean.x, 1.0 / 3, 2e-3);
+  EXPECT_NEAR(mean.y, 1.0 / 3, 2e-3);
+}
+
+class BsdfAlpha : public testing::TestWithParam<std::pair<float, float>> {};
+
+TEST_P(BsdfAlpha, SamplingMatchesPdf) {
+  const auto [alpha, cos_o] = GetParam();
+  ShadePoint point;
+  point.diffuse = Vec3(0.3f);
+  point.f0 = Vec3(0.5f);
+  point.alpha = alpha;
+  const Vec3 wo(std::sqrt(1 - cos_o * cos_o), 0, cos_o);
+  const auto draw = [&](float u, const Vec2& v) -> std::optional<Vec3> {
+    const auto s = bsdf_sample(point, wo, u, v);
+    if (!s) return std::nullopt;
+    EXPECT_NEAR(s->pdf, bsdf_pdf(point, wo, s->wi), 1e-3f * s->pdf);
+    return s->wi;
+  };
+  EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return bsdf_pdf(point, wo, wi); }), 6);
+}
+INSTANTIATE_TEST_SUITE_P(Lobes, BsdfAlpha, testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
+
+// A white surface under uniform light never sends out more than it receives: lobes and albedo table agree.
+TEST(Bsdf, FurnaceNeverExceedsOne) {
+  for (const float roughness : {0.0f, 0.01f, 0.1f, 0.3f, 0.6f, 1.0f})
+    for (const float cos_o : {0.02f, 0.1f, 0.5f, 1.0f})
+      for (const float f0 : {0.0f, 0.04f, 1.0f}) {
+        ShadePoint point;
+        point.diffuse = Vec3(1);
+        point.f0 = Vec3(f0);
+        point.f90 = f0 > 0 ? 1.0f : 0.0f;
+        point.alpha = roughness * roughness;
+        const Vec3 wo(std::sqrt(1 - cos_o * cos_o), 0, cos_o);
+        double sum = 0;
+        constexpr std::uint32_t kSamples = 4096;
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+          Sampler sampler(5, 6, i);
+          const float u = sampler.next1();
+          const auto s = bsdf_sample(point, wo, u, sampler.next2());
+          if (!s) continue;
+          ASSERT_TRUE(is_finite(s->weight));
+          sum += s->weight.g;
+        }
+        const double albedo = sum / kSamples;
+        const double diffuse_part = 1 - reflectance(point, cos_o).g;
+        EXPECT_LE(albedo, 1.005) << roughness << " " << cos_o << " " << f0;
+        EXPECT_NEAR(albedo, diffuse_part + reflectance(point, cos_o).g, 0.02) << roughness << " " << cos_o << " " << f0;
+      }
+}
+
+TEST(Albedo, ClosedForms) {
+  // GGX, α = 1, normal incidence: 1 - ln 2 for a perfect conductor.
+  const Vec2 rough = specular_albedo(1, 1);
+  EXPECT_NEAR(rough.x + rough.y, 1 - std::log(2.0), 2e-3);
+  for (const float cosine : {0.0f, 0.3f, 1.0f}) {
+    const Vec2 mirror = specular_albedo(cosine, 0);
+    EXPECT_NEAR(mirror.x + mirror.y, 1, 1e-6);
+    EXPECT_NEAR(mirror.y, std::pow(1 - cosine, 5.0f), 2e-3);
+  }
+}
+
+TEST(Ggx, IsFiniteAndNormalised) {
+  EXPECT_TRUE(std::isfinite(ggx_d(1, kMirrorAlpha)));
+  for (const float alpha : {0.001f, 0.05f, 0.5f, 1.0f}) {
+    // ∫ D cosθ dω = 1, in the slope variable t = tan²θ / α²: the integrand becomes (1 + t)^-2.
+    double sum = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double x = (i + 0.5) / kSteps, t = x / (1 - x);
+      const double tan2 = t * alpha * alpha, cosine = 1 / std::sqrt(1 + tan2);
+      // dω cosθ = π dtan² cos⁴
+      sum += ggx_d(static_cast<float>(cosine), alpha) * kPiD * std::pow(cosine, 4) * alpha * alpha / ((1 - x) * (1 - x)) / kSteps;
+    }
+    EXPECT_NEAR(sum, 1, alpha < 0.01f ? 2e-2 : 2e-3) << alpha;
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,146 @@
+// The architecture as a test: who may include whom, which program links what, and how large a file may grow.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+namespace fs = std::filesystem;
+
+const fs::path kRoot = ORIEL_SOURCE_DIR;
+
+// Each folder and the folders it may include, besides itself: docs/architecture.md draws the same arrows.
+const std::map<std::string, std::set<std::string>> kArrows = [] {
+  const std::set<std::string> core{"formats/core"};
+  const std::set<std::string> assets{"formats/core", "formats/assets"};
+  const auto plus = [](std::set<std::string> a, const std::set<std::string>& b) {
+    a.insert(b.begin(), b.end());
+    return a;
+  };
+  std::map<std::string, std::set<std::string>> m;
+  m["formats/core"] = {};
+  m["formats/image"] = core;
+  m["formats/assets"] = core;
+  m["formats/pack"] = assets;
+  m["formats/inspect"] = plus(assets, {"formats/pack", "formats/image"});
+  m["bake/jobs"] = core;
+  m["bake/scene"] = plus(assets, {"bake/jobs"});
+  m["bake/trace"] = plus(m["bake/scene"], {"bake/scene"});
+  m["bake/atlas"] = m["bake/trace"];
+  const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
+  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"}) m[name] = stage;
+  m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "formats/pack", "formats/image"});
+  m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
+  m["player/gpu"] = core;
+  m["player/walk"] = assets;
+  m["player/scene"] = plus(assets, {"formats/pack", "player/gpu"});
+  m["player/passes"] = plus(m["player/scene"], {"player/scene"});
+  m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
+  m["scenes"] = core;
+  return m;
+}();
+
+// Libraries that must not spread: the folders that may include their headers.
+const std::map<std::string, std::set<std::string>> kGuarded = {
+    {"embree3/", {"bake/trace"}},
+    {"tbb/", {"bake/jobs"}},
+    {"OpenImageIO/", {"bake/scene"}},
+    {"CGAL/", {"bake/scene"}},
+    {"OpenMesh/", {"bake/atlas"}},
+    {"OpenEXR/", {"formats/image"}},
+    {"Imf", {"formats/image"}},
+    {"GLFW/", {"player/app"}},
+    {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
+};
+
+bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+
+std::string folder_of(const std::string& include) {
+  const std::size_t slash = include.rfind('/');
+  return slash == std::string::npos ? "" : include.substr(0, slash);
+}
+
+// Why `file` of `folder` may not include `include`; empty where it may.
+std::string objection(const std::string& folder, const std::string& include) {
+  for (const auto& [prefix, folders] : kGuarded)
+    if (include.rfind(prefix, 0) == 0 && !folders.contains(folder)) return "only for " + *folders.begin();
+  const std::string target = folder_of(include);
+  if (!kArrows.contains(target) || target == folder) return "";
+  return kArrows.at(folder).contains(target) ? "" : "against the arrows";
+}
+
+template <class Visit>
+void each_source(const Visit& visit) {
+  for (const auto& [folder, allowed] : kArrows) {
+    if (!fs::exists(kRoot / folder)) continue;
+    for (const auto& entry : fs::directory_iterator(kRoot / folder))
+      if (is_source(entry.path())) visit(folder, entry.path());
+  }
+}
+
+TEST(Layers, TheCheckerSeesAForbiddenInclude) {
+  EXPECT_NE(objection("formats/core", "bake/scene/scene.h"), "");
+  EXPECT_NE(objection("bake/atlas", "bake/trace/accel.h"), "");
+  EXPECT_NE(objection("player/scene", "bake/jobs/context.h"), "");
+  EXPECT_NE(objection("bake/radiosity", "embree3/rtcore.h"), "");
+  EXPECT_EQ(objection("bake/radiosity", "bake/trace/accel.h"), "");
+}
+
+TEST(Layers, IncludesFollowTheArrows) {
+  const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  int seen = 0;
+  each_source([&](const std::string& folder, const fs::path& path) {
+    std::ifstream in(path);
+    std::smatch match;
+    for (std::string line; std::getline(in, line);)
+      if (std::regex_search(line, match, include)) {
+        ++seen;
+        EXPECT_EQ(objection(folder, match[1]), "") << path << " includes " << match[1];
+      }
+  });
+  EXPECT_GT(seen, 200);
+}
+
+TEST(Layers, FilesAndFoldersStaySmall) {
+  std::map<std::string, int> sources;
+  each_source([&](const std::string& folder, const fs::path& path) {
+    ++sources[folder];
+    std::ifstream in(path);
+    int lines = 0;
+    for (std::string line; std::getline(in, line);) ++lines;
+    EXPECT_LE(lines, 400) << path << " is two concepts";
+  });
+  for (const auto& [folder, count] : sources) EXPECT_LE(count, 16) << folder << " holds more than 16 sources";
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+    if (is_source(entry.path())) {
+      std::ifstream in(entry.path());
+      int lines = 0;
+      for (std::string line; std::getline(in, line);) ++lines;
+      EXPECT_LE(lines, 400) << entry.path();
+    }
+}
+
+// The player must stay light enough for a kiosk: neither it nor the inspector loads the baker's libraries.
+TEST(Layers, PlayerAndInspectorLinkNoBaker) {
+  for (const char* program : {"oriel-play", "oriel-inspect"}) {
+    const std::string command = "ldd '" + (fs::path(ORIEL_BIN_DIR) / program).string() + "'";
+    FILE* pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string libraries;
+    std::array<char, 4096> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe)) libraries += buffer.data();
+    ASSERT_EQ(pclose(pipe), 0) << command;
+    EXPECT_NE(libraries.find("libzstd"), std::string::npos) << "ldd printed nothing of use";
+    for (const char* heavy : {"embree", "tbb", "OpenImageIO", "CGAL", "OpenMesh", "draco"})
+      EXPECT_EQ(libraries.find(heavy), std::string::npos) << program << " links " << heavy;
+  }
+}
+
+}  // namespace
