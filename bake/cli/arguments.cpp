@@ -65,7 +65,7 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option("--views", bake.views.views_per_element, "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  app.add_option("--map-resolution", bake.capture.map_resolution, "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
+  app.add_option("--map-resolution", bake.views.map_resolution, "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   app.add_option("--memory", texts.memory, "Limit of all radiance maps together; views are thinned out to keep it")
@@ -76,7 +76,7 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
 Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
-  ORIEL_TRY(bake.capture.memory, parse_bytes(texts.memory));
+  ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
   ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
   bake.atlas.resolution = texts.resolution;
   if (texts.atlas == "uv1") {

@@ -46,16 +46,19 @@ class Baker {
   }
 
  private:
-  // A point inside a closed body sees nothing but the backs of its faces; one outside rarely meets three in a row.
+  // Asked of points whose path met a back face first. Inside a closed body nearly every direction meets the back of its
+  // faces; at a point outside that sees half a hemisphere of backs, four of five probes do so in one case of five.
   bool buried(const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays) const {
     const Scene& scene = t_.accel.scene();
-    for (int probe = 0; probe < 2; ++probe) {
+    int missed = 0;
+    for (int probe = 0; probe < 5; ++probe) {
       const Vec3 direction =
           glm::normalize(frame_from_normal(surface.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
       ++rays;
       const Hit hit = t_.accel.intersect({spawn_origin(scene, surface.triangle, surface.barycentric, direction), direction});
-      if (!hit || hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided)
-        return false;
+      const bool back =
+          hit && !hit.front && !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+      if (!back && ++missed > 1) return false;
     }
     return true;
   }
@@ -95,7 +98,8 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                          std::span<const LightmapPage> pages) {
+                          const Radiosity& radiosity) {
+  const auto& pages = radiosity.pages;
   RadiosityReport report;
   DVec3 sum(0);
   for (std::size_t p = 0; p < pages.size(); ++p)
@@ -109,7 +113,7 @@ RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<cons
       const Vec3& e = pages[p].irradiance[texel];
       sum += DVec3(e);
       report.max = glm::max(report.max, e);
-      report.incident_lm += DVec3(e) * texel_area_m2(scene, atlas, texel_map[p], i);
+      report.incident_lm += DVec3(e) * (radiosity.visible[p][i] * texel_area_m2(scene, atlas, texel_map[p], i));
     }
   if (report.texels == 0) return report;
   report.mean = Vec3(sum / static_cast<double>(report.texels));
@@ -137,6 +141,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
     LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size), std::vector<TexelState>(size)};
     result.pages.push_back(std::move(page));
+    result.visible.emplace_back(map.texel.size());
     for (std::size_t first = 0; first < map.texel.size(); first += kRun)
       runs.push_back({p, first, std::min(first + kRun, map.texel.size())});
   }
@@ -145,14 +150,16 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   const auto body = [&](std::size_t r) {
     const Run& run = runs[r];
     std::uint64_t rays = 0;
-    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i)
-      store(baker.bake(texel_map[run.page], run.page, i, rays), options.samples, result.pages[run.page],
-            texel_map[run.page].texel[i]);
+    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
+      const TexelSums sums = baker.bake(texel_map[run.page], run.page, i, rays);
+      result.visible[run.page][i] = static_cast<float>(sums.count) / static_cast<float>(options.samples);
+      store(sums, options.samples, result.pages[run.page], texel_map[run.page].texel[i]);
+    }
     total_rays += rays;
   };
   ORIEL_TRY_VOID(parallel_for(context, "radiosity", runs.size(), body, &total_rays));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  result.report = summarize(transport.accel.scene(), atlas, texel_map, result.pages);
+  result.report = summarize(transport.accel.scene(), atlas, texel_map, result);
   result.report.rays = total_rays;
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     fill_buried(atlas, texel_map[p], result.pages[p]);

@@ -19,11 +19,13 @@ struct RadiosityReport {
   Vec3 mean{0};                   // lux, over valid texels
   Vec3 max{0};                    // lux
   double relative_error = 0;      // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
-  DVec3 incident_lm{0};           // power falling on all lightmapped surfaces, front sides
+  DVec3 incident_lm{0};           // power falling on the visible parts of all lightmapped surfaces, front sides
 };
 
 struct Radiosity {
   std::vector<LightmapPage> pages;
+  // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other geometry.
+  std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };
 

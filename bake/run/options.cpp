@@ -76,8 +76,8 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"min_reflector_area_m2", o.reflectors.min_area_m2},
       {"element_m", o.views.element_m},
       {"views_per_element", o.views.views_per_element},
-      {"map_resolution", o.capture.map_resolution},
-      {"map_memory", o.capture.memory},
+      {"map_resolution", o.views.map_resolution},
+      {"map_memory", o.views.memory_bytes},
   };
   return json.dump();
 }

@@ -1,0 +1,114 @@
+#include "bake/run/pipeline.h"
+
+#include <chrono>
+
+#include "bake/run/assemble.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/report.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+// Runs one stage and notes its wall clock.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<StageTime>& times) : times_(times) {}
+  template <class Stage>
+  auto operator()(const char* name, const Stage& stage) {
+    const auto start = std::chrono::steady_clock::now();
+    std::uint64_t rays = 0;
+    auto result = stage(rays);
+    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), rays});
+    return result;
+  }
+
+ private:
+  std::vector<StageTime>& times_;
+};
+
+std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
+  std::vector<ReflectorMaterial> out;
+  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90});
+  return out;
+}
+
+// Reflectors, their viewpoints and what is seen from them, into the pack.
+Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas, const MaterialMaps& materials,
+                        const AssembledMesh& mesh, Context& context, BakeResult& result, std::uint64_t& rays) {
+  const Scene& scene = accel.scene();
+  FoundReflectors found = find_reflectors(accel, reflector_materials(materials), options.reflectors);
+  ViewPlan plan = plan_views(scene, found.reflectors, options.views);
+  for (auto* lines : {&found.omitted, &plan.omitted})
+    result.omissions.insert(result.omissions.end(), lines->begin(), lines->end());
+  if (found.reflectors.empty())
+    result.omissions.push_back(fmt::format("radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
+                                           options.reflectors.max_roughness, options.reflectors.min_area_m2));
+  const auto outgoing = [&](const Hit& hit, const Vec3& towards_eye) {
+    return baked_radiance(scene, atlas, result.pack.lightmaps, hit, towards_eye);
+  };
+  std::atomic<std::uint64_t> counted{0};
+  ORIEL_TRY_VOID(capture_maps(accel, found.reflectors, outgoing, options.capture, context, plan.maps, &counted));
+  rays = counted;
+  result.pack.radiance_maps = std::move(plan.maps);
+  for (FoundReflector& f : found.reflectors) {
+    for (const std::uint32_t t : f.triangles)
+      for (std::uint32_t corner = 0; corner < 3; ++corner)
+        f.reflector.indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+    result.pack.reflectors.push_back(std::move(f.reflector));
+  }
+  return {};
+}
+
+void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
+  if (lights.empty() && luminance(scene.sky) <= 0)
+    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it bakes to black");
+}
+
+}  // namespace
+
+Result<BakeResult> bake(const BakeOptions& options, Context& context) {
+  BakeResult result;
+  Stopwatch timed(result.times);
+  ORIEL_TRY(const ImportedScene imported, timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
+  const Scene& scene = imported.scene;
+  ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
+  ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
+  ORIEL_TRY(const Accel accel, timed("accelerator", [&](auto&) { return Accel::build(scene, {options.reproducible}); }));
+  const LightSet lights(scene);
+  warn_about_light(scene, lights, context);
+
+  ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
+              auto baked = bake_radiosity({accel, lights, {}}, atlas, texel_map, options.radiosity, context);
+              if (baked) rays = baked->report.rays;
+              return baked;
+            }));
+  Pack& pack = result.pack;
+  pack.lightmaps = std::move(radiosity.pages);
+  ORIEL_TRY(MaterialMaps materials, timed("material", [&](auto&) { return bake_materials(scene, options.material, context); }));
+  AssembledMesh mesh = assemble_mesh(scene, atlas);
+  if (options.with_radiance) {
+    ORIEL_TRY_VOID(timed("radiance", [&](std::uint64_t& rays) {
+      return bake_reflections(options, accel, atlas, materials, mesh, context, result, rays);
+    }));
+  } else {
+    result.omissions.emplace_back("radiance maps: left out by --only");
+  }
+  if (!options.with_material) {
+    result.omissions.emplace_back("kernels: left out by --only");
+    materials.kernels.clear();
+    for (auto& kernel : materials.kernel) kernel = -1;
+  }
+  assemble_materials(scene, materials, pack.materials, pack.textures);
+  pack.mesh = std::move(mesh.mesh);
+  pack.kernels = std::move(materials.kernels);
+  pack.fresnel_maps = std::move(materials.fresnel_maps);
+  pack.cameras = scene.cameras;
+  pack.paths = scene.paths;
+  pack.sky = scene.sky;
+  pack.plan = plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(), result.times.back().rays});
+  pack.provenance = provenance_json(options, context.seed, imported.inputs);
+  return result;
+}
+
+}  // namespace oriel
