@@ -39,6 +39,11 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   return light;
 }
 
+Vec3 standard_error(const DVec3& sum, const DVec3& squares, double n) {
+  const DVec3 mean = sum / n;
+  return Vec3(glm::sqrt(glm::max(DVec3(0), squares / n - mean * mean) / std::max(1.0, n - 1)));
+}
+
 }  // namespace
 
 Ray camera_ray(const Camera& camera, float x, float y, int width, int height) {
@@ -58,20 +63,22 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
   frame.width = options.width;
   frame.height = options.height;
   const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  for (auto* image : {&frame.total, &frame.diffuse, &frame.specular, &frame.noise}) image->resize(pixels);
+  for (auto* image : {&frame.total, &frame.diffuse, &frame.specular, &frame.noise, &frame.diffuse_noise}) image->resize(pixels);
   std::atomic<std::uint64_t> total_rays{0};
   const auto row = [&](std::size_t y) {
     std::uint64_t rays = 0;
     for (int x = 0; x < options.width; ++x) {
       const std::size_t pixel = y * static_cast<std::size_t>(options.width) + static_cast<std::size_t>(x);
-      DVec3 diffuse(0), specular(0), sum(0), squares(0);
+      DVec3 diffuse(0), diffuse_squares(0), specular(0), sum(0), squares(0);
       for (std::uint32_t i = 0; i < options.samples; ++i) {
         Sampler sampler(context.seed, pixel, i);
-        const Vec2 jitter = sampler.next2();
+        const Vec2 spread = sampler.next2();
+        const Vec2 jitter = options.antialias ? spread : Vec2(0.5f);
         const Ray ray = camera_ray(camera, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y, options.width, options.height);
         const PixelLight light = trace_pixel(transport, ray, sampler, rays);
         const DVec3 all(light.diffuse + light.specular + light.other);
         diffuse += DVec3(light.diffuse);
+        diffuse_squares += DVec3(light.diffuse) * DVec3(light.diffuse);
         specular += DVec3(light.specular);
         sum += all;
         squares += all * all;
@@ -80,7 +87,8 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
       frame.diffuse[pixel] = Vec3(diffuse / n);
       frame.specular[pixel] = Vec3(specular / n);
       frame.total[pixel] = Vec3(sum / n);
-      frame.noise[pixel] = Vec3(glm::sqrt(glm::max(DVec3(0), squares / n - sum / n * (sum / n)) / std::max(1.0, n - 1)));
+      frame.noise[pixel] = standard_error(sum, squares, n);
+      frame.diffuse_noise[pixel] = standard_error(diffuse, diffuse_squares, n);
     }
     total_rays += rays;
   };

@@ -11,6 +11,7 @@ namespace oriel {
 struct ReferenceOptions {
   int width = 640, height = 360;
   std::uint32_t samples = 64;  // paths a pixel for each component; best a power of two
+  bool antialias = true;       // false: every ray through the pixel's centre, as a rasteriser without samples sees it
 };
 
 // Row 0 is the top. cd/m². total = diffuse + specular + emission + what shows through transmission and cut-outs.
@@ -20,6 +21,7 @@ struct ReferenceFrame {
   std::vector<Vec3> diffuse;   // D: reflected by the diffuse lobe of the first surface, all bounces before it
   std::vector<Vec3> specular;  // S: reflected by its specular lobe
   std::vector<Vec3> noise;     // standard error of total
+  std::vector<Vec3> diffuse_noise;  // and of diffuse
 };
 
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
