@@ -23,14 +23,15 @@ struct TexelSums {
 
 class Baker {
  public:
-  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, std::uint64_t seed)
-      : t_(t), atlas_(atlas), options_(options), seed_(seed) {}
+  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, const Context& context)
+      : t_(t), atlas_(atlas), options_(options), context_(context) {}
 
   TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
     TexelSums sums;
     const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
     for (std::uint32_t k = 0; k < options_.samples; ++k) {
-      Sampler sampler(seed_, stream, k);
+      if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
+      Sampler sampler(context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
       const TexelPoint point = sample_texel(atlas_, map, i, Vec3(uv, sampler.next1()));
       const Vec3 normal = geometric_normal(t_.accel.scene(), point.triangle);
@@ -66,7 +67,7 @@ class Baker {
   const Transport& t_;
   const Atlas& atlas_;
   const RadiosityOptions& options_;
-  std::uint64_t seed_;
+  const Context& context_;
 };
 
 void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::size_t texel) {
@@ -145,7 +146,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     for (std::size_t first = 0; first < map.texel.size(); first += kRun)
       runs.push_back({p, first, std::min(first + kRun, map.texel.size())});
   }
-  const Baker baker(transport, atlas, options, context.seed);
+  const Baker baker(transport, atlas, options, context);
   std::atomic<std::uint64_t> total_rays{0};
   const auto body = [&](std::size_t r) {
     const Run& run = runs[r];

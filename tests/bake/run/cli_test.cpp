@@ -1,0 +1,149 @@
+// oriel-bake as a user meets it: exit codes, messages, files left behind, bytes.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bake/run/options.h"
+#include "formats/core/file.h"
+#include "formats/pack/reader.h"
+
+namespace oriel {
+namespace {
+namespace fs = std::filesystem;
+
+class BakeCli : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("oriel-cli-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    ASSERT_EQ(run("oriel-scenes cornell -o cornell.glb"), 0) << log();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  int run(const std::string& command) const {
+    const std::string line = "cd '" + folder_.string() + "' && '" + ORIEL_BIN_DIR + "'/" + command + " >log 2>&1";
+    const int status = std::system(line.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  std::string log() const {
+    const auto bytes = read_file(folder_ / "log");
+    return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
+  }
+  void write(const std::string& name, const std::string& text) const {
+    ASSERT_TRUE(write_file_atomically(folder_ / name, std::as_bytes(std::span(text))));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(BakeCli, ExitCodesAndMessages) {
+  EXPECT_EQ(run("oriel-bake --help"), 0);
+  EXPECT_NE(log().find("Exit codes"), std::string::npos);
+  EXPECT_EQ(run("oriel-bake --version"), 0);
+  EXPECT_EQ(run("oriel-bake"), 1);
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --no-such-option"), 1);
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --texel 5parsec"), 1);
+  EXPECT_NE(log().find("5parsec"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --atlas uv1"), 1) << "needs --resolution";
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --only radiosity,teapots"), 1);
+  EXPECT_EQ(run("oriel-bake missing.glb -o a.oriel"), 2);
+  EXPECT_NE(log().find("missing.glb"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake cornell.glb -o no/such/folder/a.oriel"), 2);
+  write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"meshes\": 7}");
+  EXPECT_EQ(run("oriel-bake broken.gltf -o a.oriel"), 3);
+  write("empty.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
+  EXPECT_EQ(run("oriel-bake empty.gltf -o a.oriel"), 3);
+  EXPECT_NE(log().find("mesh"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(folder_ / "a.oriel"));
+}
+
+TEST_F(BakeCli, SameBytesForAnyThreadsAndTwiceInARow) {
+  const std::string options = " --texel 5cm --samples 16 --quiet";
+  ASSERT_EQ(run("oriel-bake cornell.glb -o one.oriel --threads 1" + options), 0) << log();
+  ASSERT_EQ(run("oriel-bake cornell.glb -o two.oriel --threads 2" + options), 0) << log();
+  ASSERT_EQ(run("oriel-bake cornell.glb -o again.oriel --threads 2" + options), 0) << log();
+  EXPECT_EQ(log(), "") << "--quiet says nothing unless there is something to warn of";
+  const Bytes one = *read_file(folder_ / "one.oriel");
+  EXPECT_EQ(one, *read_file(folder_ / "two.oriel"));
+  EXPECT_EQ(one, *read_file(folder_ / "again.oriel"));
+  ASSERT_EQ(run("oriel-bake cornell.glb -o other.oriel --seed 2" + options), 0) << log();
+  EXPECT_NE(one, *read_file(folder_ / "other.oriel")) << "the comparison must be able to fail";
+}
+
+TEST_F(BakeCli, OmissionsAreSaidAndRecorded) {
+  ASSERT_EQ(run("oriel-bake cornell.glb -o a.oriel --texel 10cm --samples 4 --report a.json"), 0) << log();
+  EXPECT_NE(log().find("omitted: radiance maps"), std::string::npos) << log();
+  const Pack pack = *read_pack(folder_ / "a.oriel");
+  EXPECT_TRUE(pack.reflectors.empty());
+  const auto plan = nlohmann::json::parse(pack.plan);
+  EXPECT_FALSE(plan["omitted"].empty());
+  const auto provenance = nlohmann::json::parse(pack.provenance);
+  EXPECT_EQ(provenance["options"]["samples"], 4);
+  EXPECT_EQ(provenance["inputs"][0]["name"], "cornell.glb");
+  const Bytes report = *read_file(folder_ / "a.json");
+  EXPECT_TRUE(nlohmann::json::parse(reinterpret_cast<const char*>(report.data()), reinterpret_cast<const char*>(report.data() + report.size())).contains("stages"));
+}
+
+TEST_F(BakeCli, NoLightBakesToBlackWithAWarning) {
+  write("dark.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  ASSERT_EQ(run("oriel-bake dark.gltf -o dark.oriel"), 0) << log();
+  EXPECT_NE(log().find("no light"), std::string::npos) << log();
+  const Pack pack = *read_pack(folder_ / "dark.oriel");
+  for (const LightmapPage& page : pack.lightmaps)
+    for (const Vec3& e : page.irradiance) EXPECT_EQ(e, Vec3(0));
+}
+
+TEST_F(BakeCli, JsonLogIsJson) {
+  ASSERT_EQ(run("oriel-bake cornell.glb -o a.oriel --texel 10cm --samples 4 --json-log"), 0) << log();
+  std::istringstream lines(log());
+  int events = 0;
+  for (std::string line; std::getline(lines, line); ++events) EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  EXPECT_GT(events, 2);
+}
+
+// SIGINT in the middle of the work: ends soon, with 130, and leaves neither a pack nor a temporary file.
+TEST_F(BakeCli, InterruptLeavesNothing) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder_.c_str()) != 0) ::_exit(99);
+    const int null = ::open("/dev/null", O_WRONLY);
+    ::dup2(null, STDERR_FILENO);
+    const std::string program = std::string(ORIEL_BIN_DIR) + "/oriel-bake";
+    ::execl(program.c_str(), "oriel-bake", "cornell.glb", "-o", "a.oriel", "--texel", "2mm", "--samples", "65536", static_cast<char*>(nullptr));
+    ::_exit(98);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  ASSERT_EQ(::kill(child, SIGINT), 0) << "the bake ended before it could be interrupted";
+  int status = 0;
+  for (int tenths = 0; tenths < 100 && ::waitpid(child, &status, WNOHANG) == 0; ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_TRUE(entry.path().filename() == "cornell.glb" || entry.path().filename() == "log") << entry.path();
+}
+
+TEST(Quantities, ParseAndRefuse) {
+  EXPECT_FLOAT_EQ(*parse_length("5cm"), 0.05f);
+  EXPECT_FLOAT_EQ(*parse_length("0.1"), 0.1f);
+  EXPECT_FLOAT_EQ(*parse_length("20 mm"), 0.02f);
+  for (const char* bad : {"", "cm", "-5cm", "0", "nan", "inf", "5 miles", "1e400m"}) EXPECT_FALSE(parse_length(bad)) << bad;
+  EXPECT_EQ(*parse_bytes("64MiB"), 64u << 20);
+  EXPECT_FALSE(parse_bytes("many"));
+  EXPECT_EQ(*parse_color("5"), Vec3(5));
+  EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
+  for (const char* bad : {"", "1,2", "1,2,3,4", "-1", "a", "1,,2"}) EXPECT_FALSE(parse_color(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace oriel

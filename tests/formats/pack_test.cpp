@@ -1,0 +1,260 @@
+// Packs in memory and in files: what goes in comes out, within the errors that docs/format.md states.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "formats/core/file.h"
+#include "formats/pack/index.h"
+#include "formats/pack/reader.h"
+#include "formats/pack/validate.h"
+#include "formats/pack/writer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+
+using testing::tiny_pack;
+
+Pack round_trip(const Pack& pack) {
+  const auto bytes = encode_pack(pack);
+  if (!bytes) {
+    ADD_FAILURE() << bytes.error().text();
+    return {};
+  }
+  auto decoded = decode_pack(*bytes);
+  if (!decoded) {
+    ADD_FAILURE() << decoded.error().text();
+    return {};
+  }
+  return *decoded;
+}
+
+void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expected, float relative) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LE(std::abs(found[i][c] - expected[i][c]), relative * std::abs(expected[i][c])) << i << " channel " << c;
+}
+
+TEST(Pack, TinyPackIsFreeOfIssues) {
+  for (const auto& issue : validate(tiny_pack())) ADD_FAILURE() << issue.section << ": " << issue.message;
+}
+
+TEST(Pack, GeometryAndNamesComeBack) {
+  const Pack in = tiny_pack(), out = round_trip(in);
+  EXPECT_EQ(out.mesh.origin, in.mesh.origin);
+  EXPECT_EQ(out.mesh.positions, in.mesh.positions);
+  EXPECT_EQ(out.mesh.uvs, in.mesh.uvs);
+  EXPECT_EQ(out.mesh.lightmap_uvs, in.mesh.lightmap_uvs);
+  EXPECT_EQ(out.mesh.colors, in.mesh.colors);
+  EXPECT_EQ(out.mesh.indices, in.mesh.indices);
+  ASSERT_EQ(out.mesh.parts.size(), 2u);
+  EXPECT_EQ(out.mesh.parts[1].name, "wall");
+  EXPECT_EQ(out.mesh.parts[1].first_index, 6u);
+  EXPECT_EQ(out.mesh.parts[1].material, 1u);
+  EXPECT_EQ(out.mesh.parts[1].lightmap_page, 0);
+  for (std::size_t i = 0; i < in.mesh.normals.size(); ++i)
+    EXPECT_LE(glm::length(out.mesh.normals[i] - in.mesh.normals[i]), 6e-5f);
+  EXPECT_EQ(out.provenance, in.provenance);
+  EXPECT_EQ(out.plan, in.plan);
+  EXPECT_EQ(out.sky, in.sky);
+}
+
+TEST(Pack, MaterialsAndTexturesComeBack) {
+  const Pack in = tiny_pack(), out = round_trip(in);
+  ASSERT_EQ(out.materials.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Material &a = in.materials[i], &b = out.materials[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.base_color, b.base_color);
+    EXPECT_EQ(a.base_color_texture, b.base_color_texture);
+    EXPECT_EQ(a.alpha_mode, b.alpha_mode);
+    EXPECT_EQ(a.double_sided, b.double_sided);
+    EXPECT_EQ(a.metallic, b.metallic);
+    EXPECT_EQ(a.roughness, b.roughness);
+    EXPECT_EQ(a.f0, b.f0);
+    EXPECT_EQ(a.emission, b.emission);
+    EXPECT_EQ(a.kernel, b.kernel);
+    EXPECT_EQ(a.fresnel_map, b.fresnel_map);
+  }
+  ASSERT_EQ(out.textures.size(), 1u);
+  EXPECT_EQ(out.textures[0].name, "checks");
+  EXPECT_EQ(out.textures[0].texels, in.textures[0].texels);
+  EXPECT_EQ(out.textures[0].wrap_t, Wrap::kClamp);
+  EXPECT_TRUE(out.textures[0].nearest);
+}
+
+TEST(Pack, MapsComeBackWithinTheirErrors) {
+  const Pack in = tiny_pack(), out = round_trip(in);
+  ASSERT_EQ(out.lightmaps.size(), 1u);
+  expect_near(out.lightmaps[0].irradiance, in.lightmaps[0].irradiance, 0x1p-11f);
+  expect_near(out.lightmaps[0].standard_error, in.lightmaps[0].standard_error, 0x1p-11f);
+  EXPECT_EQ(out.lightmaps[0].state, in.lightmaps[0].state);
+  ASSERT_EQ(out.radiance_maps.size(), 2u);
+  const RadianceMap &a = in.radiance_maps[1], &b = out.radiance_maps[1];
+  EXPECT_EQ(a.eye, b.eye);
+  EXPECT_EQ(a.has_emission, b.has_emission);
+  EXPECT_EQ(a.valid, b.valid);
+  for (std::size_t i = 0; i < a.radiance.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LE(std::abs(a.radiance[i][c] - b.radiance[i][c]), 0x1p-9f * max_component(a.radiance[i]));
+    EXPECT_LE(std::abs(a.disparity[i] - b.disparity[i]), 1.0f / 131070 * 1.001f);
+  }
+  EXPECT_EQ(b.disparity[0], 0.0f) << "a miss stays at infinity";
+  ASSERT_EQ(out.reflectors.size(), 1u);
+  EXPECT_EQ(out.reflectors[0].pack_from_reflector, in.reflectors[0].pack_from_reflector);
+  EXPECT_EQ(out.reflectors[0].indices, in.reflectors[0].indices);
+  EXPECT_EQ(out.reflectors[0].map_count, 2u);
+  EXPECT_EQ(out.kernels[1].weights, in.kernels[1].weights);
+  EXPECT_EQ(out.fresnel_maps[0].table, in.fresnel_maps[0].table);
+  EXPECT_EQ(out.fresnel_maps[0].sphere, in.fresnel_maps[0].sphere);
+  EXPECT_EQ(out.cameras[1].half_height, 3.0f);
+  EXPECT_EQ(out.paths[0].keys[1].eye, in.paths[0].keys[1].eye);
+}
+
+TEST(Pack, UnknownOptionalSectionsAreKept) {
+  const Pack in = tiny_pack(), out = round_trip(in);
+  ASSERT_EQ(out.unknown.size(), 1u);
+  EXPECT_EQ(out.unknown[0].kind, in.unknown[0].kind);
+  EXPECT_EQ(out.unknown[0].codec, 77u);
+  EXPECT_EQ(out.unknown[0].count, 3u);
+  EXPECT_EQ(out.unknown[0].raw_bytes, 1000u);
+  EXPECT_EQ(out.unknown[0].stored, in.unknown[0].stored);
+}
+
+TEST(Pack, EmptyPackComesBack) {
+  const Pack out = round_trip(Pack{});
+  EXPECT_TRUE(out.mesh.positions.empty());
+  EXPECT_TRUE(out.lightmaps.empty());
+}
+
+// A pack full of numbers at every scale.
+Pack wild_pack(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::uniform_int_distribution<int> exponent(-149, 127);
+  Pack pack = tiny_pack();
+  const int high = exponent(random);
+  const auto number = [&] { return std::ldexp(unit(random), std::min(127, high - std::abs(exponent(random)) % 40)); };
+  for (auto& page : pack.lightmaps)
+    for (auto& v : page.irradiance) v = {number(), number(), number()};
+  for (auto& map : pack.radiance_maps) {
+    const int depth = std::abs(exponent(random)) % 40;
+    for (auto& v : map.radiance) v = {number(), number(), number()};
+    for (auto& d : map.disparity) d = std::ldexp(unit(random), -depth);
+  }
+  for (auto& n : pack.mesh.normals)
+    n = normalize_or({unit(random) - 0.5f, unit(random) - 0.5f, unit(random) - 0.5f}, {0, 0, -1});
+  return pack;
+}
+
+TEST(Pack, EncodingAgainChangesNoByte) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const auto first = encode_pack(wild_pack(seed));
+    ASSERT_TRUE(first) << first.error().text();
+    const auto decoded = decode_pack(*first);
+    ASSERT_TRUE(decoded) << decoded.error().text();
+    EXPECT_TRUE(validate(*decoded).empty());
+    const auto second = encode_pack(*decoded);
+    ASSERT_TRUE(second) << second.error().text();
+    EXPECT_EQ(*first, *second) << "seed " << seed;
+  }
+}
+
+TEST(Pack, ThreadsAndTimeDoNotChangeTheBytes) {
+  const auto alone = encode_pack(wild_pack(1));
+  Result<Bytes> a, b;
+  std::thread one([&] { a = encode_pack(wild_pack(1)); });
+  std::thread two([&] { b = encode_pack(wild_pack(1)); });
+  one.join();
+  two.join();
+  ASSERT_TRUE(alone && a && b);
+  EXPECT_EQ(*alone, *a);
+  EXPECT_EQ(*alone, *b);
+}
+
+TEST(Pack, BlackAndHugePagesSurvive) {
+  Pack pack = tiny_pack();
+  for (auto& v : pack.lightmaps[0].irradiance) v = Vec3(0);
+  EXPECT_EQ(round_trip(pack).lightmaps[0].irradiance, pack.lightmaps[0].irradiance);
+  for (auto& v : pack.lightmaps[0].irradiance) v = Vec3(std::numeric_limits<float>::max(), 0, 1);
+  const Pack out = round_trip(pack);
+  EXPECT_NEAR(out.lightmaps[0].irradiance[3].r / std::numeric_limits<float>::max(), 1, 0x1p-10);
+}
+
+TEST(Pack, LargeBlackPageIsNoBomb) {
+  Pack pack = tiny_pack();
+  auto& page = pack.lightmaps[0];
+  page.width = page.height = 2048;
+  page.irradiance.assign(2048 * 2048, Vec3(0));
+  page.standard_error = page.irradiance;
+  page.state.assign(2048 * 2048, TexelState::kValid);
+  const Pack out = round_trip(pack);
+  EXPECT_EQ(out.lightmaps[0].width, 2048u);
+}
+
+TEST(Pack, WriterRefusesWhatMeansNothing) {
+  Pack pack = tiny_pack();
+  pack.lightmaps[0].irradiance[5].g = std::nanf("");
+  const auto bytes = encode_pack(pack);
+  ASSERT_FALSE(bytes);
+  EXPECT_EQ(bytes.error().code, ErrorCode::kInvalid);
+  EXPECT_NE(bytes.error().text().find("section LMAP 0 (lightmap page): issue 302: 1 of 32 texels"), std::string::npos)
+      << bytes.error().text();
+}
+
+TEST(PackFile, ReadsWhatItWrote) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.oriel";
+  const auto written = write_pack(path, tiny_pack());
+  ASSERT_TRUE(written) << written.error().text();
+  const auto read = read_pack(path);
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_EQ(read->lightmaps.size(), 1u);
+}
+
+TEST(PackFile, FailedWriteLeavesTheOldFile) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.oriel";
+  ASSERT_TRUE(write_pack(path, tiny_pack()));
+  const auto before = read_file(path);
+  Pack bad = tiny_pack();
+  bad.materials[0].alpha = 2;
+  const auto status = write_pack(path, bad);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().where, path.string());
+  EXPECT_EQ(*before, *read_file(path));
+  // A folder stands where the file should be: the rename fails, and no temporary file stays.
+  const auto blocked = folder.path() / "folder.oriel";
+  std::filesystem::create_directories(blocked / "inside");
+  const auto refused = write_pack(blocked, tiny_pack());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kIo);
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++entries;
+  EXPECT_EQ(entries, 2u);
+}
+
+TEST(PackFile, NamesTheFileAndTheSection) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.oriel";
+  auto bytes = *encode_pack(tiny_pack());
+  const auto index = *read_index(bytes);
+  for (const auto& section : index.sections)
+    if (section.kind == kLightmapSection) bytes[section.offset + 3] ^= std::byte{1};
+  ASSERT_TRUE(write_file_atomically(path, bytes));
+  const auto read = read_pack(path);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().text().find(path.string() + ": section LMAP 0 (lightmap page): checksum "), 0u)
+      << read.error().text();
+  const auto missing = read_pack(folder.path() / "missing.oriel");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::kIo);
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,155 @@
+#include "tests/support/tiny_pack.h"
+
+namespace oriel::testing {
+namespace {
+
+void add_quad(Mesh& mesh, const Vec3& corner, const Vec3& right, const Vec3& up, const Vec2& lightmap_corner,
+              std::uint32_t material, const char* name) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const Vec3 normal = normalize_or(glm::cross(right, up), {0, 1, 0});
+  for (int i = 0; i < 4; ++i) {
+    const auto x = static_cast<float>(i == 1 || i == 2), y = static_cast<float>(i >= 2);
+    mesh.positions.push_back(corner + right * x + up * y);
+    mesh.normals.push_back(normal);
+    mesh.uvs.push_back({x * 3, y * 3});
+    mesh.lightmap_uvs.push_back(lightmap_corner + Vec2(x * 0.5f, y));
+    mesh.colors.push_back(0xff8040ffu);
+  }
+  MeshPart part{name, static_cast<std::uint32_t>(mesh.indices.size()), 6, material, 0};
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+  mesh.parts.push_back(part);
+}
+
+Mesh tiny_mesh() {
+  Mesh mesh;
+  mesh.origin = {1e6, 0.125, -2.5e5};
+  add_quad(mesh, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, {0, 0}, 0, "floor");
+  add_quad(mesh, {-2, 0, -2}, {4, 0, 0}, {0, 3, 0}, {0.5f, 0}, 1, "wall");
+  return mesh;
+}
+
+std::vector<Material> tiny_materials() {
+  Material mirror;
+  mirror.name = "polished";
+  mirror.base_color = {0.9f, 0.8f, 0.7f};
+  mirror.metallic = 1;
+  mirror.roughness = 0.25f;
+  mirror.f0 = mirror.base_color;
+  mirror.kernel = 1;
+  mirror.fresnel_map = 0;
+  Material wall;
+  wall.name = "wall paper \xc3\xa9";
+  wall.base_color = {0.5f, 0.6f, 0.7f};
+  wall.base_color_texture = 0;
+  wall.alpha_mode = AlphaMode::kMask;
+  wall.double_sided = true;
+  wall.emission = {0.5f, 0.25f, 0};
+  return {mirror, wall};
+}
+
+Texture tiny_texture() {
+  Texture texture;
+  texture.name = "checks";
+  texture.width = 4;
+  texture.height = 2;
+  texture.wrap_t = Wrap::kClamp;
+  texture.nearest = true;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    for (std::uint32_t c = 0; c < 4; ++c)
+      texture.texels.push_back(static_cast<std::uint8_t>(c == 3 ? 255 : (i % 3) * 90 + c));
+  return texture;
+}
+
+LightmapPage tiny_lightmap() {
+  LightmapPage page;
+  page.width = 8;
+  page.height = 4;
+  const TexelState states[] = {TexelState::kEmpty, TexelState::kDilated, TexelState::kBuried, TexelState::kValid};
+  for (std::uint32_t i = 0; i < 32; ++i) {
+    const auto v = static_cast<float>(i);
+    page.irradiance.push_back({100 + v * 7.3f, 90 + v, 0.001f * v});
+    page.standard_error.push_back(Vec3(0.01f * v));
+    page.state.push_back(states[i % 4]);
+  }
+  return page;
+}
+
+RadianceMap tiny_radiance_map(float eye_x) {
+  RadianceMap map;
+  map.eye = {eye_x, 0.25f, -1.5f};
+  map.lower = {-2, -2};
+  map.upper = {2, 2};
+  map.width = 6;
+  map.height = 4;
+  map.has_emission = eye_x > 0;
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    const auto v = static_cast<float>(i);
+    map.radiance.push_back({v * 3.7f, 40 + v, 12});
+    map.disparity.push_back(i == 0 ? 0.0f : 1 / (1 + 0.1f * v));
+    map.valid.push_back(static_cast<std::uint8_t>(i == 0 ? 2 : i % 2));
+  }
+  return map;
+}
+
+BrdfKernel tiny_kernel(std::uint32_t size) {
+  BrdfKernel kernel;
+  kernel.size = size;
+  kernel.alpha = size > 1 ? 0.0625f : 0;
+  kernel.half_extent = size > 1 ? 0.3f : 0;
+  kernel.cos_theta = 0.7f;
+  kernel.energy_kept = 0.98f;
+  kernel.weights.assign(std::size_t{size} * size, 1.0f / static_cast<float>(size * size));
+  return kernel;
+}
+
+FresnelMap tiny_fresnel_map() {
+  FresnelMap map;
+  map.alpha = 0.0625f;
+  for (int i = 0; i < 5; ++i) map.table.push_back(Vec3(0.9f, 0.8f, 0.7f) + Vec3(0.02f * static_cast<float>(4 - i)));
+  map.sphere_size = 3;
+  for (int i = 0; i < 9; ++i) map.sphere.push_back(Vec3(0.1f * static_cast<float>(i)));
+  return map;
+}
+
+Reflector tiny_reflector() {
+  Reflector reflector;
+  reflector.name = "floor";
+  // x stays, y becomes -z, z becomes up: the floor's plane seen from above.
+  reflector.pack_from_reflector = Mat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+  reflector.lower = {-2, -2};
+  reflector.upper = {2, 2};
+  reflector.area_m2 = 16;
+  reflector.indices = {0, 1, 2, 0, 2, 3};
+  reflector.elements_x = reflector.elements_y = 1;
+  reflector.map_count = 2;
+  return reflector;
+}
+
+}  // namespace
+
+Pack tiny_pack() {
+  Pack pack;
+  pack.provenance = R"({"tool":"oriel-bake","version":"0.1.0","seed":7,"options":{"texel":0.1}})";
+  pack.plan = R"({"omitted":["movers: the scene has none"]})";
+  pack.sky = {0.5f, 0.6f, 1.0f};
+  pack.mesh = tiny_mesh();
+  pack.materials = tiny_materials();
+  pack.textures = {tiny_texture()};
+  pack.lightmaps = {tiny_lightmap()};
+  pack.reflectors = {tiny_reflector()};
+  pack.radiance_maps = {tiny_radiance_map(-0.5f), tiny_radiance_map(0.5f)};
+  pack.kernels = {tiny_kernel(1), tiny_kernel(5)};
+  pack.fresnel_maps = {tiny_fresnel_map()};
+  pack.cameras = {{"door", {0, 1.6f, 1.5f}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0}, {"plan", {0, 5, 0}, {0, -1, 0}, {0, 0, -1}, 0, 3}};
+  pack.paths = {{"walk", 1.0f, {{0, {0, 1.6f, 1.5f}, {0, 0, -1}}, {2, {0, 1.6f, 0}, {1, 0, 0}}}}};
+  UnknownSection unknown;
+  unknown.kind = 'X' | 'T' << 8 | 'R' << 16 | 'A' << 24;
+  unknown.codec = 77;
+  unknown.raw_bytes = 1000;
+  unknown.count = 3;
+  for (int i = 0; i < 21; ++i) unknown.stored.push_back(static_cast<std::byte>(i * 11));
+  pack.unknown = {unknown};
+  return pack;
+}
+
+}  // namespace oriel::testing
