@@ -22,6 +22,9 @@ struct TexelMapPage {
 // Conservative: a texel is covered when any part of a triangle's image, however small, lies in its square.
 Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context);
 
+// A triangle's corners in texels of its page (which it must have).
+std::array<DVec2, 3> texel_triangle(const Atlas& atlas, std::uint32_t triangle);
+
 // A point of the surface under texel i of a page, uniform over the clipped polygons. u in [0,1)³.
 struct TexelPoint {
   std::uint32_t triangle = 0;

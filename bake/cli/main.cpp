@@ -1,4 +1,5 @@
 // oriel-bake: a glTF scene into one .oriel pack.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -37,10 +38,18 @@ Status check_output(const std::filesystem::path& output) {
   return {};
 }
 
+// The first few; the pack's plan and the report hold them all.
+void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter& printer) {
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < std::min(kShown, omissions.size()); ++i) printer.note("omitted: " + omissions[i]);
+  if (omissions.size() > kShown)
+    printer.note(fmt::format("omitted: {} more, see oriel-inspect info or --report", omissions.size() - kShown));
+}
+
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   ORIEL_TRY_VOID(check_output(args.bake.output));
   ORIEL_TRY(const BakeResult result, bake(args.bake, context));
-  for (const std::string& omission : result.omissions) printer.note("omitted: " + omission);
+  print_omissions(result.omissions, printer);
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
   if (!args.report.empty()) {
     const std::string report = report_json(result);

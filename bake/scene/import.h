@@ -9,8 +9,8 @@
 namespace oriel {
 
 struct ImportOptions {
-  int scene = -1;               // which scene of the file; -1: its default, else the first
-  Vec3 sky{0};                  // constant sky radiance, cd/m²
+  int scene = -1;                                     // which scene of the file; -1: its default, else the first
+  Vec3 sky{0};                                        // constant sky radiance, cd/m²
   std::uint64_t max_bytes = std::uint64_t{16} << 30;  // refuse files and allocations beyond it
 };
 

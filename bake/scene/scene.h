@@ -19,26 +19,29 @@ struct Image {
 
 // Where and how a material reads an image.
 struct TextureSlot {
-  std::int32_t image = -1;        // into Scene::images; -1: no texture
-  std::uint32_t texcoord = 0;     // 0 or 1
-  Mat3 image_from_uv{1};          // KHR_texture_transform, applied to (u, v, 1)
+  std::int32_t image = -1;     // into Scene::images; -1: no texture
+  std::uint32_t texcoord = 0;  // 0 or 1
+  Mat3 image_from_uv{1};       // KHR_texture_transform, applied to (u, v, 1)
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
   bool nearest = false;
 };
 
 struct SceneMaterial {
   std::string name;
-  Vec3 base_color{1};   // linear, clamped to [0,1]
+  Vec3 base_color{1};  // linear, clamped to [0,1]
   float alpha = 1;
   TextureSlot base_color_texture;
   float metallic = 1, roughness = 1;
   TextureSlot metallic_roughness_texture;  // G: roughness, B: metallic
-  Vec3 emission{0};     // cd/m²: emissiveFactor * emissiveStrength
+  Vec3 emission{0};                        // cd/m²: emissiveFactor * emissiveStrength
   TextureSlot emission_texture;
   float ior = 1.5f;
-  float specular = 1;   // KHR_materials_specular
+  float specular = 1;  // KHR_materials_specular
   Vec3 specular_color{1};
-  float transmission = 0;  // KHR_materials_transmission, treated as thin
+  TextureSlot specular_texture;        // A: multiplies specular
+  TextureSlot specular_color_texture;  // multiplies specular_color
+  float transmission = 0;              // KHR_materials_transmission, treated as thin
+  TextureSlot transmission_texture;    // R: multiplies transmission
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
@@ -47,7 +50,7 @@ struct SceneMaterial {
 
 // A primitive of a node, placed in the world.
 struct Surface {
-  std::string name;       // the node's name, or "mesh/primitive" where it has none
+  std::string name;  // the node's name, or "mesh/primitive" where it has none
   std::string mesh_name;
   std::uint32_t material = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;  // into Scene::triangles
@@ -61,16 +64,16 @@ enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
 struct Light {
   std::string name;
   LightType type = LightType::kPoint;
-  Vec3 position{0};       // scene space
+  Vec3 position{0};          // scene space
   Vec3 direction{0, 0, -1};  // unit, the way the light travels (spot, directional)
-  Vec3 intensity{0};      // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
+  Vec3 intensity{0};         // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles
 };
 
 // All surfaces flattened into world-oriented triangles. Scene space is metres relative to `origin`, so that floats stay
 // precise far from the world's origin. Vertex arrays have the same length.
 struct Scene {
-  DVec3 origin{0};  // world position, metres, of scene space's zero: the centre of the bounds
+  DVec3 origin{0};          // world position, metres, of scene space's zero: the centre of the bounds
   Vec3 lower{0}, upper{0};  // bounds, scene space
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // unit shading normals, on the front side (counter-clockwise winding) of their triangles
@@ -82,9 +85,9 @@ struct Scene {
   std::vector<SceneMaterial> materials;
   std::vector<Image> images;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;     // scene space
-  std::vector<CameraPath> paths;   // scene space
-  Vec3 sky{0};                     // constant sky radiance, cd/m² (an option of the bake, not of glTF)
+  std::vector<Camera> cameras;    // scene space
+  std::vector<CameraPath> paths;  // scene space
+  Vec3 sky{0};                    // constant sky radiance, cd/m² (an option of the bake, not of glTF)
 
   float radius() const { return 0.5f * glm::length(upper - lower); }
 };

@@ -5,17 +5,18 @@
 
 namespace oriel {
 
-// Reflection parameters at a point. Diffuse albedo kd and specular lobe are those of glTF 2.0 appendix B
-// (metallic-roughness), see docs/conventions.md.
+// Reflection parameters at a point. Unlit materials take no part in light transport: only base_color is set and
+// coverage is 0. Diffuse albedo kd and specular lobe are those of glTF 2.0 appendix B (metallic-roughness), see
+// docs/conventions.md.
 struct ShadePoint {
-  Vec3 base_color{1};     // linear
-  Vec3 diffuse{0};        // (1 - metallic) * (1 - transmission) * base colour
-  Vec3 f0{0.04f};         // specular reflectance at normal incidence
-  float f90 = 1;          // at grazing incidence
-  float alpha = 1;        // GGX width: roughness²; 0 is a mirror
-  Vec3 transmission{0};   // colour of thin, straight transmission: light that passes, after Fresnel
-  Vec3 emission{0};       // cd/m², front side only unless double-sided
-  float coverage = 1;     // alpha test or blend: 0 lets light pass as if nothing were there
+  Vec3 base_color{1};    // linear
+  Vec3 diffuse{0};       // (1 - metallic) * (1 - transmission) * base colour
+  Vec3 f0{0.04f};        // specular reflectance at normal incidence
+  float f90 = 1;         // at grazing incidence
+  float alpha = 1;       // GGX width: roughness²; 0 is a mirror
+  Vec3 transmission{0};  // colour of thin, straight transmission; times what the specular lobe leaves
+  Vec3 emission{0};      // cd/m², front side only unless double-sided
+  float coverage = 1;    // alpha test or blend: 0 lets light pass as if nothing were there
 };
 
 // barycentric: weights of the triangle's second and third vertex.

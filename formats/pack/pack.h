@@ -15,11 +15,13 @@
 
 namespace oriel {
 
-// A section that this version does not know, kept as it lies in the file so that rewriting a pack loses nothing.
+// An optional section that this version does not know, kept as it lies in the file so that rewriting a pack loses
+// nothing.
 struct UnknownSection {
   std::uint32_t kind = 0;
   std::uint32_t codec = 0;
   std::uint64_t raw_bytes = 0;
+  std::uint64_t count = 0;  // elements, as its section's record says
   Bytes stored;
 };
 

@@ -77,11 +77,15 @@ inline void expect_sound(const Scene& scene, const Built& built) {
     ASSERT_EQ(page.first.size(), page.texel.size() + 1);
     for (std::size_t i = 0; i < page.texel.size(); ++i) {
       ASSERT_LT(page.texel[i], page.width * page.height);
-      if (i > 0) ASSERT_LT(page.texel[i - 1], page.texel[i]);
+      if (i > 0) {
+        ASSERT_LT(page.texel[i - 1], page.texel[i]);
+      }
       ASSERT_LT(page.first[i], page.first[i + 1]);
       for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) {
         const TexelFragment& fragment = page.fragments[f];
-        if (f > page.first[i]) ASSERT_LT(page.fragments[f - 1].triangle, fragment.triangle);
+        if (f > page.first[i]) {
+          ASSERT_LT(page.fragments[f - 1].triangle, fragment.triangle);
+        }
         ASSERT_GT(fragment.area, 0.0f);
         ASSERT_LE(fragment.area, 1.0f);
         ASSERT_EQ(atlas.page[fragment.triangle], static_cast<int>(p));

@@ -74,8 +74,8 @@ TEST(TexelMap, NoTouchedTexelIsMissed) {
     const std::set<std::uint32_t> covered(map[0].texel.begin(), map[0].texel.end());
     for (std::uint32_t y = 0; y < 16; ++y)
       for (std::uint32_t x = 0; x < 16; ++x)
-        if (area(clip_to_cell(texel_triangle(atlas, 0), x, y)) > 0)
-          EXPECT_TRUE(covered.contains(y * 16 + x)) << n << " " << x << " " << y;
+        EXPECT_TRUE(covered.contains(y * 16 + x) || area(clip_to_cell(texel_triangle(atlas, 0), x, y)) == 0)
+            << n << " " << x << " " << y;
   }
 }
 

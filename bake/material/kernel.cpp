@@ -1,0 +1,164 @@
+#include "bake/material/kernel.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "formats/core/check.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kMirrorBelow = 1e-5;  // narrower lobes than any image can resolve
+constexpr int kPolar = 512, kAzimuth = 64;  // quadrature over half vectors
+constexpr int kSubsamples = 4;              // per pixel and axis
+
+// Smith's Λ from tan²θ: G2 = 1 / (1 + Λ(wo) + Λ(wi)).
+double smith_lambda(KernelModel model, double alpha, double cos_v) {
+  const double tan2 = std::max(0.0, 1 - cos_v * cos_v) / (cos_v * cos_v);
+  if (tan2 <= 0) return 0;
+  if (model == KernelModel::kGgxDg) return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
+  // Beckmann, exact: (erf(a) - 1) / 2 + exp(-a²) / (2 a √π), a = 1 / (α tanθ).
+  const double a = 1 / (alpha * std::sqrt(tan2));
+  return std::max(0.0, std::exp(-a * a) / (2 * a * std::sqrt(kPiD)) - 0.5 * std::erfc(a));
+}
+
+// D(h) from tan² and cos of the half vector's angle: no difference of nearly equal numbers at tiny alpha.
+double facet_density(KernelModel model, double alpha, double tan2, double cos_h) {
+  const double a2 = alpha * alpha, c4 = cos_h * cos_h * cos_h * cos_h;
+  if (model == KernelModel::kBeckmannDg) return std::exp(-tan2 / a2) / (kPiD * a2 * c4);
+  const double q = 1 + tan2 / a2;
+  return 1 / (kPiD * a2 * c4 * q * q);
+}
+
+// The mirror direction and its tangent plane; the plane of incidence is x-z of the surface's frame.
+struct MirrorFrame {
+  DVec3 wo, mirror, across, along;
+  explicit MirrorFrame(double cos_theta) {
+    const double sin_theta = std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta));
+    wo = {sin_theta, 0, cos_theta};
+    mirror = {-sin_theta, 0, cos_theta};
+    across = {0, 1, 0};
+    along = {cos_theta, 0, sin_theta};  // towards the normal as the mirror direction tilts away from it
+  }
+};
+
+struct Node {
+  double extent;  // max of |tangents| of the reflected direction; infinite behind the tangent plane
+  double weight;  // of the lobe
+};
+
+// The lobe as nodes of a midpoint rule over half vectors, drawn with density D cosθh:
+// D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
+std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) {
+  const MirrorFrame frame(cos_theta);
+  const double lambda_o = smith_lambda(model, alpha, cos_theta);
+  std::vector<Node> nodes;
+  nodes.reserve(kPolar * kAzimuth);
+  for (int i = 0; i < kPolar; ++i) {
+    const double u = (i + 0.5) / kPolar;
+    const double tan2 = model == KernelModel::kGgxDg ? alpha * alpha * u / (1 - u) : -alpha * alpha * std::log1p(-u);
+    const double cos_h = 1 / std::sqrt(1 + tan2), sin_h = cos_h * std::sqrt(tan2);
+    for (int j = 0; j < kAzimuth; ++j) {
+      const double phi = 2 * kPiD * (j + 0.5) / kAzimuth;
+      const DVec3 h(sin_h * std::cos(phi), sin_h * std::sin(phi), cos_h);
+      const double cos_d = glm::dot(frame.wo, h);
+      const DVec3 wi = 2 * cos_d * h - frame.wo;
+      if (cos_d <= 0 || wi.z <= 0) continue;
+      const double g2 = 1 / (1 + lambda_o + smith_lambda(model, alpha, wi.z));
+      const double toward = glm::dot(wi, frame.mirror);
+      const double extent = toward > 0 ? std::max(std::abs(glm::dot(wi, frame.across)), std::abs(glm::dot(wi, frame.along))) / toward
+                                       : std::numeric_limits<double>::infinity();
+      nodes.push_back({extent, g2 * cos_d / (cos_theta * cos_h) / (kPolar * kAzimuth)});
+    }
+  }
+  return nodes;
+}
+
+struct Extent {
+  double half_extent;
+  double energy_kept;
+};
+
+Extent choose_extent(std::vector<Node> nodes, double alpha, const KernelOptions& options) {
+  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
+    return a.extent != b.extent ? a.extent < b.extent : a.weight < b.weight;
+  });
+  double total = 0;
+  for (const Node& node : nodes) total += node.weight;
+  const double largest = std::clamp(static_cast<double>(options.max_half_extent), 1e-3, 100.0);
+  if (!(total > 0)) return {std::min(largest, 4 * alpha), 0};
+  const double wanted = std::clamp(static_cast<double>(options.energy), 0.01, 0.9999) * total;
+  double kept = 0, extent = 0;
+  for (const Node& node : nodes) {
+    if (node.extent > largest || (kept >= wanted && node.extent > extent)) break;
+    kept += node.weight;
+    extent = node.extent;
+  }
+  if (kept < wanted) extent = largest;
+  return {std::max(extent, alpha), kept / total};
+}
+
+std::uint32_t choose_size(double half_extent, double alpha, std::uint32_t max_size) {
+  const double pixels = std::ceil(4 * half_extent / alpha);  // of alpha / 2 each
+  const auto limit = std::max(max_size, 3u);
+  const auto size = static_cast<std::uint32_t>(std::min<double>(pixels, limit));
+  const std::uint32_t odd = size | 1u;
+  return std::max(3u, odd > limit ? odd - 2 : odd);
+}
+
+double pixel_weight(KernelModel model, double alpha, double cos_theta, const DVec2& centre, double width) {
+  double sum = 0;
+  for (int y = 0; y < kSubsamples; ++y)
+    for (int x = 0; x < kSubsamples; ++x) {
+      const DVec2 offset((x + 0.5) / kSubsamples - 0.5, (y + 0.5) / kSubsamples - 0.5);
+      sum += lobe_density(model, alpha, cos_theta, centre + offset * width);
+    }
+  return sum;
+}
+
+}  // namespace
+
+double lobe_density(KernelModel model, double alpha, double cos_theta, const DVec2& tangent) {
+  const MirrorFrame frame(cos_theta);
+  const double length2 = 1 + glm::dot(tangent, tangent);
+  const DVec3 wi = (frame.mirror + tangent.x * frame.across + tangent.y * frame.along) / std::sqrt(length2);
+  if (wi.z <= 0) return 0;
+  const DVec3 sum = frame.wo + wi;
+  const double tan2 = (sum.x * sum.x + sum.y * sum.y) / (sum.z * sum.z);
+  const double cos_h = 1 / std::sqrt(1 + tan2);
+  const double g2 = 1 / (1 + smith_lambda(model, alpha, cos_theta) + smith_lambda(model, alpha, wi.z));
+  // dω = dA / (1 + t²)^(3/2)
+  return facet_density(model, alpha, tan2, cos_h) * g2 / (4 * cos_theta) / (length2 * std::sqrt(length2));
+}
+
+double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
+  double total = 0;
+  for (const Node& node : lobe_nodes(model, alpha, cos_theta)) total += node.weight;
+  return std::min(total, 1.0);
+}
+
+BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const KernelOptions& options) {
+  const double a = alpha <= 1 ? std::max(alpha, 0.0f) : 1;  // NaN: 1
+  const double c = cos_theta <= 1 ? std::max(cos_theta, 1e-4f) : 1;
+  BrdfKernel kernel{.model = model, .alpha = static_cast<float>(a), .cos_theta = static_cast<float>(c), .weights = {1.0f}};
+  if (a < kMirrorBelow) return kernel;
+
+  const Extent extent = choose_extent(lobe_nodes(model, a, c), a, options);
+  kernel.half_extent = static_cast<float>(extent.half_extent);
+  kernel.energy_kept = static_cast<float>(std::min(extent.energy_kept, 1.0));
+  kernel.size = choose_size(extent.half_extent, a, options.max_size);
+  const double width = 2 * extent.half_extent / kernel.size;
+  std::vector<double> weights(std::size_t{kernel.size} * kernel.size);
+  double sum = 0;
+  for (std::uint32_t y = 0; y < kernel.size; ++y)
+    for (std::uint32_t x = 0; x < kernel.size; ++x) {
+      const DVec2 centre((x + 0.5) * width - extent.half_extent, (y + 0.5) * width - extent.half_extent);
+      sum += weights[y * kernel.size + x] = pixel_weight(model, a, c, centre, width);
+    }
+  ORIEL_CHECK(sum > 0 && std::isfinite(sum));
+  kernel.weights.resize(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) kernel.weights[i] = static_cast<float>(weights[i] / sum);
+  return kernel;
+}
+
+}  // namespace oriel

@@ -1,0 +1,159 @@
+#include "bake/material/materials.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "bake/jobs/parallel.h"
+#include "bake/scene/shade.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kSamples = 1024;  // per textured material
+
+bool is_textured(const Scene& scene, const SceneMaterial& m) {
+  return m.base_color_texture.image >= 0 || m.metallic_roughness_texture.image >= 0 || m.emission_texture.image >= 0 ||
+         !scene.colors.empty();
+}
+
+float dielectric_f0(float ior) {
+  const float r = (ior - 1) / (ior + 1);
+  return r * r;
+}
+
+// The factors alone (docs/conventions.md, "Materials").
+MaterialSummary from_factors(const SceneMaterial& m) {
+  MaterialSummary s;
+  s.base_color = m.base_color;
+  s.metallic = m.metallic;
+  s.roughness = m.roughness;
+  s.alpha = m.roughness * m.roughness;
+  s.transmission = m.transmission;
+  s.diffuse = (1 - m.metallic) * (1 - m.transmission) * m.base_color;
+  s.f0 = glm::mix(glm::min(dielectric_f0(m.ior) * m.specular_color, Vec3(1)) * m.specular, m.base_color, m.metallic);
+  s.f90 = glm::mix(m.specular, 1.0f, m.metallic);
+  s.coverage = m.alpha_mode == AlphaMode::kBlend ? m.alpha : 1;
+  s.emission = m.emission;
+  return s;
+}
+
+float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b) {
+  const TextureSlot& slot = m.metallic_roughness_texture;
+  if (slot.image < 0) return m.metallic;
+  const auto& uvs = slot.texcoord == 1 ? scene.uv1 : scene.uv0;
+  const UVec3 t = scene.triangles[triangle];
+  const Vec2 uv = uvs[t.x] + b.x * (uvs[t.y] - uvs[t.x]) + b.y * (uvs[t.z] - uvs[t.x]);
+  return std::clamp(m.metallic * sample_texture(scene, slot, uv, false).b, 0.0f, 1.0f);
+}
+
+// Sums of what is averaged, in double and in a fixed order.
+struct Sums {
+  DVec3 base_color{0}, diffuse{0}, f0{0}, emission{0};
+  double metallic = 0, roughness = 0, f90 = 0, coverage = 0;
+};
+
+MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::vector<std::uint32_t>& triangles,
+                        const std::vector<double>& area_until) {
+  Sums sums;
+  std::size_t at = 0;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    // Points evenly along the list of areas; inside a triangle the R2 sequence (Roberts 2018) folded at the diagonal.
+    const double area = (i + 0.5) / kSamples * area_until.back();
+    while (at + 1 < triangles.size() && area_until[at] < area) ++at;
+    Vec2 b(glm::fract(DVec2(0.5) + (i + 1.0) * DVec2(0.7548776662466927, 0.5698402909980532)));
+    if (b.x + b.y > 1) b = Vec2(1) - b;
+    const ShadePoint p = shade_point(scene, triangles[at], b);
+    sums.base_color += DVec3(p.base_color);
+    sums.diffuse += DVec3(p.diffuse);
+    sums.f0 += DVec3(p.f0);
+    sums.emission += DVec3(p.emission);
+    sums.f90 += p.f90;
+    sums.coverage += p.coverage;
+    sums.roughness += std::sqrt(p.alpha);
+    sums.metallic += metallic_at(scene, m, triangles[at], b);
+  }
+  MaterialSummary s = from_factors(m);
+  s.base_color = Vec3(sums.base_color / double{kSamples});
+  s.diffuse = Vec3(sums.diffuse / double{kSamples});
+  s.f0 = Vec3(sums.f0 / double{kSamples});
+  s.emission = Vec3(sums.emission / double{kSamples});
+  s.f90 = static_cast<float>(sums.f90 / kSamples);
+  s.coverage = static_cast<float>(sums.coverage / kSamples);
+  s.metallic = static_cast<float>(sums.metallic / kSamples);
+  s.roughness = static_cast<float>(sums.roughness / kSamples);
+  s.alpha = s.roughness * s.roughness;
+  return s;
+}
+
+MaterialSummary summarize(const Scene& scene, std::uint32_t material, const std::vector<std::uint32_t>& triangles) {
+  const SceneMaterial& m = scene.materials[material];
+  std::vector<double> area_until;
+  area_until.reserve(triangles.size());
+  double total = 0;
+  for (const std::uint32_t t : triangles) area_until.push_back(total += triangle_area(scene, t));
+  MaterialSummary s = total > 0 && is_textured(scene, m) ? average(scene, m, triangles, area_until) : from_factors(m);
+  s.area_m2 = total;
+  return s;
+}
+
+int quantised(float x) { return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024)); }
+
+}  // namespace
+
+MaterialSummary summarize_material(const Scene& scene, std::uint32_t material) {
+  std::vector<std::uint32_t> triangles;
+  for (const Surface& surface : scene.surfaces)
+    if (surface.material == material)
+      for (std::uint32_t i = 0; i < surface.triangle_count; ++i) triangles.push_back(surface.first_triangle + i);
+  return summarize(scene, material, triangles);
+}
+
+std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
+  std::vector<std::vector<std::uint32_t>> triangles(scene.materials.size());
+  for (const Surface& surface : scene.surfaces)
+    for (std::uint32_t i = 0; i < surface.triangle_count; ++i)
+      triangles[surface.material].push_back(surface.first_triangle + i);
+  std::vector<MaterialSummary> summaries;
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) summaries.push_back(summarize(scene, m, triangles[m]));
+  return summaries;
+}
+
+Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context) {
+  MaterialMaps maps;
+  maps.summaries = summarize_materials(scene);
+  maps.kernel.assign(scene.materials.size(), -1);
+  maps.fresnel_map.assign(scene.materials.size(), -1);
+
+  // Which maps are needed, in the order of the materials; then all at once.
+  std::map<int, std::int32_t> kernel_of;
+  std::map<std::array<int, 5>, std::int32_t> fresnel_of;
+  std::vector<std::size_t> kernel_owner, fresnel_owner;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const MaterialSummary& s = maps.summaries[m];
+    if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0)) continue;
+    const int roughness = quantised(s.roughness);
+    const auto [fresnel, is_new] = fresnel_of.try_emplace(
+        {quantised(s.f0.r), quantised(s.f0.g), quantised(s.f0.b), quantised(s.f90), roughness}, fresnel_owner.size());
+    if (is_new) fresnel_owner.push_back(m);
+    maps.fresnel_map[m] = fresnel->second;
+    if (s.roughness > options.max_roughness) continue;
+    const auto [kernel, is_new_kernel] = kernel_of.try_emplace(roughness, kernel_owner.size());
+    if (is_new_kernel) kernel_owner.push_back(m);
+    maps.kernel[m] = kernel->second;
+  }
+  maps.kernels.resize(kernel_owner.size());
+  maps.fresnel_maps.resize(fresnel_owner.size());
+  ORIEL_TRY_VOID(parallel_for(context, "material", kernel_owner.size() + fresnel_owner.size(), [&](std::size_t i) {
+    if (i < kernel_owner.size()) {
+      maps.kernels[i] = make_kernel(maps.summaries[kernel_owner[i]].alpha, options.model, 1, options.kernel);
+    } else {
+      const MaterialSummary& s = maps.summaries[fresnel_owner[i - kernel_owner.size()]];
+      maps.fresnel_maps[i - kernel_owner.size()] =
+          make_fresnel_map(s.f0, s.f90, s.alpha, options.table_size, options.sphere_size);
+    }
+  }));
+  return maps;
+}
+
+}  // namespace oriel

@@ -1,0 +1,52 @@
+// K and R for a whole scene, shared between the materials that need the same.
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/material/kernel.h"
+#include "bake/material/reflectance.h"
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+// A material's parameters averaged over the surface that it covers (by area), textures and vertex colours applied.
+// A material that covers nothing keeps its factors.
+struct MaterialSummary {
+  Vec3 base_color{1};      // linear
+  Vec3 diffuse{0};         // (1 - metallic) (1 - transmission) base colour
+  float metallic = 0;
+  float roughness = 1;
+  float alpha = 1;         // GGX width: the square of the mean roughness
+  Vec3 f0{0.04f};
+  float f90 = 1;
+  float transmission = 0;
+  float coverage = 1;
+  Vec3 emission{0};        // cd/m²
+  double area_m2 = 0;
+};
+
+// Textured materials are sampled at a fixed number of points spread over their triangles in proportion to area: the
+// same scene gives the same bytes.
+MaterialSummary summarize_material(const Scene& scene, std::uint32_t material);
+// The same for all materials in one pass over the triangles.
+std::vector<MaterialSummary> summarize_materials(const Scene& scene);
+
+struct MaterialOptions {
+  KernelModel model = KernelModel::kGgxDg;
+  KernelOptions kernel;
+  float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel
+  std::uint32_t table_size = 64, sphere_size = 64;
+};
+
+struct MaterialMaps {
+  std::vector<MaterialSummary> summaries;  // by material, as are the two below
+  std::vector<std::int32_t> kernel;        // into kernels; -1: no specular lobe, too rough, or unlit
+  std::vector<std::int32_t> fresnel_map;   // into fresnel_maps; -1: no specular lobe (f0 = f90 = 0), or unlit
+  std::vector<BrdfKernel> kernels;
+  std::vector<FresnelMap> fresnel_maps;
+};
+
+// Materials whose roughness agrees to 1/1024 share a kernel; those whose f0 and f90 do too share a Fresnel map. Shared
+// maps are those of the first such material. Error kStopped only.
+Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context);
+
+}  // namespace oriel

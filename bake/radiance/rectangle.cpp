@@ -1,0 +1,87 @@
+#include "bake/radiance/rectangle.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kMaxEdges = 256;  // of a hull that are tried: a finer one is round, and any side will do
+
+double cross(const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; }
+
+// Andrew's monotone chain, counter-clockwise, without collinear points.
+std::vector<DVec2> convex_hull(std::span<const DVec2> input) {
+  std::vector<DVec2> points(input.begin(), input.end());
+  std::sort(points.begin(), points.end(), [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<DVec2> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = hull.size();
+    for (const DVec2& p : points) {
+      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+// Keeps the part of a polygon where sign * coordinate <= sign * limit.
+std::vector<DVec2> clip(const std::vector<DVec2>& polygon, int axis, double sign, double limit) {
+  std::vector<DVec2> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const DVec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double da = sign * (limit - a[axis]), db = sign * (limit - b[axis]);
+    if (da >= 0) out.push_back(a);
+    if ((da >= 0) != (db >= 0)) out.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return out;
+}
+
+}  // namespace
+
+Rectangle bounds_along(std::span<const DVec2> points, const DVec2& axis) {
+  const DVec2 left(-axis.y, axis.x);
+  Rectangle r{.axis = axis};
+  bool first = true;
+  for (const DVec2& p : points) {
+    const DVec2 q(glm::dot(p, axis), glm::dot(p, left));
+    r.lower = first ? q : glm::min(r.lower, q);
+    r.upper = first ? q : glm::max(r.upper, q);
+    first = false;
+  }
+  return r;
+}
+
+Rectangle tight_rectangle(std::span<const DVec2> points, const DVec2& preferred) {
+  const std::vector<DVec2> hull = convex_hull(points);
+  const Rectangle aligned = bounds_along(hull, preferred);
+  Rectangle best = aligned;
+  const std::size_t step = hull.size() / kMaxEdges + 1;
+  for (std::size_t i = 0; i < hull.size(); i += step) {
+    const DVec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+    const double length = glm::length(edge);
+    if (!(length > 0)) continue;
+    const Rectangle r = bounds_along(hull, edge / length);
+    if (r.area() < best.area() * (1 - 1e-9)) best = r;
+  }
+  if (aligned.area() <= 1.01 * best.area()) best = aligned;
+  if (best.upper.y - best.lower.y > (best.upper.x - best.lower.x) * (1 + 1e-6))
+    best = bounds_along(hull, DVec2(-best.axis.y, best.axis.x));
+  return best;
+}
+
+double clipped_area(const std::array<DVec2, 3>& triangle, const DVec2& lower, const DVec2& upper) {
+  std::vector<DVec2> polygon(triangle.begin(), triangle.end());
+  for (int axis = 0; axis < 2 && !polygon.empty(); ++axis) {
+    polygon = clip(polygon, axis, 1, upper[axis]);
+    polygon = clip(polygon, axis, -1, lower[axis]);
+  }
+  double twice = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return 0.5 * std::abs(twice);
+}
+
+}  // namespace oriel

@@ -1,0 +1,175 @@
+#include "bake/radiance/reflectors.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/radiance/patches.h"
+#include "bake/radiance/rectangle.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+#include "formats/core/check.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kOpenRays = 128;  // per side of a patch
+constexpr float kMaxFlatness = 1e-3f;     // of a reflector's own size
+
+float reflectance_at_60_deg(const ReflectorMaterial& m) {
+  const float schlick = 1.0f / 32.0f;  // (1 - cos 60°)^5
+  return max_component(m.f0) * (1 - schlick) + m.f90 * schlick;
+}
+
+// Triangles that may reflect, by node name and material: parts of one node that were split by the exporter join again.
+using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>>;
+
+// Why a material shows no image; empty where it may.
+std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r, const ReflectorOptions& options) {
+  if (m.unlit) return "is unlit";
+  const float reflectance = reflectance_at_60_deg(r);
+  if (!(reflectance >= options.min_reflectance))
+    return fmt::format("reflects {:.3g} at 60°, less than {:.3g}", reflectance, options.min_reflectance);
+  if (!(r.roughness <= options.max_roughness))
+    return fmt::format("has roughness {:.3g}, more than {:.3g}", r.roughness, options.max_roughness);
+  if (max_component(m.emission) > 0) return "emits light, which outshines its reflections";
+  return {};
+}
+
+Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> materials, const ReflectorOptions& options,
+                       std::vector<std::string>& omitted) {
+  std::vector<std::string> reason(scene.materials.size());
+  std::vector<char> used(scene.materials.size());
+  for (std::size_t m = 0; m < reason.size(); ++m) reason[m] = excluded_because(scene.materials[m], materials[m], options);
+  Groups groups;
+  for (const Surface& surface : scene.surfaces) {
+    if (surface.triangle_count == 0) continue;
+    used[surface.material] = 1;
+    if (!reason[surface.material].empty()) continue;
+    auto& list = groups[{surface.material, surface.name}];
+    for (std::uint32_t i = 0; i < surface.triangle_count; ++i) list.push_back(surface.first_triangle + i);
+  }
+  for (std::size_t m = 0; m < reason.size(); ++m)
+    // A material without any specular lobe leaves nothing out.
+    if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0)) omitted.push_back(fmt::format("material '{}': {}", scene.materials[m].name, reason[m]));
+  return groups;
+}
+
+// Share of cosine-distributed directions on one side of the patch that see something at a distance worth an image: not
+// the sky where it is black, not the inside of a solid, not a thing closer than a tenth of the patch's size.
+float open_share(const Accel& accel, const PlanarPatch& patch, const DVec3& normal) {
+  const Scene& scene = accel.scene();
+  std::vector<double> area_until;
+  double total = 0;
+  for (const std::uint32_t t : patch.triangles) area_until.push_back(total += triangle_area(scene, t));
+  const float near = 0.1f * static_cast<float>(std::sqrt(patch.area_m2));
+  const auto lift = static_cast<float>(patch.flatness_m) + 1e-6f * scene.radius();
+  const Vec3 n(normal);
+  const Mat3 frame = frame_from_normal(n);
+  std::uint32_t open = 0;
+  for (std::uint32_t i = 0; i < kOpenRays; ++i) {
+    Sampler sampler(0, 0, i);
+    const double area = sampler.next1() * total;
+    const auto at = std::lower_bound(area_until.begin(), area_until.end(), area) - area_until.begin();
+    const std::uint32_t t = patch.triangles[std::min<std::size_t>(at, patch.triangles.size() - 1)];
+    const Vec3 p = point_on(scene, t, square_to_triangle(sampler.next2()));
+    const Vec3 direction = frame * square_to_cosine_hemisphere(sampler.next2());
+    const Hit hit = accel.intersect({p + lift * n, glm::normalize(direction)});
+    if (!hit) {
+      open += max_component(scene.sky) > 0;
+    } else {
+      const SceneMaterial& m = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+      open += hit.distance > near && (hit.front || m.double_sided);
+    }
+  }
+  return static_cast<float>(open) / kOpenRays;
+}
+
+FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool front) {
+  FoundReflector found;
+  found.triangles = patch.triangles;
+  const DVec3 z = front ? patch.normal : -patch.normal;
+  // x as level as it can be, so that "aligned with the world" has a meaning in any plane.
+  const DVec3 up = std::abs(z.y) < 0.99 ? DVec3(0, 1, 0) : DVec3(0, 0, -1);
+  const DVec3 level = glm::normalize(glm::cross(up, z)), ascent = glm::cross(z, level);
+  std::vector<DVec2> points;
+  points.reserve(3 * patch.triangles.size());
+  for (const std::uint32_t t : patch.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const DVec3 p(scene.positions[scene.triangles[t][corner]]);
+      points.emplace_back(glm::dot(p, level), glm::dot(p, ascent));
+    }
+  const Rectangle r = tight_rectangle(points, DVec2(1, 0));
+  const DVec3 x = r.axis.x * level + r.axis.y * ascent, y = glm::cross(z, x);
+  const DVec2 middle = 0.5 * (r.lower + r.upper), half = 0.5 * (r.upper - r.lower);
+  const DVec3 origin = middle.x * x + middle.y * y + (front ? patch.offset : -patch.offset) * z;
+
+  Reflector& out = found.reflector;
+  const Surface& surface = scene.surfaces[scene.triangle_surface[patch.triangles.front()]];
+  out.name = surface.name;
+  out.material = surface.material;
+  out.pack_from_reflector = Mat4(Vec4(Vec3(x), 0), Vec4(Vec3(y), 0), Vec4(Vec3(z), 0), Vec4(Vec3(origin), 1));
+  out.lower = Vec2(-half);
+  out.upper = Vec2(half);
+  out.area_m2 = static_cast<float>(patch.area_m2);
+  out.flatness_m = static_cast<float>(patch.flatness_m);
+  return found;
+}
+
+void add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMaterial& material, const ReflectorOptions& options,
+               FoundReflectors& out) {
+  const Scene& scene = accel.scene();
+  const Surface& surface = scene.surfaces[scene.triangle_surface[patch.triangles.front()]];
+  const bool both = scene.materials[surface.material].double_sided;
+  bool any = false;
+  for (const bool front : {true, false}) {
+    if (!front && !both) continue;
+    if (open_share(accel, patch, front ? patch.normal : -patch.normal) < options.min_open_share) continue;
+    FoundReflector found = make_reflector(scene, patch, front);
+    found.reflectance = reflectance_at_60_deg(material);
+    found.roughness = material.roughness;
+    out.reflectors.push_back(std::move(found));
+    any = true;
+  }
+  if (!any)
+    out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): sees nothing further away than a tenth of its size", surface.name,
+                                      patch.area_m2));
+}
+
+double importance(const FoundReflector& f) { return double{f.reflectance} * f.reflector.area_m2 * (1 - f.roughness); }
+
+}  // namespace
+
+FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials, const ReflectorOptions& options) {
+  const Scene& scene = accel.scene();
+  ORIEL_CHECK_EQ(materials.size(), scene.materials.size());
+  FoundReflectors out;
+  const Groups groups = group_triangles(scene, materials, options, out.omitted);
+  const double radius = scene.radius();
+  const PatchOptions patch_options{.max_angle_rad = options.max_angle_deg * kPiD / 180,
+                                   .max_distance_m = options.flatness * radius,
+                                   .relative_distance = kMaxFlatness,
+                                   .min_distance_m = 1e-6 * radius,
+                                   .min_area_m2 = options.min_area_m2};
+  for (const auto& [key, triangles] : groups) {
+    const auto& [material, name] = key;
+    double total = 0, kept = 0;
+    for (const std::uint32_t t : triangles) total += triangle_area(scene, t);
+    for (const PlanarPatch& patch : find_planar_patches(scene, triangles, patch_options)) {
+      kept += patch.area_m2;
+      add_sides(accel, patch, materials[material], options, out);
+    }
+    if (total - kept > 1e-3 * total)
+      out.omitted.push_back(fmt::format("'{}', material '{}': {:.3g} m² are curved or in planar pieces below {:.3g} m²", name,
+                                        scene.materials[material].name, total - kept, options.min_area_m2));
+  }
+  std::stable_sort(out.reflectors.begin(), out.reflectors.end(), [](const FoundReflector& a, const FoundReflector& b) {
+    return importance(a) != importance(b) ? importance(a) > importance(b) : a.triangles.front() < b.triangles.front();
+  });
+  for (std::size_t i = options.max_reflectors; i < out.reflectors.size(); ++i)
+    out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than the {} reflectors kept",
+                                      out.reflectors[i].reflector.name, out.reflectors[i].reflector.area_m2, options.max_reflectors));
+  if (out.reflectors.size() > options.max_reflectors) out.reflectors.resize(options.max_reflectors);
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,51 @@
+// Which parts of a scene are planar reflectors worth an image of their own (Bastos et al. 1999, section 8.1.3, models a
+// handful of them per house: only what the scene requires).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bake/trace/accel.h"
+#include "formats/assets/radiance_map.h"
+
+namespace oriel {
+
+// What the search must know of a material: averages over its textures.
+struct ReflectorMaterial {
+  float roughness = 1;
+  Vec3 f0{0.04f};
+  float f90 = 1;
+};
+
+struct ReflectorOptions {
+  float max_roughness = 0.4f;       // wider lobes show no image
+  float min_reflectance = 0.03f;    // Schlick's reflectance at 60°, largest channel: weaker ones are not seen
+  float min_area_m2 = 0.25f;        // of one reflector
+  std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
+  float max_angle_deg = 0.5f;       // of a triangle's normal from its reflector's
+  float flatness = 1e-4f;           // largest distance of a vertex from the plane, in scene radii; and at most 1e-3 of the
+                                    // reflector's own size
+  float min_open_share = 0.1f;      // of directions into which it sees something further away than a tenth of its size
+};
+
+struct FoundReflector {
+  Reflector reflector;                   // indices, elements and maps are left empty
+  std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
+  float reflectance = 0;                 // as compared with min_reflectance
+  float roughness = 0;
+};
+
+struct FoundReflectors {
+  std::vector<FoundReflector> reflectors;  // most important first
+  std::vector<std::string> omitted;        // what reflects but was left out, and why; one line each
+};
+
+// Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the
+// middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with the
+// world where that costs no more than 1 % of area; x along the longer side. A double-sided surface reflects on each
+// side from which it can be seen. The order depends on the scene only. materials: one entry for each of the scene's.
+FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
+                                const ReflectorOptions& options = {});
+
+}  // namespace oriel

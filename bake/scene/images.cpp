@@ -1,0 +1,101 @@
+#include "bake/scene/images.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+namespace oriel {
+namespace {
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view magic, std::size_t at = 0) {
+  return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+}
+
+// What else artists put there.
+const char* foreign_format(std::span<const std::byte> bytes) {
+  if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return "WebP";
+  if (starts_with(bytes, "\xABKTX 20\xBB")) return "KTX2";
+  if (starts_with(bytes, "\xABKTX 11\xBB")) return "KTX";
+  if (starts_with(bytes, "DDS ")) return "DDS";
+  if (starts_with(bytes, "GIF8")) return "GIF";
+  if (starts_with(bytes, "BM")) return "BMP";
+  if (starts_with(bytes, "II*") || starts_with(bytes, "MM")) return "TIFF";
+  return "an unknown format";
+}
+
+// Spreads 1 (grey), 2 (grey, alpha), 3 or 4 channels over RGBA.
+void spread(std::vector<std::uint8_t>& texels, std::size_t count, int channels) {
+  for (std::size_t i = count; i-- > 0;) {
+    std::uint8_t in[4] = {0, 0, 0, 255};
+    std::memcpy(in, texels.data() + i * static_cast<std::size_t>(channels), static_cast<std::size_t>(channels));
+    const std::uint8_t grey[4] = {in[0], in[0], in[0], channels == 2 ? in[1] : std::uint8_t{255}};
+    std::memcpy(texels.data() + 4 * i, channels < 3 ? grey : in, 4);
+  }
+}
+
+// An open reader and what it reads from.
+struct Reader {
+  explicit Reader(std::span<const std::byte> bytes) : memory(const_cast<std::byte*>(bytes.data()), bytes.size()) {}
+  OIIO::Filesystem::IOMemReader memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std::string& name) {
+  const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n");
+  if (!png && !starts_with(bytes, "\xFF\xD8\xFF"))
+    return invalid(name, "found {}, expected PNG or JPEG", bytes.empty() ? "no data" : foreign_format(bytes));
+  auto reader = std::make_unique<Reader>(bytes);
+  OIIO::ImageSpec config;
+  OIIO::Filesystem::IOProxy* proxy = &reader->memory;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  reader->input = OIIO::ImageInput::create(png ? "png" : "jpeg");
+  if (!reader->input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", png ? "PNG" : "JPEG");
+  const OIIO::ImageSpec& spec = reader->spec;
+  if (!reader->input->open(png ? "memory.png" : "memory.jpg", reader->spec, config))
+    return invalid(name, "corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
+  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
+      spec.height > static_cast<int>(kMaxImageSize))
+    return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
+  if (spec.nchannels < 1 || spec.nchannels > 4)
+    return invalid(name, "found {} channels, expected 1 to 4", spec.nchannels);
+  return reader;
+}
+
+// OpenImageIO and what it calls may throw.
+template <class Work>
+auto guarded(const std::string& name, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, name, "not enough memory to decode the image");
+  } catch (const std::exception& e) {
+    return invalid(name, "the image cannot be decoded: {}", e.what());
+  }
+}
+
+}  // namespace
+
+Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string& name) {
+  return guarded(name, [&]() -> Result<ImageSize> {
+    ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
+    return ImageSize{static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height)};
+  });
+}
+
+Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& name) {
+  return guarded(name, [&]() -> Result<Image> {
+    ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
+    const int channels = reader->spec.nchannels;
+    Image image{
+        name, static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height), {}};
+    const std::size_t count = std::size_t{image.width} * image.height;
+    image.texels.resize(count * 4);
+    if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
+      return invalid(name, "the image is corrupt: {}", reader->input->geterror());
+    spread(image.texels, count, channels);
+    return image;
+  });
+}
+
+}  // namespace oriel

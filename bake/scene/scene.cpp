@@ -1,0 +1,24 @@
+#include "bake/scene/scene.h"
+
+namespace oriel {
+namespace {
+
+DVec3 doubled_area_vector(const Scene& scene, std::uint32_t triangle) {
+  const UVec3& t = scene.triangles[triangle];
+  const DVec3 a(scene.positions[t.x]);
+  return glm::cross(DVec3(scene.positions[t.y]) - a, DVec3(scene.positions[t.z]) - a);
+}
+
+}  // namespace
+
+Vec3 geometric_normal(const Scene& scene, std::uint32_t triangle) {
+  const DVec3 cross = doubled_area_vector(scene, triangle);
+  return Vec3(cross / std::sqrt(glm::dot(cross, cross)));
+}
+
+double triangle_area(const Scene& scene, std::uint32_t triangle) {
+  const DVec3 cross = doubled_area_vector(scene, triangle);
+  return 0.5 * std::sqrt(glm::dot(cross, cross));
+}
+
+}  // namespace oriel

@@ -1,0 +1,165 @@
+#include "bake/scene/shade.h"
+
+#include <algorithm>
+
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+const SceneMaterial& material_of(const Scene& scene, std::uint32_t triangle) {
+  return scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
+}
+
+template <class V>
+V interpolate(const std::vector<V>& values, const UVec3& t, const Vec2& b) {
+  return (1 - b.x - b.y) * values[t.x] + b.x * values[t.y] + b.y * values[t.z];
+}
+
+Vec4 vertex_color(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
+  if (scene.colors.empty()) return Vec4(1);
+  const UVec3& t = scene.triangles[triangle];
+  const float weights[3] = {1 - b.x - b.y, b.x, b.y};
+  Vec4 color(0);
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 4; ++c)
+      color[c] += weights[k] * static_cast<float>(scene.colors[t[k]] >> (8 * c) & 0xFFu) / 255.0f;
+  return glm::clamp(color, 0.0f, 1.0f);
+}
+
+Vec4 texture_at(const Scene& scene, const TextureSlot& slot, std::uint32_t triangle, const Vec2& b, bool srgb) {
+  if (slot.image < 0) return Vec4(1);
+  return sample_texture(scene, slot,
+                        interpolate(slot.texcoord == 0 ? scene.uv0 : scene.uv1, scene.triangles[triangle], b), srgb);
+}
+
+float coverage_of(const SceneMaterial& material, float alpha) {
+  switch (material.alpha_mode) {
+    case AlphaMode::kOpaque:
+      break;
+    case AlphaMode::kMask:
+      return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+    case AlphaMode::kBlend:
+      return std::clamp(alpha, 0.0f, 1.0f);
+  }
+  return 1;
+}
+
+// Base colour and alpha.
+Vec4 base_at(const Scene& scene, const SceneMaterial& material, std::uint32_t triangle, const Vec2& b) {
+  const Vec4 factor(material.base_color, material.alpha);
+  return glm::clamp(
+      factor * texture_at(scene, material.base_color_texture, triangle, b, true) * vertex_color(scene, triangle, b),
+      0.0f, 1.0f);
+}
+
+std::uint32_t wrapped(double i, std::uint32_t size, Wrap wrap) {
+  const double n = size;
+  if (wrap == Wrap::kClamp) return static_cast<std::uint32_t>(std::clamp(i, 0.0, n - 1));
+  const double period = wrap == Wrap::kMirror ? 2 * n : n;
+  double r = i - std::floor(i / period) * period;
+  if (r >= period) r = 0;  // rounding of a tiny negative i
+  if (r < 0) r = 0;
+  const auto at = static_cast<std::uint32_t>(r);
+  return at < size ? at : 2 * size - 1 - at;
+}
+
+Vec4 texel(const Image& image, double x, double y, const TextureSlot& slot, bool srgb) {
+  const std::uint8_t* p = image.texels.data() + 4 * (std::size_t{wrapped(y, image.height, slot.wrap_t)} * image.width +
+                                                     wrapped(x, image.width, slot.wrap_s));
+  const float alpha = static_cast<float>(p[3]) / 255.0f;
+  if (srgb) return {linear_from_srgb8(p[0]), linear_from_srgb8(p[1]), linear_from_srgb8(p[2]), alpha};
+  return {static_cast<float>(p[0]) / 255.0f, static_cast<float>(p[1]) / 255.0f, static_cast<float>(p[2]) / 255.0f,
+          alpha};
+}
+
+}  // namespace
+
+ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
+  const SceneMaterial& m = material_of(scene, triangle);
+  const Vec4 base = base_at(scene, m, triangle, b);
+  ShadePoint p;
+  p.base_color = Vec3(base);
+  if (m.unlit) {
+    p.f0 = Vec3(0);
+    p.f90 = 0;
+    p.coverage = 0;
+    return p;
+  }
+  p.coverage = coverage_of(m, base.a);
+  const Vec4 mr = texture_at(scene, m.metallic_roughness_texture, triangle, b, false);
+  const float metallic = std::clamp(m.metallic * mr.b, 0.0f, 1.0f),
+              roughness = std::clamp(m.roughness * mr.g, 0.0f, 1.0f);
+  const float transmission =
+      m.transmission > 0 ? m.transmission * texture_at(scene, m.transmission_texture, triangle, b, false).r : 0.0f;
+  const float specular = m.specular * texture_at(scene, m.specular_texture, triangle, b, false).a;
+  const float index = (m.ior - 1) / (m.ior + 1);
+  const Vec3 tint = m.specular_color * Vec3(texture_at(scene, m.specular_color_texture, triangle, b, true));
+  const Vec3 dielectric = glm::min(index * index * tint, Vec3(1)) * specular;
+  p.f0 = glm::mix(dielectric, p.base_color, metallic);
+  p.f90 = glm::mix(specular, 1.0f, metallic);
+  p.alpha = roughness * roughness;
+  p.diffuse = (1 - metallic) * (1 - transmission) * p.base_color;
+  p.transmission = (1 - metallic) * transmission * p.base_color;
+  p.emission = m.emission;
+  if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true));
+  return p;
+}
+
+float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
+  const SceneMaterial& m = material_of(scene, triangle);
+  if (m.unlit) return 0;
+  return m.alpha_mode == AlphaMode::kOpaque ? 1.0f : coverage_of(m, base_at(scene, m, triangle, b).a);
+}
+
+Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
+  if (!may_transmit(material_of(scene, triangle))) return Vec3(0);
+  const ShadePoint p = shade_point(scene, triangle, b);
+  return glm::clamp(Vec3(1 - p.coverage) + p.coverage * (1 - max_component(p.f0)) * p.transmission, 0.0f, 1.0f);
+}
+
+bool may_transmit(const SceneMaterial& material) {
+  return material.unlit || material.alpha_mode != AlphaMode::kOpaque ||
+         (material.transmission > 0 && material.metallic < 1) ||
+         (material.transmission > 0 && material.metallic_roughness_texture.image >= 0);
+}
+
+Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb) {
+  const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
+  // In double: a float of a large coordinate has no texels left, and its floor no integer.
+  const DVec2 at(DMat3(slot.image_from_uv) * DVec3(uv, 1));
+  const double x = at.x * image.width, y = at.y * image.height;
+  if (slot.nearest) return texel(image, std::floor(x), std::floor(y), slot, srgb);
+  const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
+  const auto fx = static_cast<float>(x - 0.5 - left), fy = static_cast<float>(y - 0.5 - top);
+  const Vec4 upper = glm::mix(texel(image, left, top, slot, srgb), texel(image, left + 1, top, slot, srgb), fx);
+  const Vec4 lower = glm::mix(texel(image, left, top + 1, slot, srgb), texel(image, left + 1, top + 1, slot, srgb), fx);
+  return glm::mix(upper, lower, fy);
+}
+
+Vec3 mean_emission(const Scene& scene, std::uint32_t triangle) {
+  const SceneMaterial& m = material_of(scene, triangle);
+  if (m.unlit || max_component(m.emission) <= 0) return Vec3(0);
+  if (m.emission_texture.image < 0) return m.emission;
+  // Midpoints of n² equal parts, about one a texel under the longest edge.
+  const Image& image = scene.images[static_cast<std::size_t>(m.emission_texture.image)];
+  const std::vector<Vec2>& uvs = m.emission_texture.texcoord == 0 ? scene.uv0 : scene.uv1;
+  const UVec3& t = scene.triangles[triangle];
+  double texels = 0;
+  for (int k = 0; k < 3; ++k) {
+    const DVec3 edge = DMat3(m.emission_texture.image_from_uv) * DVec3(uvs[t[(k + 1) % 3]] - uvs[t[k]], 0);
+    texels = std::max(texels, std::hypot(edge.x * image.width, edge.y * image.height));
+  }
+  const int n = static_cast<int>(std::clamp(std::ceil(texels), 1.0, 32.0));
+  DVec3 sum(0);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 2 * (n - i) - 1; ++k) {
+      // Row i holds upright and, between them, upside-down parts.
+      const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
+      const Vec2 b = Vec2(static_cast<float>(k / 2) + third, static_cast<float>(i) + third) / static_cast<float>(n);
+      sum += DVec3(texture_at(scene, m.emission_texture, triangle, b, true));
+    }
+  return m.emission * Vec3(sum / static_cast<double>(n * n));
+}
+
+}  // namespace oriel

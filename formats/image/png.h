@@ -1,0 +1,18 @@
+// PNG files, for pictures to look at and for masks.
+#pragma once
+
+#include <filesystem>
+
+#include "formats/core/result.h"
+#include "formats/image/image.h"
+
+namespace oriel {
+
+// Grey, RGB or RGBA with 8 bits a channel. The same image gives the same bytes; path holds the old file or the whole
+// new one. Errors: kInvalid for a shape that cannot be written, kIo.
+Status write_png(const std::filesystem::path& path, const ByteImage& image);
+
+// Keeps the file's channels, except that grey with alpha becomes RGBA and 16 bits become 8. Errors: kIo, kInvalid.
+Result<ByteImage> read_png(const std::filesystem::path& path);
+
+}  // namespace oriel

@@ -1,0 +1,39 @@
+// The commands of oriel-inspect. Each returns an exit code (docs/conventions.md), puts its result on stdout or into files
+// and its complaints on stderr.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "formats/core/result.h"
+#include "formats/pack/pack.h"
+
+namespace oriel::inspect {
+
+// The text of --version, from CMake.
+inline constexpr const char* kVersion = ORIEL_VERSION;
+
+// The schema number in every JSON result. It rises when a field changes its meaning or goes.
+inline constexpr int kJsonSchema = 1;
+
+// What is inside: sections with sizes, maps with resolutions and statistics, options. All checksums are checked.
+int info(const std::filesystem::path& path, bool json);
+
+// All checksums, and every issue with its number.
+int validate(const std::filesystem::path& path, bool json);
+
+struct ExtractOptions {
+  std::string kind = "all";
+  std::filesystem::path folder;
+};
+
+// The kinds of --kind, "all" last, as one text: "lightmap, radiance_map, …".
+const std::string& extract_kinds();
+
+// Every map as EXR or PNG, and index.json that names them.
+int extract(const std::filesystem::path& path, const ExtractOptions& options);
+
+// Prints "oriel-inspect: error: …" to stderr; gives the exit code.
+int report(const Error& error);
+
+}  // namespace oriel::inspect

@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "formats/core/file.h"
+#include "formats/image/exr.h"
+#include "formats/image/png.h"
+#include "formats/inspect/commands.h"
+#include "formats/inspect/mesh_obj.h"
+#include "formats/pack/reader.h"
+
+namespace oriel::inspect {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Bytes bytes_of(const std::string& text) {
+  const auto* p = reinterpret_cast<const std::byte*>(text.data());
+  return Bytes(p, p + text.size());
+}
+
+FloatImage rgb_image(std::uint32_t width, std::uint32_t height, std::span<const Vec3> values) {
+  FloatImage image{width, height, 3, {}};
+  image.pixels.reserve(values.size() * 3);
+  for (const Vec3& v : values) image.pixels.insert(image.pixels.end(), {v.r, v.g, v.b});
+  return image;
+}
+
+// One file after another into the folder; index.json lists those that were written.
+class Extraction {
+ public:
+  Extraction(const Pack& pack, fs::path folder) : pack_(pack), folder_(std::move(folder)) { index_ = Json::array(); }
+
+  Status lightmaps();
+  Status radiance_maps();
+  Status kernels();
+  Status fresnel_maps();
+  Status textures();
+  Status mesh();
+  Status finish(const fs::path& source);
+
+ private:
+  Status exr(Json& entry, const char* role, const std::string& name, const FloatImage& image, const char* unit) {
+    entry["files"][role] = name;
+    return write_exr(folder_ / name, image, {{"oriel:role", role}, {"oriel:unit", unit}});
+  }
+  Status png(Json& entry, const char* role, const std::string& name, const ByteImage& image) {
+    entry["files"][role] = name;
+    return write_png(folder_ / name, image);
+  }
+
+  const Pack& pack_;
+  fs::path folder_;
+  Json index_;
+};
+
+Status Extraction::lightmaps() {
+  for (std::size_t i = 0; i < pack_.lightmaps.size(); ++i) {
+    const auto& page = pack_.lightmaps[i];
+    const std::string name = fmt::format("lightmap_{:03}", i);
+    Json entry{{"kind", "lightmap"}, {"number", i}, {"width", page.width}, {"height", page.height}, {"unit", "lux"}};
+    ORIEL_TRY_VOID(exr(entry, "irradiance", name + ".exr", rgb_image(page.width, page.height, page.irradiance), "lux"));
+    ORIEL_TRY_VOID(
+        exr(entry, "standard_error", name + "_error.exr", rgb_image(page.width, page.height, page.standard_error), "lux"));
+    ByteImage states{page.width, page.height, 1, {}};
+    for (const TexelState state : page.state) states.pixels.push_back(static_cast<std::uint8_t>(state));
+    ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", states));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::radiance_maps() {
+  for (std::size_t i = 0; i < pack_.radiance_maps.size(); ++i) {
+    const auto& map = pack_.radiance_maps[i];
+    const std::string name = fmt::format("radiance_map_{:04}", i);
+    Json entry{{"kind", "radiance_map"},
+               {"number", i},
+               {"width", map.width},
+               {"height", map.height},
+               {"unit", "cd/m2"},
+               {"reflector", map.reflector},
+               {"eye", {map.eye.x, map.eye.y, map.eye.z}},
+               {"lower", {map.lower.x, map.lower.y}},
+               {"upper", {map.upper.x, map.upper.y}},
+               {"has_emission", map.has_emission}};
+    ORIEL_TRY_VOID(exr(entry, "radiance", name + ".exr", rgb_image(map.width, map.height, map.radiance), "cd/m2"));
+    ORIEL_TRY_VOID(exr(entry, "disparity", name + "_disparity.exr", {map.width, map.height, 1, map.disparity}, "1"));
+    ByteImage valid{map.width, map.height, 1, map.valid};
+    for (auto& v : valid.pixels) v = v == 1 ? 255 : v == 2 ? 128 : 0;
+    ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", valid));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::kernels() {
+  for (std::size_t i = 0; i < pack_.kernels.size(); ++i) {
+    const auto& kernel = pack_.kernels[i];
+    Json entry{{"kind", "brdf_kernel"},
+               {"number", i},
+               {"size", kernel.size},
+               {"model", kernel.model == KernelModel::kGgxDg ? "ggx_dg" : "beckmann_dg"},
+               {"alpha", kernel.alpha},
+               {"cos_theta", kernel.cos_theta},
+               {"half_extent", kernel.half_extent},
+               {"energy_kept", kernel.energy_kept}};
+    ORIEL_TRY_VOID(exr(entry, "weights", fmt::format("brdf_kernel_{:02}.exr", i), {kernel.size, kernel.size, 1, kernel.weights},
+                       "1"));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::fresnel_maps() {
+  for (std::size_t i = 0; i < pack_.fresnel_maps.size(); ++i) {
+    const auto& map = pack_.fresnel_maps[i];
+    const std::string name = fmt::format("fresnel_map_{:02}", i);
+    Json entry{{"kind", "fresnel_map"}, {"number", i}, {"alpha", map.alpha}, {"sphere_size", map.sphere_size}};
+    if (map.sphere_size > 0)
+      ORIEL_TRY_VOID(exr(entry, "sphere", name + ".exr", rgb_image(map.sphere_size, map.sphere_size, map.sphere), "1"));
+    const auto entries = static_cast<std::uint32_t>(map.table.size());
+    ORIEL_TRY_VOID(exr(entry, "table", name + "_table.exr", rgb_image(entries, 1, map.table), "1"));
+    std::string csv = "cos_theta,r,g,b\n";
+    for (std::size_t k = 0; k < map.table.size(); ++k) {
+      const double root = static_cast<double>(k) / static_cast<double>(map.table.size() - 1);
+      csv += fmt::format("{},{},{},{}\n", root * root, map.table[k].r, map.table[k].g, map.table[k].b);
+    }
+    entry["files"]["table_csv"] = name + "_table.csv";
+    ORIEL_TRY_VOID(write_file_atomically(folder_ / (name + "_table.csv"), bytes_of(csv)));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::textures() {
+  for (std::size_t i = 0; i < pack_.textures.size(); ++i) {
+    const auto& texture = pack_.textures[i];
+    Json entry{{"kind", "texture"}, {"number", i}, {"name", texture.name}, {"width", texture.width}, {"height", texture.height}};
+    ORIEL_TRY_VOID(
+        png(entry, "color", fmt::format("texture_{:03}.png", i), {texture.width, texture.height, 4, texture.texels}));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::mesh() {
+  Json entry{{"kind", "mesh"},
+             {"vertices", pack_.mesh.positions.size()},
+             {"triangles", pack_.mesh.indices.size() / 3},
+             {"origin", {pack_.mesh.origin.x, pack_.mesh.origin.y, pack_.mesh.origin.z}}};
+  entry["files"] = {{"geometry", "mesh.obj"}};
+  ORIEL_TRY_VOID(write_file_atomically(folder_ / "mesh.obj", bytes_of(obj_text(pack_.mesh))));
+  index_.push_back(std::move(entry));
+  return {};
+}
+
+Status Extraction::finish(const fs::path& source) {
+  const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
+  ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json",
+                                       bytes_of(out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")));
+  fmt::print("{}\n", (folder_ / "index.json").string());
+  return {};
+}
+
+struct Kind {
+  const char* name;
+  Status (Extraction::*write)();
+};
+constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},       {"radiance_map", &Extraction::radiance_maps},
+                           {"brdf_kernel", &Extraction::kernels},      {"fresnel_map", &Extraction::fresnel_maps},
+                           {"texture", &Extraction::textures},         {"mesh", &Extraction::mesh}};
+
+}  // namespace
+
+const std::string& extract_kinds() {
+  static const std::string names = [] {
+    std::string text;
+    for (const auto& kind : kKinds) text += std::string(kind.name) + ", ";
+    return text + "all";
+  }();
+  return names;
+}
+
+int extract(const fs::path& path, const ExtractOptions& options) {
+  bool known = options.kind == "all";
+  for (const auto& kind : kKinds) known = known || options.kind == kind.name;
+  if (!known)
+    return report({ErrorCode::kUsage, fmt::format("found '{}', expected one of {}", options.kind, extract_kinds()), "--kind"});
+  const auto pack = read_pack(path);
+  if (!pack) return report(pack.error());
+  std::error_code ec;
+  fs::create_directories(options.folder, ec);
+  if (ec) return report({ErrorCode::kIo, "cannot be made: " + ec.message(), options.folder.string()});
+  Extraction extraction(*pack, options.folder);
+  for (const auto& kind : kKinds) {
+    if (options.kind != "all" && options.kind != kind.name) continue;
+    if (const auto status = (extraction.*kind.write)(); !status) return report(status.error());
+  }
+  if (const auto status = extraction.finish(path); !status) return report(status.error());
+  return 0;
+}
+
+}  // namespace oriel::inspect

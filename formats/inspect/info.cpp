@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "formats/core/file.h"
+#include "formats/inspect/commands.h"
+#include "formats/inspect/summary.h"
+#include "formats/pack/index.h"
+#include "formats/pack/reader.h"
+#include "formats/pack/validate.h"
+
+namespace oriel::inspect {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json sections_json(const PackIndex& index) {
+  Json out = Json::array();
+  for (const auto& section : index.sections) {
+    const auto* known = find_section_kind(section.kind);
+    out.push_back({{"kind", kind_text(section.kind)},
+                   {"meaning", known ? known->meaning : "unknown"},
+                   {"optional", section.optional},
+                   {"codec", section.codec},
+                   {"offset", section.offset},
+                   {"stored_bytes", section.stored_bytes},
+                   {"raw_bytes", section.raw_bytes},
+                   {"count", section.count},
+                   {"checksum", fmt::format("{:016x}", section.checksum)}});
+  }
+  return out;
+}
+
+Json mesh_json(const Mesh& mesh) {
+  const Bounds bounds = bounds_of(mesh);
+  Json parts = Json::array();
+  for (const auto& part : mesh.parts)
+    parts.push_back({{"name", part.name},
+                     {"triangles", part.index_count / 3},
+                     {"material", part.material},
+                     {"lightmap_page", part.lightmap_page}});
+  return {{"vertices", mesh.positions.size()},
+          {"triangles", mesh.indices.size() / 3},
+          {"has_colors", !mesh.colors.empty()},
+          {"origin", {mesh.origin.x, mesh.origin.y, mesh.origin.z}},
+          {"lower", triple(bounds.lower)},
+          {"upper", triple(bounds.upper)},
+          {"parts", parts}};
+}
+
+Json lightmaps_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& page : pack.lightmaps) {
+    const auto s = summarise(page);
+    out.push_back({{"width", page.width},
+                   {"height", page.height},
+                   {"texels", {{"empty", s.states[0]}, {"dilated", s.states[1]}, {"buried", s.states[2]}, {"valid", s.states[3]}}},
+                   {"lux", {{"min", s.min_lux}, {"mean", s.mean_lux}, {"max", s.max_lux}}},
+                   {"relative_standard_error", s.error}});
+  }
+  return out;
+}
+
+Json reflectors_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& r : pack.reflectors)
+    out.push_back({{"name", r.name},
+                   {"material", r.material},
+                   {"area_m2", r.area_m2},
+                   {"flatness_m", r.flatness_m},
+                   {"elements", {r.elements_x, r.elements_y}},
+                   {"first_map", r.first_map},
+                   {"map_count", r.map_count}});
+  return out;
+}
+
+Json radiance_maps_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& map : pack.radiance_maps) {
+    const auto s = summarise(map);
+    out.push_back({{"reflector", map.reflector},
+                   {"width", map.width},
+                   {"height", map.height},
+                   {"eye", triple(map.eye)},
+                   {"has_emission", map.has_emission},
+                   {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
+                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
+  }
+  return out;
+}
+
+Json materials_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& m : pack.materials)
+    out.push_back({{"name", m.name},
+                   {"roughness", m.roughness},
+                   {"metallic", m.metallic},
+                   {"texture", m.base_color_texture},
+                   {"kernel", m.kernel},
+                   {"fresnel_map", m.fresnel_map}});
+  return out;
+}
+
+Json small_maps_json(const Pack& pack, Json out) {
+  out["textures"] = Json::array();
+  for (const auto& t : pack.textures)
+    out["textures"].push_back({{"name", t.name}, {"width", t.width}, {"height", t.height}});
+  out["kernels"] = Json::array();
+  for (const auto& k : pack.kernels)
+    out["kernels"].push_back({{"size", k.size},
+                              {"alpha", k.alpha},
+                              {"cos_theta", k.cos_theta},
+                              {"half_extent", k.half_extent},
+                              {"energy_kept", k.energy_kept}});
+  out["fresnel_maps"] = Json::array();
+  for (const auto& f : pack.fresnel_maps)
+    out["fresnel_maps"].push_back({{"alpha", f.alpha}, {"table_entries", f.table.size()}, {"sphere_size", f.sphere_size}});
+  out["cameras"] = Json::array();
+  for (const auto& c : pack.cameras) out["cameras"].push_back(c.name);
+  out["paths"] = Json::array();
+  for (const auto& p : pack.paths) out["paths"].push_back({{"name", p.name}, {"keys", p.keys.size()}});
+  return out;
+}
+
+Json describe(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
+  Json out;
+  out["schema"] = kJsonSchema;
+  out["file"] = path.string();
+  out["version"] = index.version;
+  out["bytes"] = index.file_bytes;
+  // validate() has seen that these are JSON objects, or empty.
+  out["provenance"] = pack.provenance.empty() ? Json() : Json::parse(pack.provenance);
+  out["plan"] = pack.plan.empty() ? Json() : Json::parse(pack.plan);
+  out["sections"] = sections_json(index);
+  out["mesh"] = mesh_json(pack.mesh);
+  out["sky"] = triple(pack.sky);
+  out["materials"] = materials_json(pack);
+  out["lightmaps"] = lightmaps_json(pack);
+  out["reflectors"] = reflectors_json(pack);
+  out["radiance_maps"] = radiance_maps_json(pack);
+  return small_maps_json(pack, std::move(out));
+}
+
+void print_sections(const PackIndex& index) {
+  // Kinds with a section an element share a line.
+  fmt::print("\nsections           number     stored bytes        raw bytes\n");
+  for (std::size_t i = 0; i < index.sections.size();) {
+    const auto kind = index.sections[i].kind;
+    const auto* known = find_section_kind(kind);
+    std::uint64_t number = 0, stored = 0, raw = 0;
+    for (; i < index.sections.size() && index.sections[i].kind == kind; ++i) {
+      number += index.sections[i].count;
+      stored += index.sections[i].stored_bytes;
+      raw += index.sections[i].raw_bytes;
+    }
+    fmt::print("{} {:<14}{:>6} {:>16} {:>16}\n", kind_text(kind), known ? known->meaning : "unknown", number, stored, raw);
+  }
+}
+
+void print_maps(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
+    const auto& page = pack.lightmaps[i];
+    const auto s = summarise(page);
+    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %\n", i, page.width,
+               page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error);
+  }
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
+    const auto& r = pack.reflectors[i];
+    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}\n", i, r.name,
+               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map);
+  }
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const auto& map = pack.radiance_maps[i];
+    const auto s = summarise(map);
+    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i, map.width,
+               map.height, map.reflector, 100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()),
+               s.mean, s.max);
+  }
+  for (std::size_t i = 0; i < pack.kernels.size(); ++i)
+    fmt::print("kernel {}: {} x {}, alpha {:.4g}, at cosine {:.4g}, keeps {:.4g} of the lobe\n", i, pack.kernels[i].size,
+               pack.kernels[i].size, pack.kernels[i].alpha, pack.kernels[i].cos_theta, pack.kernels[i].energy_kept);
+  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i)
+    fmt::print("Fresnel map {}: alpha {:.4g}, {} entries, sphere map {} x {}\n", i, pack.fresnel_maps[i].alpha,
+               pack.fresnel_maps[i].table.size(), pack.fresnel_maps[i].sphere_size, pack.fresnel_maps[i].sphere_size);
+}
+
+void print_text(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
+  const Bounds bounds = bounds_of(pack.mesh);
+  const Vec3 size = bounds.upper - bounds.lower;
+  fmt::print("{}: {} bytes, format version {}\n", path.string(), index.file_bytes, index.version);
+  fmt::print("mesh: {} triangles, {} vertices, {} parts, {:.4g} x {:.4g} x {:.4g} m around ({:.6g}, {:.6g}, {:.6g})\n",
+             pack.mesh.indices.size() / 3, pack.mesh.positions.size(), pack.mesh.parts.size(), size.x, size.y, size.z,
+             pack.mesh.origin.x, pack.mesh.origin.y, pack.mesh.origin.z);
+  fmt::print("{} materials, {} textures, sky ({:.4g}, {:.4g}, {:.4g}) cd/m2\n", pack.materials.size(), pack.textures.size(),
+             pack.sky.r, pack.sky.g, pack.sky.b);
+  print_sections(index);
+  fmt::print("\n");
+  print_maps(pack);
+  for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
+  for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());
+  for (const auto& [name, text] : {std::pair("provenance", &pack.provenance), std::pair("plan", &pack.plan)})
+    if (!text->empty())
+      fmt::print("\n{}: {}\n", name, Json::parse(*text).dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+int info(const std::filesystem::path& path, bool json) {
+  const auto file = read_file(path);
+  if (!file) return report(file.error());
+  const auto at_path = [&](Error error) {
+    error.where = error.where.empty() ? path.string() : path.string() + ": " + error.where;
+    return report(error);
+  };
+  const auto index = read_index(*file);
+  if (!index) return at_path(index.error());
+  const auto pack = decode_pack(*file);
+  if (!pack) return at_path(pack.error());
+  for (const auto& issue : oriel::validate(*pack))
+    if (issue.severity == Severity::kError)
+      return at_path({ErrorCode::kInvalid, fmt::format("issue {}: {}", issue.number, issue.message), issue.section});
+  if (json)
+    fmt::print("{}\n", describe(path, *index, *pack).dump(2, ' ', false, Json::error_handler_t::replace));
+  else
+    print_text(path, *index, *pack);
+  return 0;
+}
+
+}  // namespace oriel::inspect

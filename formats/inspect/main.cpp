@@ -1,0 +1,81 @@
+// oriel-inspect: what a pack holds, and whether it can be trusted. docs/oriel-inspect.md is its page.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "formats/inspect/commands.h"
+
+namespace oriel::inspect {
+namespace {
+
+constexpr const char* kFooter = R"(
+Exit codes:
+  0  done; for validate: the pack is valid
+  1  usage: an unknown option, command or value
+  2  a file cannot be read or written
+  3  the pack is damaged or invalid
+  4  failed at run time: memory
+
+Examples:
+  oriel-inspect info house.oriel               what is inside, for people
+  oriel-inspect info house.oriel --json        the same for programs
+  oriel-inspect validate house.oriel           every checksum and every number
+  oriel-inspect extract house.oriel --kind lightmap -o maps
+                                               maps/lightmap_000.exr holds irradiance in lux
+
+docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
+
+int run(int argc, char** argv) {
+  CLI::App app("oriel-inspect: tells what an .oriel pack holds and whether it can be trusted.", "oriel-inspect");
+  app.set_version_flag("--version", std::string("oriel-inspect ") + kVersion);
+  app.footer(kFooter);
+  app.require_subcommand(1);
+
+  std::string pack;
+  bool json = false;
+  ExtractOptions options;
+
+  auto* info_command = app.add_subcommand("info", "Show sections, sizes, maps, statistics and the options of the bake");
+  info_command->add_option("PACK", pack, "The .oriel file")->required();
+  info_command->add_flag("--json", json, "Print JSON: stable names, one object, for programs to read");
+
+  auto* validate_command = app.add_subcommand("validate", "Check all checksums and the meaning of every number");
+  validate_command->add_option("PACK", pack, "The .oriel file")->required();
+  validate_command->add_flag("--json", json, "Print the issues as JSON");
+
+  auto* extract_command = app.add_subcommand("extract", "Write the maps as EXR and PNG files, and index.json");
+  extract_command->add_option("PACK", pack, "The .oriel file")->required();
+  extract_command->add_option("--kind", options.kind, "What to write: " + extract_kinds())->capture_default_str();
+  extract_command->add_option("-o,--output", options.folder, "The folder to write to; it is made where it is missing")
+      ->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
+  }
+  if (info_command->parsed()) return info(pack, json);
+  if (validate_command->parsed()) return validate(pack, json);
+  return extract(pack, options);
+}
+
+}  // namespace
+
+int report(const Error& error) {
+  std::fprintf(stderr, "oriel-inspect: error: %s\n", error.text().c_str());
+  return static_cast<int>(error.code);
+}
+
+}  // namespace oriel::inspect
+
+int main(int argc, char** argv) {
+  try {
+    const int code = oriel::inspect::run(argc, argv);
+    // A full disk or a closed pipe shows here at the latest.
+    if (std::fflush(stdout) != 0)
+      return oriel::inspect::report({oriel::ErrorCode::kIo, "the result cannot be written", "stdout"});
+    return code;
+  } catch (const std::exception& e) {
+    return oriel::inspect::report({oriel::ErrorCode::kRuntime, e.what(), ""});
+  }
+}

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "formats/core/file.h"
+#include "formats/inspect/commands.h"
+#include "formats/pack/index.h"
+#include "formats/pack/reader.h"
+#include "formats/pack/validate.h"
+
+namespace oriel::inspect {
+namespace {
+
+// Damage has number 1: the bytes are not what was written, so that nothing can be said about their meaning. All damaged
+// sections are named, not only the first.
+std::vector<Issue> damage(const Bytes& file) {
+  std::vector<Issue> issues;
+  const auto add = [&](const Error& error) {
+    issues.push_back({1, Severity::kError, error.where, error.message});
+  };
+  const auto index = read_index(file);
+  if (!index) {
+    add(index.error());
+    return issues;
+  }
+  for (const auto& section : index->sections)
+    if (const auto status = check_section(file, section); !status) add(status.error());
+  return issues;
+}
+
+void print_text(const std::vector<Issue>& issues, std::size_t errors) {
+  for (const auto& issue : issues)
+    fmt::print("{} {}: {}: {}\n", issue.severity == Severity::kError ? "error" : "warning", issue.number, issue.section,
+               issue.message);
+  if (errors == 0)
+    fmt::print("valid{}\n", issues.empty() ? "" : fmt::format(" ({} warnings)", issues.size()));
+  else
+    fmt::print("invalid ({} errors, {} warnings)\n", errors, issues.size() - errors);
+}
+
+void print_json(const std::filesystem::path& path, const std::vector<Issue>& issues, std::size_t errors) {
+  nlohmann::ordered_json out;
+  out["schema"] = kJsonSchema;
+  out["file"] = path.string();
+  out["valid"] = errors == 0;
+  out["issues"] = nlohmann::ordered_json::array();
+  for (const auto& issue : issues)
+    out["issues"].push_back({{"number", issue.number},
+                             {"severity", issue.severity == Severity::kError ? "error" : "warning"},
+                             {"section", issue.section},
+                             {"message", issue.message}});
+  fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+int validate(const std::filesystem::path& path, bool json) {
+  const auto file = read_file(path);
+  if (!file) return report(file.error());
+  auto issues = damage(*file);
+  if (issues.empty()) {
+    const auto pack = decode_pack(*file);
+    if (!pack && pack.error().code != ErrorCode::kInvalid) return report(pack.error());
+    if (pack)
+      issues = oriel::validate(*pack);
+    else
+      issues.push_back({1, Severity::kError, pack.error().where, pack.error().message});
+  }
+  std::size_t errors = 0;
+  for (const auto& issue : issues) errors += issue.severity == Severity::kError ? 1 : 0;
+  if (json)
+    print_json(path, issues, errors);
+  else
+    print_text(issues, errors);
+  return errors == 0 ? 0 : static_cast<int>(ErrorCode::kInvalid);
+}
+
+}  // namespace oriel::inspect

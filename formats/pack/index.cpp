@@ -1,0 +1,180 @@
+#include "formats/pack/index.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "formats/core/hash.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint64_t align(std::uint64_t offset) {
+  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+}
+
+template <class T>
+T load(std::span<const std::byte> file, std::size_t offset) {
+  T value;
+  std::memcpy(&value, file.data() + offset, sizeof(T));
+  return value;
+}
+
+Result<FileHeader> read_header(std::span<const std::byte> file) {
+  const std::size_t magic_bytes = std::min(file.size(), kPackMagic.size());
+  if (magic_bytes == 0 || std::memcmp(file.data(), kPackMagic.data(), magic_bytes) != 0)
+    return invalid("header", "is not an .oriel pack: the first bytes are not its magic");
+  if (file.size() < sizeof(FileHeader))
+    return invalid("header", "the file has {} bytes, expected at least the {} of a header", file.size(),
+                   sizeof(FileHeader));
+  const auto header = load<FileHeader>(file, 0);
+  if (header.version != kPackVersion)
+    return invalid("header", "found format version {}, this program reads version {}", header.version, kPackVersion);
+  if (header.flags != 0) return invalid("header", "found flags {:#x}, expected 0 (reserved)", header.flags);
+  if (header.record_bytes != sizeof(SectionRecord))
+    return invalid("header", "found {} bytes a table record, expected {}", header.record_bytes, sizeof(SectionRecord));
+  if (header.table_offset != sizeof(FileHeader))
+    return invalid("header", "found the table at byte {}, expected {}", header.table_offset, sizeof(FileHeader));
+  if (header.reserved[0] != 0 || header.reserved[1] != 0)
+    return invalid("header", "found reserved bytes that are not zero");
+  if (header.section_count > kMaxSections)
+    return invalid("header", "found {} sections, at most {} are accepted", header.section_count, kMaxSections);
+  const std::uint64_t table_end = sizeof(FileHeader) + std::uint64_t{header.section_count} * sizeof(SectionRecord);
+  if (table_end > file.size())
+    return invalid("section table", "the file ends at byte {}, inside the table of {} sections, expected at least {}",
+                   file.size(), header.section_count, table_end);
+  Bytes covered(file.begin(), file.begin() + offsetof(FileHeader, checksum));
+  covered.insert(covered.end(), file.begin() + sizeof(FileHeader), file.begin() + static_cast<std::ptrdiff_t>(table_end));
+  const std::uint64_t checksum = hash64(covered);
+  if (checksum != header.checksum)
+    return invalid("section table", "header and table have checksum {:016x}, expected {:016x}", checksum,
+                   header.checksum);
+  return header;
+}
+
+Status check_kind(const SectionInfo& section, std::uint64_t nth) {
+  const auto* known = find_section_kind(section.kind);
+  if (!known) {
+    if (!section.optional)
+      return invalid(section.label, "is of a kind that this program does not know, and is not marked as optional");
+    return {};
+  }
+  if (known->optional != section.optional)
+    return invalid(section.label, "found it marked as {}, expected {}", section.optional ? "optional" : "required",
+                   known->optional ? "optional" : "required");
+  if (!known->one_each && nth > 0) return invalid(section.label, "is there more than once, expected once");
+  if (known->one_each && section.count != 1)
+    return invalid(section.label, "found {} elements, expected 1", section.count);
+  if (section.codec > static_cast<std::uint32_t>(Codec::kZstd))
+    return invalid(section.label, "found codec {}, expected 0 (none) or 1 (zstd)", section.codec);
+  return {};
+}
+
+Status check_sizes(const SectionInfo& section, std::uint64_t expected_offset, std::span<const std::byte> file) {
+  if (section.offset != expected_offset)
+    return invalid(section.label, "found it at byte {}, expected {}", section.offset, expected_offset);
+  if (section.offset > file.size() || section.stored_bytes > file.size() - section.offset)
+    return invalid(section.label, "the file is truncated: it ends at byte {}, expected at least {} bytes from byte {}",
+                   file.size(), section.stored_bytes, section.offset);
+  if (section.codec == static_cast<std::uint32_t>(Codec::kNone) && section.raw_bytes != section.stored_bytes)
+    return invalid(section.label, "found {} raw bytes, expected the {} that are stored", section.raw_bytes,
+                   section.stored_bytes);
+  if (section.raw_bytes / kMaxExpansion > section.stored_bytes)
+    return invalid(section.label, "found {} raw bytes for {} stored, at most {} for each are accepted",
+                   section.raw_bytes, section.stored_bytes, kMaxExpansion);
+  return {};
+}
+
+}  // namespace
+
+std::string kind_text(std::uint32_t kind) {
+  std::string text;
+  for (int i = 0; i < 4; ++i) {
+    const auto c = static_cast<unsigned char>(kind >> 8 * i);
+    if (c < 32 || c > 126) return fmt::format("{:#010x}", kind);
+    text += static_cast<char>(c);
+  }
+  return text;
+}
+
+std::string section_label(std::uint32_t kind, std::uint64_t nth) {
+  const auto* known = find_section_kind(kind);
+  if (!known) return fmt::format("section {} (unknown)", kind_text(kind));
+  if (!known->one_each) return fmt::format("section {} ({})", kind_text(kind), known->meaning);
+  return fmt::format("section {} {} ({})", kind_text(kind), nth, known->meaning);
+}
+
+Result<PackIndex> read_index(std::span<const std::byte> file) {
+  ORIEL_TRY(const FileHeader header, read_header(file));
+  PackIndex index{header.version, header.file_bytes, {}};
+  std::map<std::uint32_t, std::uint64_t> seen;
+  std::uint64_t end = sizeof(FileHeader) + std::uint64_t{header.section_count} * sizeof(SectionRecord);
+  std::uint64_t raw_total = 0;
+  for (std::uint32_t i = 0; i < header.section_count; ++i) {
+    const auto record = load<SectionRecord>(file, sizeof(FileHeader) + i * sizeof(SectionRecord));
+    const std::uint64_t nth = seen[record.kind]++;
+    SectionInfo section{record.kind,         record.codec,     (record.flags & kSectionOptional) != 0,
+                        record.offset,       record.stored_bytes, record.raw_bytes,
+                        record.count,        record.checksum,  section_label(record.kind, nth)};
+    if ((record.flags & ~kSectionOptional) != 0 || record.reserved0 != 0 || record.reserved1 != 0)
+      return invalid(section.label, "found reserved bits that are not zero");
+    ORIEL_TRY_VOID(check_kind(section, nth));
+    ORIEL_TRY_VOID(check_sizes(section, align(end), file));
+    const auto padding = file.subspan(end, section.offset - end);
+    if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; }))
+      return invalid(section.label, "the padding before it is not zero");
+    // Each addend is at most kMaxExpansion times the file's length; the sum is checked before it can wrap.
+    if (section.raw_bytes > kMaxRawBytes || (raw_total += section.raw_bytes) > kMaxRawBytes)
+      return invalid(section.label, "the sections hold more than the accepted {} bytes when decompressed", kMaxRawBytes);
+    end = section.offset + section.stored_bytes;
+    index.sections.push_back(std::move(section));
+  }
+  for (const auto& kind : kSectionKinds)
+    if (kind.required && !seen.contains(kind.kind))
+      return invalid("section table", "has no {}, expected one", section_label(kind.kind, 0));
+  if (header.file_bytes != end)
+    return invalid("header", "found a file length of {} bytes, but the last section ends at {}", header.file_bytes, end);
+  if (file.size() != end)
+    return invalid("header", "found {} bytes after the last section, expected none", file.size() - end);
+  return index;
+}
+
+std::span<const std::byte> stored_bytes(std::span<const std::byte> file, const SectionInfo& section) {
+  return file.subspan(section.offset, section.stored_bytes);
+}
+
+Status check_section(std::span<const std::byte> file, const SectionInfo& section) {
+  const std::uint64_t checksum = hash64(stored_bytes(file, section));
+  if (checksum != section.checksum)
+    return invalid(section.label, "checksum {:016x}, expected {:016x}", checksum, section.checksum);
+  return {};
+}
+
+Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInfo& section) {
+  ORIEL_TRY_VOID(check_section(file, section));
+  const auto stored = stored_bytes(file, section);
+  RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(section.raw_bytes), section.raw_bytes};
+  if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
+    std::copy(stored.begin(), stored.end(), raw.data.get());
+    return raw;
+  }
+  if (section.codec != static_cast<std::uint32_t>(Codec::kZstd))
+    return invalid(section.label, "found codec {}, expected 0 (none) or 1 (zstd)", section.codec);
+  const auto content = ZSTD_getFrameContentSize(stored.data(), stored.size());
+  if (content == ZSTD_CONTENTSIZE_ERROR || content == ZSTD_CONTENTSIZE_UNKNOWN)
+    return invalid(section.label, "is not a zstd frame that states its content's size");
+  if (content != section.raw_bytes)
+    return invalid(section.label, "its zstd frame holds {} bytes, expected {}", static_cast<std::uint64_t>(content),
+                   section.raw_bytes);
+  const std::size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
+  if (ZSTD_isError(frame) || frame != stored.size())
+    return invalid(section.label, "is not exactly one zstd frame of {} bytes", stored.size());
+  const std::size_t n = ZSTD_decompress(raw.data.get(), raw.size, stored.data(), stored.size());
+  if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
+  if (n != raw.size) return invalid(section.label, "decompressed to {} bytes, expected {}", n, raw.size);
+  return raw;
+}
+
+}  // namespace oriel

@@ -1,0 +1,73 @@
+// Collects issues. Used by validate's parts only.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "formats/core/vec.h"
+#include "formats/pack/layout.h"
+#include "formats/pack/validate.h"
+
+namespace oriel {
+
+class IssueList {
+ public:
+  // What is added next is about this section.
+  void in_section(std::uint32_t kind, std::uint64_t nth = 0) { section_ = section_label(kind, nth); }
+
+  template <class... Args>
+  void error(int number, fmt::format_string<Args...> format, Args&&... args) {
+    issues.push_back({number, Severity::kError, section_, fmt::format(format, std::forward<Args>(args)...)});
+  }
+  template <class... Args>
+  void warning(int number, fmt::format_string<Args...> format, Args&&... args) {
+    issues.push_back({number, Severity::kWarning, section_, fmt::format(format, std::forward<Args>(args)...)});
+  }
+  // One error for all elements that are not good: "3 of 120 vertices: the first is 7, found …, expected …".
+  template <class Element, class Good, class Text>
+  void each(int number, const char* elements, const std::vector<Element>& values, const Good& good, const Text& found,
+            const char* expected) {
+    std::size_t bad = 0, first = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!good(values[i]) && bad++ == 0) first = i;
+    if (bad > 0)
+      error(number, "{} of {} {}: the first is number {}, found {}, expected {}", bad, values.size(), elements, first,
+            found(values[first]), expected);
+  }
+
+  std::vector<Issue> issues;
+
+ private:
+  std::string section_;
+};
+
+inline std::string text_of(float v) { return fmt::format("{}", v); }
+inline std::string text_of(const Vec2& v) { return fmt::format("({}, {})", v.x, v.y); }
+inline std::string text_of(const Vec3& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
+
+inline bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+// Comparisons with NaN are false, so NaN is never within.
+inline bool within(float v, float low, float high) { return v >= low && v <= high; }
+inline bool within(const Vec3& v, float low, float high) {
+  return within(v.x, low, high) && within(v.y, low, high) && within(v.z, low, high);
+}
+inline bool not_negative(float v) { return std::isfinite(v) && v >= 0; }
+inline bool not_negative(const Vec3& v) { return not_negative(v.x) && not_negative(v.y) && not_negative(v.z); }
+
+// The parts of validate(), by section.
+void validate_mesh(const Pack& pack, IssueList& list);
+void validate_materials(const Pack& pack, IssueList& list);
+void validate_textures(const Pack& pack, IssueList& list);
+void validate_lightmaps(const Pack& pack, IssueList& list);
+void validate_reflectors(const Pack& pack, IssueList& list);
+void validate_radiance_maps(const Pack& pack, IssueList& list);
+void validate_kernels(const Pack& pack, IssueList& list);
+void validate_fresnel_maps(const Pack& pack, IssueList& list);
+void validate_cameras(const Pack& pack, IssueList& list);
+void validate_texts(const Pack& pack, IssueList& list);
+void validate_unknown(const Pack& pack, IssueList& list);
+
+}  // namespace oriel

@@ -1,0 +1,118 @@
+#include "formats/pack/reader.h"
+
+#include <new>
+#include <stdexcept>
+
+#include "formats/core/file.h"
+#include "formats/pack/fields.h"
+#include "formats/pack/index.h"
+#include "formats/pack/sections.h"
+#include "formats/pack/validate.h"
+
+namespace oriel {
+namespace {
+
+// The end of a section: neither bytes missing nor bytes left over.
+Status check_end(const ByteReader& in, const SectionInfo& section) {
+  if (!in.ok())
+    return invalid(section.label, "its counts need more than the {} bytes that it holds", section.raw_bytes);
+  if (in.remaining() > 0)
+    return invalid(section.label, "holds {} bytes more than its {} elements need", in.remaining(), section.count);
+  return {};
+}
+
+Status one_element_only(const SectionInfo& section) {
+  if (section.count != 1) return invalid(section.label, "found {} elements, expected 1", section.count);
+  return {};
+}
+
+template <class T>
+Status decode_list(ByteReader& in, const SectionInfo& section, std::vector<T>& elements) {
+  for (std::uint64_t i = 0; i < section.count && in.ok(); ++i) {
+    T element;
+    if (auto status = decode(in, element); !status && in.ok())
+      return invalid(section.label, "element {}: {}", i, status.error().message);
+    if (in.ok()) elements.push_back(std::move(element));
+  }
+  return check_end(in, section);
+}
+
+Status decode_text(ByteReader& in, const SectionInfo& section, std::string& text) {
+  ORIEL_TRY_VOID(one_element_only(section));
+  const auto chars = in.get_array<char>(section.raw_bytes);
+  text.assign(chars.begin(), chars.end());
+  return check_end(in, section);
+}
+
+Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Pack& pack) {
+  ORIEL_TRY(const RawBytes raw, section_bytes(file, section));
+  ByteReader in(raw.span());
+  switch (section.kind) {
+    case kProvenanceSection: return decode_text(in, section, pack.provenance);
+    case kPlanSection: return decode_text(in, section, pack.plan);
+    case kSceneSection:
+      ORIEL_TRY_VOID(one_element_only(section));
+      pack.sky = get_vec3(in);
+      return check_end(in, section);
+    case kMeshSection: {
+      ORIEL_TRY_VOID(one_element_only(section));
+      if (auto status = decode(in, pack.mesh); !status && in.ok())
+        return invalid(section.label, "{}", status.error().message);
+      return check_end(in, section);
+    }
+    case kMaterialSection: return decode_list(in, section, pack.materials);
+    case kTextureSection: return decode_list(in, section, pack.textures);
+    case kLightmapSection: return decode_list(in, section, pack.lightmaps);
+    case kReflectorSection: return decode_list(in, section, pack.reflectors);
+    case kRadianceMapSection: return decode_list(in, section, pack.radiance_maps);
+    case kKernelSection: return decode_list(in, section, pack.kernels);
+    case kFresnelSection: return decode_list(in, section, pack.fresnel_maps);
+    case kCameraSection: return decode_list(in, section, pack.cameras);
+    case kPathSection: return decode_list(in, section, pack.paths);
+    default: return invalid(section.label, "is of a kind that cannot be decoded");
+  }
+}
+
+Result<Pack> decode_all(std::span<const std::byte> file) {
+  ORIEL_TRY(const PackIndex index, read_index(file));
+  Pack pack;
+  for (const auto& section : index.sections) {
+    if (find_section_kind(section.kind)) {
+      ORIEL_TRY_VOID(decode_section(file, section, pack));
+      continue;
+    }
+    ORIEL_TRY_VOID(check_section(file, section));
+    const auto stored = stored_bytes(file, section);
+    pack.unknown.push_back(
+        {section.kind, section.codec, section.raw_bytes, section.count, Bytes(stored.begin(), stored.end())});
+  }
+  return pack;
+}
+
+}  // namespace
+
+Result<Pack> decode_pack(std::span<const std::byte> file) {
+  try {
+    return decode_all(file);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, "pack", "there is not enough memory to decode it");
+  } catch (const std::length_error&) {
+    return fail(ErrorCode::kRuntime, "pack", "there is not enough memory to decode it");
+  }
+}
+
+Result<Pack> read_pack(const std::filesystem::path& path) {
+  ORIEL_TRY(const Bytes file, read_file(path));
+  auto pack = decode_pack(file);
+  if (!pack) {
+    Error error = std::move(pack).error();
+    error.where = error.where.empty() ? path.string() : path.string() + ": " + error.where;
+    return tl::unexpected<Error>(std::move(error));
+  }
+  for (const auto& issue : validate(*pack))
+    if (issue.severity == Severity::kError)
+      return invalid(path.string() + ": " + issue.section, "issue {}: {}", issue.number, issue.message);
+  return pack;
+}
+
+}  // namespace oriel

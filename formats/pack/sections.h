@@ -1,0 +1,35 @@
+// What lies inside each section: one pair of functions a kind. Used by the writer and the reader only.
+#pragma once
+
+#include "formats/core/bytes.h"
+#include "formats/core/result.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+// Append one element. They rely on a pack that validate() finds nothing wrong with.
+void encode(ByteWriter& out, const Mesh& mesh);
+void encode(ByteWriter& out, const Material& material);
+void encode(ByteWriter& out, const Reflector& reflector);
+void encode(ByteWriter& out, const Camera& camera);
+void encode(ByteWriter& out, const CameraPath& path);
+void encode(ByteWriter& out, const Texture& texture);
+void encode(ByteWriter& out, const LightmapPage& page);
+void encode(ByteWriter& out, const RadianceMap& map);
+void encode(ByteWriter& out, const BrdfKernel& kernel);
+void encode(ByteWriter& out, const FresnelMap& map);
+
+// Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
+// the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes left.
+Status decode(ByteReader& in, Mesh& mesh);
+Status decode(ByteReader& in, Material& material);
+Status decode(ByteReader& in, Reflector& reflector);
+Status decode(ByteReader& in, Camera& camera);
+Status decode(ByteReader& in, CameraPath& path);
+Status decode(ByteReader& in, Texture& texture);
+Status decode(ByteReader& in, LightmapPage& page);
+Status decode(ByteReader& in, RadianceMap& map);
+Status decode(ByteReader& in, BrdfKernel& kernel);
+Status decode(ByteReader& in, FresnelMap& map);
+
+}  // namespace oriel

@@ -1,0 +1,200 @@
+// Textures, lightmaps, radiance maps, kernels and Fresnel maps.
+#include <algorithm>
+
+#include "formats/core/half.h"
+#include "formats/pack/fields.h"
+#include "formats/pack/planes.h"
+#include "formats/pack/quantise.h"
+#include "formats/pack/sections.h"
+
+namespace oriel {
+namespace {
+
+using Rgba8 = std::array<std::uint8_t, 4>;
+using Half3 = std::array<std::uint16_t, 3>;
+
+float largest_channel(std::span<const Vec3> values) {
+  float largest = 0;
+  for (const Vec3& v : values) largest = std::max(largest, max_component(v));
+  return largest;
+}
+
+Status get_scale_exponent(ByteReader& in, int& exponent) {
+  exponent = in.get<std::int32_t>();
+  if (exponent < kMinScaleExponent || exponent > kMaxScaleExponent)
+    return invalid("", "found scale exponent {}, expected {} to {}", exponent, kMinScaleExponent, kMaxScaleExponent);
+  return {};
+}
+
+void put_halves(ByteWriter& out, std::span<const Vec3> values) {
+  const int exponent = scale_exponent(largest_channel(values), 11);
+  const float scale = std::ldexp(1.0f, -exponent);
+  std::vector<Half3> halves(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(values[i][c] * scale);
+  out.put(static_cast<std::int32_t>(exponent));
+  put_planes(out, std::span<const Half3>(halves));
+}
+
+Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::vector<Vec3>& values) {
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto halves = get_planes<Half3>(in, count);
+  const float scale = std::ldexp(1.0f, exponent);
+  values.resize(halves.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
+      if (half >= 0x7c00)
+        return invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what, half, i);
+      values[i][c] = float_from_half(half) * scale;
+    }
+  return {};
+}
+
+Status get_texel_states(ByteReader& in, std::uint64_t count, std::vector<TexelState>& states) {
+  const auto codes = get_planes<std::uint8_t>(in, count);
+  states.resize(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (codes[i] % 85 != 0) return invalid("", "found texel state {}, expected 0, 85, 170 or 255", codes[i]);
+    states[i] = static_cast<TexelState>(codes[i]);
+  }
+  return {};
+}
+
+}  // namespace
+
+void encode(ByteWriter& out, const Texture& texture) {
+  out.put_string(texture.name);
+  out.put(texture.width);
+  out.put(texture.height);
+  out.put(static_cast<std::uint8_t>(texture.wrap_s));
+  out.put(static_cast<std::uint8_t>(texture.wrap_t));
+  out.put(static_cast<std::uint8_t>(texture.nearest));
+  out.put(std::uint8_t{0});
+  put_planes(out, std::span(reinterpret_cast<const Rgba8*>(texture.texels.data()), texture.texels.size() / 4));
+}
+
+Status decode(ByteReader& in, Texture& texture) {
+  texture.name = in.get_string();
+  ORIEL_TRY_VOID(get_size(in, texture.width, texture.height));
+  ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_s));
+  ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_t));
+  ORIEL_TRY_VOID(get_choice(in, "nearest flag", 1, texture.nearest));
+  std::uint8_t reserved = 0;
+  ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  const auto texels = get_planes<Rgba8>(in, std::uint64_t{texture.width} * texture.height);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(texels.data());
+  texture.texels.assign(bytes, bytes + texels.size() * sizeof(Rgba8));
+  return {};
+}
+
+void encode(ByteWriter& out, const LightmapPage& page) {
+  out.put(page.width);
+  out.put(page.height);
+  put_halves(out, page.irradiance);
+  put_halves(out, page.standard_error);
+  put_planes(out, std::span(reinterpret_cast<const std::uint8_t*>(page.state.data()), page.state.size()));
+}
+
+Status decode(ByteReader& in, LightmapPage& page) {
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+  ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
+  ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
+  return get_texel_states(in, texels, page.state);
+}
+
+void encode(ByteWriter& out, const RadianceMap& map) {
+  out.put(map.reflector);
+  out.put(map.width);
+  out.put(map.height);
+  out.put(static_cast<std::uint8_t>(map.has_emission));
+  for (int i = 0; i < 3; ++i) out.put(std::uint8_t{0});
+  put(out, map.eye);
+  put(out, map.lower);
+  put(out, map.upper);
+  const int exponent = scale_exponent(largest_channel(map.radiance), 9);
+  const float scale = std::ldexp(1.0f, -exponent);
+  float largest_disparity = 0;
+  for (const float d : map.disparity) largest_disparity = std::max(largest_disparity, d);
+  const int shift = disparity_shift(largest_disparity);
+  out.put(static_cast<std::int32_t>(exponent));
+  out.put(static_cast<std::int32_t>(shift));
+  std::vector<std::uint32_t> colors(map.radiance.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = rgb9e5_from_rgb(map.radiance[i] * scale);
+  put_planes(out, std::span<const std::uint32_t>(colors));
+  std::vector<std::uint16_t> disparities(map.disparity.size());
+  for (std::size_t i = 0; i < disparities.size(); ++i) disparities[i] = code_from_disparity(map.disparity[i], shift);
+  put_planes(out, std::span<const std::uint16_t>(disparities));
+  put_planes(out, std::span<const std::uint8_t>(map.valid));
+}
+
+Status decode(ByteReader& in, RadianceMap& map) {
+  map.reflector = in.get<std::uint32_t>();
+  ORIEL_TRY_VOID(get_size(in, map.width, map.height));
+  ORIEL_TRY_VOID(get_choice(in, "emission flag", 1, map.has_emission));
+  std::uint8_t reserved = 0;
+  for (int i = 0; i < 3; ++i) ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  map.eye = get_vec3(in);
+  map.lower = get_vec2(in);
+  map.upper = get_vec2(in);
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto shift = in.get<std::int32_t>();
+  if (shift < 0 || shift > kMaxDisparityShift)
+    return invalid("", "found disparity shift {}, expected 0 to {}", shift, kMaxDisparityShift);
+  const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
+  const float scale = std::ldexp(1.0f, exponent);
+  const auto colors = get_planes<std::uint32_t>(in, pixels);
+  map.radiance.resize(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) map.radiance[i] = rgb_from_rgb9e5(colors[i]) * scale;
+  const auto disparities = get_planes<std::uint16_t>(in, pixels);
+  map.disparity.resize(disparities.size());
+  for (std::size_t i = 0; i < disparities.size(); ++i) map.disparity[i] = disparity_from_code(disparities[i], shift);
+  map.valid = get_planes<std::uint8_t>(in, pixels);
+  return {};
+}
+
+void encode(ByteWriter& out, const BrdfKernel& kernel) {
+  out.put(static_cast<std::uint8_t>(kernel.model));
+  for (int i = 0; i < 3; ++i) out.put(std::uint8_t{0});
+  out.put(kernel.alpha);
+  out.put(kernel.cos_theta);
+  out.put(kernel.half_extent);
+  out.put(kernel.energy_kept);
+  out.put(kernel.size);
+  put_planes(out, std::span<const float>(kernel.weights));
+}
+
+Status decode(ByteReader& in, BrdfKernel& kernel) {
+  ORIEL_TRY_VOID(get_choice(in, "kernel model", 1, kernel.model));
+  std::uint8_t reserved = 0;
+  for (int i = 0; i < 3; ++i) ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  kernel.alpha = in.get<float>();
+  kernel.cos_theta = in.get<float>();
+  kernel.half_extent = in.get<float>();
+  kernel.energy_kept = in.get<float>();
+  kernel.size = in.get<std::uint32_t>();
+  kernel.weights = get_planes<float>(in, std::uint64_t{kernel.size} * kernel.size);
+  return {};
+}
+
+void encode(ByteWriter& out, const FresnelMap& map) {
+  out.put(map.alpha);
+  out.put(static_cast<std::uint32_t>(map.table.size()));
+  out.put(map.sphere_size);
+  put_planes(out, std::span<const Vec3>(map.table));
+  put_planes(out, std::span<const Vec3>(map.sphere));
+}
+
+Status decode(ByteReader& in, FresnelMap& map) {
+  map.alpha = in.get<float>();
+  const auto entries = in.get<std::uint32_t>();
+  map.sphere_size = in.get<std::uint32_t>();
+  map.table = get_planes<Vec3>(in, entries);
+  map.sphere = get_planes<Vec3>(in, std::uint64_t{map.sphere_size} * map.sphere_size);
+  return {};
+}
+
+}  // namespace oriel

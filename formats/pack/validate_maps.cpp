@@ -1,0 +1,175 @@
+// The maps: textures, lightmaps, reflectors with their radiance maps, kernels, Fresnel maps.
+#include <algorithm>
+
+#include "formats/pack/issues.h"
+
+namespace oriel {
+namespace {
+
+// Sides and array lengths; false where the arrays must not be looked at.
+bool check_area(int number, std::uint32_t width, std::uint32_t height, std::initializer_list<std::size_t> lengths,
+                IssueList& list) {
+  bool good = width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide;
+  if (!good) list.error(number, "found {} x {} texels, expected 1 to {} a side", width, height, kMaxSide);
+  for (const std::size_t length : lengths)
+    if (good && length != std::size_t{width} * height) {
+      list.error(number, "found an array of {} texels, expected {} x {}", length, width, height);
+      good = false;
+    }
+  return good;
+}
+
+const auto text1 = [](float v) { return text_of(v); };
+const auto text3 = [](const Vec3& v) { return text_of(v); };
+const auto light = [](const Vec3& v) { return not_negative(v); };
+constexpr const char* kLight = "finite numbers from 0 up";
+
+bool is_rigid(const Mat4& m) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(m[column][row])) return false;
+  const DMat3 r = DMat3(Mat3(m));
+  const DMat3 square = glm::transpose(r) * r;
+  double off = 0;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) off = std::max(off, std::abs(square[column][row] - (row == column ? 1.0 : 0.0)));
+  return off <= 1e-3 && glm::determinant(r) > 0 && m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
+}
+
+void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
+  const Reflector& r = pack.reflectors[i];
+  if (r.material >= pack.materials.size())
+    list.error(401, "reflector {} ('{}'): found material {}, expected less than {}", i, r.name, r.material,
+               pack.materials.size());
+  if (!is_rigid(r.pack_from_reflector))
+    list.error(402, "reflector {} ('{}'): pack_from_reflector is not a rotation and a translation", i, r.name);
+  if (!is_finite(r.lower) || !is_finite(r.upper) || !(r.lower.x <= r.upper.x) || !(r.lower.y <= r.upper.y))
+    list.error(403, "reflector {} ('{}'): found bounds {} to {}, expected finite and rising", i, r.name, text_of(r.lower),
+               text_of(r.upper));
+  if (!not_negative(r.area_m2) || !not_negative(r.flatness_m))
+    list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2, r.flatness_m,
+               kLight);
+  const auto bad = std::count_if(r.indices.begin(), r.indices.end(),
+                                 [&](std::uint32_t index) { return index >= pack.mesh.positions.size(); });
+  if (bad > 0 || r.indices.size() % 3 != 0)
+    list.error(405, "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}", i,
+               r.name, r.indices.size(), bad, pack.mesh.positions.size());
+  if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
+    list.error(406, "reflector {} ('{}'): found radiance maps {} to {}, expected at most {}", i, r.name, r.first_map,
+               std::uint64_t{r.first_map} + r.map_count, pack.radiance_maps.size());
+    return;
+  }
+  if (r.map_count > 0 && (r.elements_x == 0 || r.elements_y == 0))
+    list.error(407, "reflector {} ('{}'): found {} x {} elements with {} radiance maps, expected at least 1 x 1", i, r.name,
+               r.elements_x, r.elements_y, r.map_count);
+}
+
+void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
+  const RadianceMap& map = pack.radiance_maps[i];
+  if (map.reflector >= pack.reflectors.size()) {
+    list.error(412, "found reflector {}, expected less than {}", map.reflector, pack.reflectors.size());
+    return;
+  }
+  const Reflector& r = pack.reflectors[map.reflector];
+  if (i < r.first_map || i - r.first_map >= r.map_count)
+    list.error(412, "is of reflector {}, which counts maps {} to {} as its own", map.reflector, r.first_map,
+               std::uint64_t{r.first_map} + r.map_count);
+  if (!is_finite(map.eye) || !(map.eye.z < 0))
+    list.error(413, "found eye {}, expected it behind the reflector (z < 0)", text_of(map.eye));
+  const bool rises = is_finite(map.lower) && is_finite(map.upper) && map.lower.x < map.upper.x && map.lower.y < map.upper.y;
+  // Elements that were laid out in floats may pass the bounds by a rounding.
+  const Vec2 slack = 1e-3f * (r.upper - r.lower);
+  const bool inside = map.lower.x >= r.lower.x - slack.x && map.lower.y >= r.lower.y - slack.y &&
+                      map.upper.x <= r.upper.x + slack.x && map.upper.y <= r.upper.y + slack.y;
+  if (!rises || !inside)
+    list.error(414, "found element {} to {}, expected rising and inside the reflector's {} to {}", text_of(map.lower),
+               text_of(map.upper), text_of(r.lower), text_of(r.upper));
+}
+
+void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
+  if (!within(kernel.alpha, 0, 1) || !within(kernel.cos_theta, 0, 1) || !not_negative(kernel.half_extent) ||
+      !within(kernel.energy_kept, 0, 1.001f))
+    list.error(501, "kernel {}: found alpha {}, cosine {}, half extent {}, energy {}, expected 0 to 1 (extent: from 0 up)", i,
+               kernel.alpha, kernel.cos_theta, kernel.half_extent, kernel.energy_kept);
+  if (kernel.size % 2 == 0 || kernel.size > kMaxSide ||
+      kernel.weights.size() != std::size_t{kernel.size} * kernel.size) {
+    list.error(502, "kernel {}: found size {} with {} weights, expected an odd size and its square", i, kernel.size,
+               kernel.weights.size());
+    return;
+  }
+  const std::size_t before = list.issues.size();
+  list.each(503, "kernel weights", kernel.weights, [](float w) { return not_negative(w); }, text1, kLight);
+  double sum = 0;
+  for (const float w : kernel.weights) sum += w;
+  if (list.issues.size() == before && !(std::abs(sum - 1) <= 1e-4))
+    list.error(504, "kernel {}: found weights with sum {}, expected 1 within 1e-4", i, sum);
+}
+
+}  // namespace
+
+void validate_textures(const Pack& pack, IssueList& list) {
+  for (std::size_t i = 0; i < pack.textures.size(); ++i) {
+    const Texture& texture = pack.textures[i];
+    list.in_section(kTextureSection, i);
+    if (check_area(211, texture.width, texture.height, {}, list) &&
+        texture.texels.size() != std::size_t{4} * texture.width * texture.height)
+      list.error(211, "found {} bytes of texels, expected 4 x {} x {}", texture.texels.size(), texture.width,
+                 texture.height);
+  }
+}
+
+void validate_lightmaps(const Pack& pack, IssueList& list) {
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
+    const LightmapPage& page = pack.lightmaps[i];
+    list.in_section(kLightmapSection, i);
+    if (!check_area(301, page.width, page.height,
+                    {page.irradiance.size(), page.standard_error.size(), page.state.size()}, list))
+      continue;
+    list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
+    list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
+  }
+}
+
+void validate_reflectors(const Pack& pack, IssueList& list) {
+  list.in_section(kReflectorSection);
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, list);
+}
+
+void validate_radiance_maps(const Pack& pack, IssueList& list) {
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const RadianceMap& map = pack.radiance_maps[i];
+    list.in_section(kRadianceMapSection, i);
+    validate_map_place(pack, i, list);
+    if (!check_area(411, map.width, map.height, {map.radiance.size(), map.disparity.size(), map.valid.size()}, list))
+      continue;
+    list.each(415, "pixels of radiance", map.radiance, light, text3, kLight);
+    list.each(
+        416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, text1, "0 to 1");
+    list.each(
+        417, "pixels of validity", map.valid, [](std::uint8_t v) { return v <= 2; },
+        [](std::uint8_t v) { return fmt::format("{}", v); }, "0, 1 or 2");
+  }
+}
+
+void validate_kernels(const Pack& pack, IssueList& list) {
+  list.in_section(kKernelSection);
+  for (std::size_t i = 0; i < pack.kernels.size(); ++i) validate_kernel(i, pack.kernels[i], list);
+}
+
+void validate_fresnel_maps(const Pack& pack, IssueList& list) {
+  list.in_section(kFresnelSection);
+  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
+    const FresnelMap& map = pack.fresnel_maps[i];
+    if (!within(map.alpha, 0, 1)) list.error(601, "Fresnel map {}: found alpha {}, expected 0 to 1", i, map.alpha);
+    if (map.table.size() < 2 || map.table.size() > kMaxSide || map.sphere_size > kMaxSide ||
+        map.sphere.size() != std::size_t{map.sphere_size} * map.sphere_size)
+      list.error(602, "Fresnel map {}: found {} table entries and {} texels of a sphere map of side {}, expected at least "
+                      "2, and a square",
+                 i, map.table.size(), map.sphere.size(), map.sphere_size);
+    const auto share = [](const Vec3& v) { return within(v, 0, 1); };
+    list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");
+    list.each(603, "Fresnel sphere texels", map.sphere, share, text3, "0 to 1");
+  }
+}
+
+}  // namespace oriel

@@ -1,0 +1,29 @@
+// Vertex and index data that never changes.
+#pragma once
+
+#include <span>
+#include <type_traits>
+
+#include "player/gpu/handle.h"
+
+namespace oriel::gpu {
+
+class Buffer {
+ public:
+  Buffer() = default;
+  // Copies the values to the GPU. target: GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER (then a vertex array must be bound).
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  Buffer(GLenum target, std::span<const T> values) {
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    handle_ = Handle<ObjectKind::kBuffer>(name);
+    glBindBuffer(target, name);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
+  }
+
+ private:
+  Handle<ObjectKind::kBuffer> handle_;
+};
+
+}  // namespace oriel::gpu

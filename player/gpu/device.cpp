@@ -1,0 +1,84 @@
+#include "player/gpu/device.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace oriel::gpu {
+namespace {
+
+std::string gl_text(GLenum what) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(what));
+  return text != nullptr ? text : "unknown";
+}
+
+const char* error_name(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
+    default: return "unknown error";
+  }
+}
+
+void GLAPIENTRY print_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei length, const GLchar* message,
+                              const void*) {
+  if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
+  std::fprintf(stderr, "OpenGL: %.*s\n", static_cast<int>(length), message);
+}
+
+}  // namespace
+
+Result<Device> open_device() {
+  const int version = epoxy_gl_version();
+  if (version == 0) return fail(ErrorCode::kRuntime, "OpenGL", "found no current context");
+  Device device;
+  device.vendor = gl_text(GL_VENDOR);
+  device.renderer = gl_text(GL_RENDERER);
+  device.version = gl_text(GL_VERSION);
+  const bool desktop = epoxy_is_desktop_gl();
+  if (version < (desktop ? 33 : 30)) {
+    return fail(ErrorCode::kRuntime, "OpenGL", "found {} on {}, expected OpenGL 3.3 core or OpenGL ES 3.0", device.version,
+                device.renderer);
+  }
+  device.dialect = desktop ? Dialect::kDesktop330 : Dialect::kEs300;
+  GLint texture_size = 0;
+  GLint viewport[2] = {0, 0};
+  GLfloat points[2] = {1, 1};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  glGetFloatv(desktop ? GL_POINT_SIZE_RANGE : GL_ALIASED_POINT_SIZE_RANGE, points);
+  device.texture_size = std::min({texture_size, viewport[0], viewport[1]});
+  device.point_size_max = std::max(1.0f, points[1]);
+  device.debug_output = epoxy_has_gl_extension("GL_KHR_debug");
+  if (desktop) {
+    glEnable(GL_PROGRAM_POINT_SIZE);  // always on in OpenGL ES
+    glDisable(GL_FRAMEBUFFER_SRGB);   // shaders encode
+  }
+  glDisable(GL_DITHER);
+  return device;
+}
+
+Status check_gl(const char* where) {
+  const GLenum first = glGetError();
+  if (first == GL_NO_ERROR) return {};
+  for (int i = 0; i < 64 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+  return fail(ErrorCode::kRuntime, where, "found {} (0x{:04x}), expected no OpenGL error", error_name(first), first);
+}
+
+void enable_debug_output(const Device& device) {
+  if (!device.debug_output) return;
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  if (device.dialect == Dialect::kDesktop330) {
+    glDebugMessageCallback(print_message, nullptr);
+  } else {
+    glDebugMessageCallbackKHR(print_message, nullptr);
+  }
+}
+
+}  // namespace oriel::gpu

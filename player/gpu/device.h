@@ -1,0 +1,31 @@
+// What the current context can do.
+#pragma once
+
+#include <string>
+
+#include "formats/core/result.h"
+
+namespace oriel::gpu {
+
+// The GLSL that shaders are given a prefix for.
+enum class Dialect { kDesktop330, kEs300 };
+
+struct Device {
+  Dialect dialect = Dialect::kDesktop330;
+  std::string vendor, renderer, version;
+  int texture_size = 0;       // largest width or height of a texture and of a viewport
+  float point_size_max = 1;   // pixels
+  bool debug_output = false;  // KHR_debug is there
+};
+
+// Reads the current context and sets the state that all passes assume. Error kRuntime where there is none, or less than
+// OpenGL 3.3 core (or OpenGL ES 3.0).
+Result<Device> open_device();
+
+// The first OpenGL error since the last call as a Status naming `where`; clears all of them.
+Status check_gl(const char* where);
+
+// Messages of the driver (KHR_debug) go to stderr from now on, errors and warnings only. Nothing where it is missing.
+void enable_debug_output(const Device& device);
+
+}  // namespace oriel::gpu

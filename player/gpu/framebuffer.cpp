@@ -1,0 +1,29 @@
+#include "player/gpu/framebuffer.h"
+
+namespace oriel::gpu {
+
+Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, const Texture* depth, bool stencil) {
+  Framebuffer framebuffer;
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  framebuffer.handle_ = Handle<ObjectKind::kFramebuffer>(name);
+  framebuffer.bind();
+  if (color != nullptr) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color->name(), 0);
+  if (depth != nullptr) {
+    const GLenum attachment = stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth->name(), 0);
+  }
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    const Texture* any = color != nullptr ? color : depth;
+    return fail(ErrorCode::kRuntime, what, "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete",
+                status, any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0);
+  }
+  return framebuffer;
+}
+
+void Framebuffer::attach_color_level(const Texture& color, int level) const {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), level);
+}
+
+}  // namespace oriel::gpu

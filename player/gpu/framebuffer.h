@@ -1,0 +1,24 @@
+// What a pass draws into.
+#pragma once
+
+#include "player/gpu/texture.h"
+
+namespace oriel::gpu {
+
+class Framebuffer {
+ public:
+  Framebuffer() = default;
+  // color and depth may be null; depth with a stencil is attached as both. Error kRuntime where the driver refuses the
+  // combination. The textures must outlive the framebuffer.
+  static Result<Framebuffer> create(const char* what, const Texture* color, const Texture* depth, bool stencil = false);
+
+  void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, handle_.name()); }
+  // Draws into a level of a texture from now on.
+  void attach_color_level(const Texture& color, int level) const;
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  Handle<ObjectKind::kFramebuffer> handle_;
+};
+
+}  // namespace oriel::gpu

@@ -1,0 +1,52 @@
+// Shader programs, made from the sources in shaders/ that are built into the program.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "formats/core/vec.h"
+#include "player/gpu/device.h"
+#include "player/gpu/handle.h"
+
+namespace oriel::gpu {
+
+// The text of shaders/<name> ("passes/scene.frag"), empty where there is none.
+std::string_view shader_source(std::string_view name);
+
+// The whole text that the driver compiles: version line of the dialect, default precisions, then the file with each
+// `#include "lib/…"` replaced by that file (once). #line directives number the files in the order of `files`.
+// Error kRuntime names a missing file.
+struct ShaderText {
+  std::string text;
+  std::vector<std::string> files;
+};
+Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect);
+
+class Program {
+ public:
+  Program() = default;
+  // passes/<name>.vert with passes/<name>.frag. Error kRuntime holds the driver's log with file names in place of numbers.
+  static Result<Program> create(std::string_view name, Dialect dialect);
+  // For tests: a program of two texts as assemble_shader gives them.
+  static Result<Program> create_from(std::string_view name, const ShaderText& vertex, const ShaderText& fragment);
+
+  void use() const { glUseProgram(handle_.name()); }
+  // Setters act on the program in use; a uniform that the shader does not have is ignored.
+  void set(const char* uniform, int value) const;
+  void set(const char* uniform, float value) const;
+  void set(const char* uniform, const Vec2& value) const;
+  void set(const char* uniform, const Vec3& value) const;
+  void set(const char* uniform, const Vec4& value) const;
+  void set(const char* uniform, const Mat4& value) const;
+  void set(const char* uniform, std::span<const Vec4> values) const;
+
+ private:
+  GLint location(const char* uniform) const;
+  Handle<ObjectKind::kProgram> handle_;
+  mutable std::unordered_map<std::string, GLint> locations_;
+};
+
+}  // namespace oriel::gpu

@@ -1,0 +1,40 @@
+#include "player/gpu/texture.h"
+
+#include <algorithm>
+
+namespace oriel::gpu {
+
+int mip_levels(int width, int height) {
+  int levels = 1;
+  for (int size = std::max(width, height); size > 1; size /= 2) ++levels;
+  return levels;
+}
+
+Texture::Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options)
+    : width_(width), height_(height), levels_(options.levels) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  handle_ = Handle<ObjectKind::kTexture>(name);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  for (int level = 0; level < levels_; ++level) {
+    const int w = std::max(1, width >> level), h = std::max(1, height >> level);
+    glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(format.internal), w, h, 0, format.format, format.type,
+                 level == 0 ? pixels : nullptr);
+    bytes_ += static_cast<std::size_t>(w) * h * format.bytes_per_texel;
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels_ - 1);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(options.min_filter));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(options.mag_filter));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, static_cast<GLint>(options.wrap_s));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, static_cast<GLint>(options.wrap_t));
+  if (options.make_mipmaps && levels_ > 1) glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture::bind(int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+}
+
+}  // namespace oriel::gpu

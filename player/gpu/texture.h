@@ -1,0 +1,61 @@
+// Two-dimensional textures.
+#pragma once
+
+#include "formats/core/result.h"
+#include "player/gpu/handle.h"
+
+namespace oriel::gpu {
+
+struct TextureFormat {
+  GLenum internal = GL_RGBA8;
+  GLenum format = GL_RGBA;
+  GLenum type = GL_UNSIGNED_BYTE;
+  int bytes_per_texel = 4;
+};
+
+// All of them exist in OpenGL ES 3.0 too. Filtering or drawing to the 32-bit float one needs extensions there
+// (OES_texture_float_linear, EXT_color_buffer_float).
+inline constexpr TextureFormat kSrgbAlpha8{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+inline constexpr TextureFormat kRgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+inline constexpr TextureFormat kRgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+inline constexpr TextureFormat kRgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+inline constexpr TextureFormat kDepthStencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL,
+                                             GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
+inline constexpr TextureFormat kDepth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+
+struct TextureOptions {
+  GLenum min_filter = GL_NEAREST;
+  GLenum mag_filter = GL_NEAREST;
+  GLenum wrap_s = GL_CLAMP_TO_EDGE;
+  GLenum wrap_t = GL_CLAMP_TO_EDGE;
+  int levels = 1;           // mip levels that are allocated
+  bool make_mipmaps = false;  // fill the levels from level 0
+};
+
+class Texture {
+ public:
+  Texture() = default;
+  // pixels: rows of width texels, row 0 first (v = 0), or nullptr for undefined contents. The caller keeps width and height
+  // in [1, limits().texture_size].
+  Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
+
+  void bind(int unit) const;
+  GLuint name() const { return handle_.name(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int levels() const { return levels_; }
+  std::size_t bytes() const { return bytes_; }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  Handle<ObjectKind::kTexture> handle_;
+  int width_ = 0, height_ = 0, levels_ = 1;
+  std::size_t bytes_ = 0;
+};
+
+// Levels of a full mip chain of that size.
+int mip_levels(int width, int height);
+// Size of a level: halves, rounded up.
+inline int level_size(int size, int level) { return (size + (1 << level) - 1) >> level; }
+
+}  // namespace oriel::gpu

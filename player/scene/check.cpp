@@ -1,0 +1,133 @@
+#include "player/scene/check.h"
+
+namespace oriel {
+namespace {
+
+Status check_mesh(const Pack& pack) {
+  const Mesh& mesh = pack.mesh;
+  const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count || mesh.uvs.size() != count || mesh.lightmap_uvs.size() != count ||
+      (!mesh.colors.empty() && mesh.colors.size() != count)) {
+    return invalid("mesh", "found {} normals, {} uvs, {} lightmap uvs and {} colours, expected {} of each",
+                   mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size(), count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_finite(mesh.positions[i])) return invalid(fmt::format("mesh: vertex {}", i), "found a position that is not finite");
+  }
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (mesh.indices[i] >= count) {
+      return invalid(fmt::format("mesh: index {}", i), "found vertex {}, expected less than {}", mesh.indices[i], count);
+    }
+  }
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const MeshPart& part = mesh.parts[i];
+    const std::string where = fmt::format("mesh: part {} '{}'", i, part.name);
+    if (std::uint64_t{part.first_index} + part.index_count > mesh.indices.size() || part.index_count % 3 != 0) {
+      return invalid(where, "found indices {} + {}, expected triangles within {}", part.first_index, part.index_count,
+                     mesh.indices.size());
+    }
+    if (part.material >= pack.materials.size()) {
+      return invalid(where, "found material {}, expected less than {}", part.material, pack.materials.size());
+    }
+    if (part.lightmap_page >= static_cast<std::int64_t>(pack.lightmaps.size())) {
+      return invalid(where, "found lightmap page {}, expected less than {}", part.lightmap_page, pack.lightmaps.size());
+    }
+  }
+  return {};
+}
+
+Status check_size(const std::string& where, std::uint64_t width, std::uint64_t height, std::uint64_t found,
+                  std::uint64_t per_texel, const gpu::Device& device) {
+  const auto limit = static_cast<std::uint64_t>(device.texture_size);
+  if (width == 0 || height == 0) return invalid(where, "found {}x{} texels, expected at least 1x1", width, height);
+  if (width > limit || height > limit) {
+    return fail(ErrorCode::kRuntime, where, "found {}x{} texels, expected at most {}x{} ({})", width, height, limit, limit,
+                device.renderer);
+  }
+  if (found != width * height * per_texel) {
+    return invalid(where, "found {} values, expected {} for {}x{} texels", found, width * height * per_texel, width, height);
+  }
+  return {};
+}
+
+Status check_images(const Pack& pack, const gpu::Device& device) {
+  for (std::size_t i = 0; i < pack.textures.size(); ++i) {
+    const Texture& t = pack.textures[i];
+    ORIEL_TRY_VOID(check_size(fmt::format("texture {}", i), t.width, t.height, t.texels.size(), 4, device));
+  }
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
+    const LightmapPage& p = pack.lightmaps[i];
+    ORIEL_TRY_VOID(check_size(fmt::format("lightmap {}", i), p.width, p.height, p.irradiance.size(), 1, device));
+  }
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const RadianceMap& m = pack.radiance_maps[i];
+    const std::string where = fmt::format("radiance map {}", i);
+    ORIEL_TRY_VOID(check_size(where, m.width, m.height, m.radiance.size(), 1, device));
+    if (m.disparity.size() != m.radiance.size() || m.valid.size() != m.radiance.size()) {
+      return invalid(where, "found {} disparities and {} states, expected {}", m.disparity.size(), m.valid.size(),
+                     m.radiance.size());
+    }
+    if (!(m.eye.z < 0) || !is_finite(m.eye)) {
+      return invalid(where, "found its eye at z = {}, expected behind the reflector's plane", m.eye.z);
+    }
+  }
+  return {};
+}
+
+Status check_materials(const Pack& pack) {
+  const auto in_range = [](std::int64_t index, std::size_t count) { return index < static_cast<std::int64_t>(count); };
+  for (std::size_t i = 0; i < pack.materials.size(); ++i) {
+    const Material& m = pack.materials[i];
+    if (!in_range(m.base_color_texture, pack.textures.size()) || !in_range(m.kernel, pack.kernels.size()) ||
+        !in_range(m.fresnel_map, pack.fresnel_maps.size())) {
+      return invalid(fmt::format("material {} '{}'", i, m.name),
+                     "found texture {}, kernel {}, Fresnel map {}, expected less than {}, {}, {}", m.base_color_texture,
+                     m.kernel, m.fresnel_map, pack.textures.size(), pack.kernels.size(), pack.fresnel_maps.size());
+    }
+  }
+  for (std::size_t i = 0; i < pack.kernels.size(); ++i) {
+    const BrdfKernel& k = pack.kernels[i];
+    if (k.size == 0 || k.weights.size() != std::uint64_t{k.size} * k.size) {
+      return invalid(fmt::format("kernel {}", i), "found {} weights, expected {} squared", k.weights.size(), k.size);
+    }
+  }
+  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
+    const FresnelMap& f = pack.fresnel_maps[i];
+    if (f.table.empty() || f.sphere.size() != std::uint64_t{f.sphere_size} * f.sphere_size) {
+      return invalid(fmt::format("Fresnel map {}", i), "found a table of {} and a sphere map of {}, expected 1 or more and {}",
+                     f.table.size(), f.sphere.size(), std::uint64_t{f.sphere_size} * f.sphere_size);
+    }
+  }
+  return {};
+}
+
+Status check_reflectors(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
+    const Reflector& r = pack.reflectors[i];
+    const std::string where = fmt::format("reflector {} '{}'", i, r.name);
+    if (r.material >= pack.materials.size()) {
+      return invalid(where, "found material {}, expected less than {}", r.material, pack.materials.size());
+    }
+    if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
+      return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count, pack.radiance_maps.size());
+    }
+    if (r.indices.size() % 3 != 0) return invalid(where, "found {} indices, expected triangles", r.indices.size());
+    for (const std::uint32_t index : r.indices) {
+      if (index >= pack.mesh.positions.size()) {
+        return invalid(where, "found vertex {}, expected less than {}", index, pack.mesh.positions.size());
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_drawable(const Pack& pack, const gpu::Device& device) {
+  ORIEL_TRY_VOID(check_mesh(pack));
+  ORIEL_TRY_VOID(check_materials(pack));
+  ORIEL_TRY_VOID(check_images(pack, device));
+  return check_reflectors(pack);
+}
+
+}  // namespace oriel

@@ -1,0 +1,153 @@
+#include "player/scene/gpu_scene.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "player/scene/check.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kKernelTaps = 48;
+
+template <class T>
+void add_attribute(std::vector<gpu::Buffer>& buffers, GLuint location, const std::vector<T>& values, int components,
+                   GLenum type, bool normalized) {
+  buffers.emplace_back(GL_ARRAY_BUFFER, std::span<const T>(values));
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
+}
+
+Vec3 mean_radiance(const Pack& pack, const Reflector& reflector) {
+  DVec3 sum(0);
+  double count = 0;
+  for (std::uint32_t m = 0; m < reflector.map_count; ++m) {
+    const RadianceMap& map = pack.radiance_maps[reflector.first_map + m];
+    for (std::size_t i = 0; i < map.radiance.size(); ++i) {
+      if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
+      sum += DVec3(map.radiance[i]);
+      count += 1;
+    }
+  }
+  return count > 0 ? Vec3(sum / count) : Vec3(0);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GpuScene>> GpuScene::create(Pack pack, const gpu::Device& device) {
+  ORIEL_TRY_VOID(check_drawable(pack, device));
+  if (pack.fresnel_maps.size() > static_cast<std::size_t>(device.texture_size)) {
+    return fail(ErrorCode::kRuntime, "Fresnel maps", "found {}, expected at most {} ({})", pack.fresnel_maps.size(),
+                device.texture_size, device.renderer);
+  }
+  std::unique_ptr<GpuScene> scene(new GpuScene);
+  scene->pack_ = std::move(pack);
+  scene->upload_geometry();
+  scene->upload_images();
+  ORIEL_TRY_VOID(gpu::check_gl("uploading the pack"));
+  return scene;
+}
+
+bool GpuScene::is_transparent(std::uint32_t material) const {
+  const Material& m = pack_.materials[material];
+  return m.alpha_mode == AlphaMode::kBlend || m.transmission > 0;
+}
+
+void GpuScene::upload_geometry() {
+  const Mesh& mesh = pack_.mesh;
+  std::vector<std::uint32_t> order(mesh.parts.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const MeshPart &p = mesh.parts[a], &q = mesh.parts[b];
+    return std::tie(p.material, p.lightmap_page) < std::tie(q.material, q.lightmap_page);
+  });
+  std::vector<std::uint32_t> indices;
+  indices.reserve(mesh.indices.size());
+  for (const std::uint32_t i : order) {
+    const MeshPart& part = mesh.parts[i];
+    if (part.index_count == 0) continue;
+    DrawRange range{static_cast<std::uint32_t>(indices.size()), part.index_count, part.material, part.lightmap_page, {}};
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      indices.push_back(mesh.indices[part.first_index + k]);
+      range.bounds.extend(mesh.positions[indices.back()]);
+    }
+    bounds_.extend(range.bounds);
+    (is_transparent(part.material) ? transparent_ : opaque_).push_back(range);
+  }
+  make_reflectors(indices);
+
+  vertex_array_ = gpu::make_vertex_array();
+  bind_geometry();
+  add_attribute(buffers_, 0, mesh.positions, 3, GL_FLOAT, false);
+  add_attribute(buffers_, 1, mesh.normals, 3, GL_FLOAT, false);
+  add_attribute(buffers_, 2, mesh.uvs, 2, GL_FLOAT, false);
+  add_attribute(buffers_, 3, mesh.lightmap_uvs, 2, GL_FLOAT, false);
+  if (mesh.colors.empty()) {
+    glVertexAttrib4f(4, 1, 1, 1, 1);
+  } else {
+    add_attribute(buffers_, 4, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
+  }
+  buffers_.emplace_back(GL_ELEMENT_ARRAY_BUFFER, std::span<const std::uint32_t>(indices));
+  glBindVertexArray(0);
+}
+
+void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
+  for (std::uint32_t i = 0; i < pack_.reflectors.size(); ++i) {
+    const Reflector& r = pack_.reflectors[i];
+    GpuReflector out;
+    out.index = i;
+    out.material = r.material;
+    out.first_index = static_cast<std::uint32_t>(indices.size());
+    out.index_count = static_cast<std::uint32_t>(r.indices.size());
+    indices.insert(indices.end(), r.indices.begin(), r.indices.end());
+    out.pack_from_reflector = r.pack_from_reflector;
+    const Mat3 rotation = glm::transpose(Mat3(r.pack_from_reflector));
+    out.reflector_from_pack = Mat4(rotation);
+    out.reflector_from_pack[3] = Vec4(-(rotation * Vec3(r.pack_from_reflector[3])), 1);
+    const Vec2 corners[] = {r.lower, {r.upper.x, r.lower.y}, r.upper, {r.lower.x, r.upper.y}};
+    for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
+    out.size = glm::length(r.upper - r.lower);
+    out.elements = group_by_element(r, pack_.radiance_maps);
+    out.mean_radiance = mean_radiance(pack_, r);
+    reflectors_.push_back(std::move(out));
+  }
+}
+
+void GpuScene::upload_images() {
+  const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
+  white_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, white.data());
+  no_lightmap_.texture = gpu::Texture(gpu::kRgba8, 1, 1, white.data());
+  for (const Texture& texture : pack_.textures) albedos_.push_back(upload_albedo(texture));
+  for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
+  reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
+  for (const BrdfKernel& kernel : pack_.kernels) kernel_taps_.push_back(make_kernel_taps(kernel, kKernelTaps));
+  mirror_ = make_kernel_taps(BrdfKernel{}, 1);
+  radiance_maps_.resize(pack_.radiance_maps.size());
+  sphere_maps_.resize(pack_.fresnel_maps.size());
+}
+
+const gpu::Texture& GpuScene::albedo(std::int32_t index) const {
+  return index < 0 ? white_ : albedos_[static_cast<std::size_t>(index)];
+}
+
+const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {
+  return index < 0 ? no_lightmap_ : lightmaps_[static_cast<std::size_t>(index)];
+}
+
+const gpu::Texture& GpuScene::radiance_map(std::uint32_t index) {
+  gpu::Texture& texture = radiance_maps_[index];
+  if (!texture) texture = upload_radiance_map(pack_.radiance_maps[index]);
+  return texture;
+}
+
+const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {
+  gpu::Texture& texture = sphere_maps_[fresnel_map];
+  if (!texture) texture = upload_sphere_map(pack_.fresnel_maps[fresnel_map]);
+  return texture;
+}
+
+const KernelTaps& GpuScene::kernel_taps(std::int32_t kernel) const {
+  return kernel < 0 ? mirror_ : kernel_taps_[static_cast<std::size_t>(kernel)];
+}
+
+}  // namespace oriel

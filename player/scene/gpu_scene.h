@@ -1,0 +1,80 @@
+// A pack as the passes draw it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "formats/pack/pack.h"
+#include "player/gpu/buffer.h"
+#include "player/scene/culling.h"
+#include "player/scene/kernel_taps.h"
+#include "player/scene/map_point.h"
+#include "player/scene/textures.h"
+
+namespace oriel {
+
+// Triangles of one part: one material, one lightmap page.
+struct DrawRange {
+  std::uint32_t first_index = 0, index_count = 0;  // into GpuScene's index buffer
+  std::uint32_t material = 0;
+  std::int32_t lightmap_page = -1;
+  Bounds bounds;
+};
+
+struct GpuReflector {
+  std::uint32_t index = 0;     // into Pack::reflectors
+  std::uint32_t material = 0;  // into Pack::materials
+  std::uint32_t first_index = 0, index_count = 0;
+  Mat4 pack_from_reflector{1}, reflector_from_pack{1};
+  std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
+  float size = 0;                 // diagonal of its bounds, metres
+  std::vector<ReflectorElement> elements;
+  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+};
+
+class GpuScene {
+ public:
+  // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
+  static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device);
+
+  const Pack& pack() const { return pack_; }
+  const Bounds& bounds() const { return bounds_; }
+  // Sorted by material and page.
+  const std::vector<DrawRange>& opaque() const { return opaque_; }
+  const std::vector<DrawRange>& transparent() const { return transparent_; }
+  const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
+  bool is_transparent(std::uint32_t material) const;
+
+  void bind_geometry() const { glBindVertexArray(vertex_array_.name()); }
+  // White where index is -1.
+  const gpu::Texture& albedo(std::int32_t index) const;
+  // Scale 0 where index is -1.
+  const LightmapTexture& lightmap(std::int32_t index) const;
+  const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
+  // Uploaded on first use and kept.
+  const gpu::Texture& radiance_map(std::uint32_t index);
+  const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
+  // Taps of Pack::kernels; one at the centre for index -1.
+  const KernelTaps& kernel_taps(std::int32_t kernel) const;
+
+ private:
+  GpuScene() = default;
+  void upload_geometry();
+  void upload_images();
+  void make_reflectors(std::vector<std::uint32_t>& indices);
+  Pack pack_;
+  Bounds bounds_;
+  std::vector<DrawRange> opaque_, transparent_;
+  std::vector<GpuReflector> reflectors_;
+  gpu::VertexArray vertex_array_;
+  std::vector<gpu::Buffer> buffers_;
+  std::vector<gpu::Texture> albedos_, radiance_maps_, sphere_maps_;
+  std::vector<LightmapTexture> lightmaps_;
+  gpu::Texture white_, reflectance_tables_;
+  LightmapTexture no_lightmap_;
+  std::vector<KernelTaps> kernel_taps_;
+  KernelTaps mirror_;
+};
+
+}  // namespace oriel

@@ -1,0 +1,46 @@
+// Pixels of a radiance map as points in space: the same maths as shaders/lib/reprojection.glsl, and the choice of maps.
+// Reflector space throughout: the plane is z = 0, the reflected world z > 0, the maps' eyes z < 0.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "formats/assets/radiance_map.h"
+
+namespace oriel {
+
+// The point that a pixel saw, homogeneous: xyz / w, or the direction xyz where w = 0. on_plane: where the pixel's ray crosses
+// the plane; disparity as in RadianceMap.
+inline Vec4 map_point(const Vec3& eye, const Vec2& on_plane, float disparity) {
+  return Vec4(disparity * eye + Vec3(on_plane, 0) - eye, disparity);
+}
+inline Vec4 map_point_step(const Vec3& eye, const Vec2& plane_step, float disparity_step) {
+  return Vec4(disparity_step * eye + Vec3(plane_step, 0), disparity_step);
+}
+// How far a step in clip space moves the picture, in pixels.
+inline Vec2 screen_step(const Vec4& clip, const Vec4& clip_step, const Vec2& viewport) {
+  const Vec2 moved = Vec2(clip_step) * clip.w - Vec2(clip) * clip_step.w;
+  return 0.5f * viewport * moved / (clip.w * clip.w);
+}
+inline float covering_size(const Vec2& a, const Vec2& b) {
+  return std::fmax(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
+}
+
+enum class Selection { kAngle, kDistance };
+
+// An element of a reflector and the maps taken through it.
+struct ReflectorElement {
+  Vec2 lower{0}, upper{0};
+  std::vector<std::uint32_t> maps;  // into Pack::radiance_maps
+};
+
+// The maps of `reflector`, grouped by the rectangle they look through, in their order.
+std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps);
+
+// The `count` maps of the element that suit an eye best, best first (Bastos et al. 1999, section 8.1.3, "Selection"): smallest
+// angle at the element's centre between their eyes and mirrored_eye, or smallest distance. mirrored_eye: the eye with z
+// negated (w = 1), or the direction to it (w = 0; always by angle). Ties go to the first.
+std::vector<std::uint32_t> select_maps(const ReflectorElement& element, std::span<const RadianceMap> maps,
+                                       const Vec4& mirrored_eye, int count, Selection selection);
+
+}  // namespace oriel

@@ -1,0 +1,83 @@
+#include "player/scene/textures.h"
+
+#include <algorithm>
+#include <array>
+
+#include "formats/core/half.h"
+
+namespace oriel {
+namespace {
+
+GLenum gl_wrap(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::kRepeat: return GL_REPEAT;
+    case Wrap::kClamp: return GL_CLAMP_TO_EDGE;
+    case Wrap::kMirror: return GL_MIRRORED_REPEAT;
+  }
+  return GL_REPEAT;
+}
+
+}  // namespace
+
+gpu::Texture upload_albedo(const Texture& texture) {
+  gpu::TextureOptions options;
+  const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
+  options.levels = gpu::mip_levels(width, height);
+  options.make_mipmaps = true;
+  options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  options.mag_filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
+  options.wrap_s = gl_wrap(texture.wrap_s);
+  options.wrap_t = gl_wrap(texture.wrap_t);
+  return {gpu::kSrgbAlpha8, width, height, texture.texels.data(), options};
+}
+
+LightmapTexture upload_lightmap(const LightmapPage& page) {
+  float brightest = 0;
+  for (const Vec3& e : page.irradiance) {
+    if (is_finite(e)) brightest = std::max(brightest, max_component(e));
+  }
+  LightmapTexture out;
+  if (brightest > 0) out.scale = std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120));
+  const float inverse = out.scale > 0 ? 1 / out.scale : 0.0f;
+  std::vector<std::array<std::uint16_t, 4>> texels(page.irradiance.size());
+  const std::uint16_t one = half_from_float(1.0f);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const Vec3 e = is_finite(page.irradiance[i]) ? page.irradiance[i] * inverse : Vec3(0);
+    texels[i] = {half_from_float(e.x), half_from_float(e.y), half_from_float(e.z), one};
+  }
+  gpu::TextureOptions options;
+  options.min_filter = options.mag_filter = GL_LINEAR;
+  out.texture = {gpu::kRgba16f, static_cast<int>(page.width), static_cast<int>(page.height), texels.data(), options};
+  return out;
+}
+
+gpu::Texture upload_radiance_map(const RadianceMap& map) {
+  std::vector<Vec4> texels(map.radiance.size());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const bool usable = map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
+    texels[i] = usable ? Vec4(map.radiance[i], map.valid[i] == 2 ? 0.0f : map.disparity[i]) : Vec4(0, 0, 0, -1);
+  }
+  return {gpu::kRgba32f, static_cast<int>(map.width), static_cast<int>(map.height), texels.data()};
+}
+
+gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
+  std::size_t width = 1;
+  for (const FresnelMap& map : maps) width = std::max(width, map.table.size());
+  const std::size_t height = std::max<std::size_t>(maps.size(), 1);
+  std::vector<Vec4> texels(width * height, Vec4(0));
+  for (std::size_t row = 0; row < maps.size(); ++row) {
+    for (std::size_t i = 0; i < maps[row].table.size(); ++i) texels[row * width + i] = Vec4(maps[row].table[i], 1);
+  }
+  return {gpu::kRgba32f, static_cast<int>(width), static_cast<int>(height), texels.data()};
+}
+
+gpu::Texture upload_sphere_map(const FresnelMap& map) {
+  std::vector<Vec4> texels;
+  for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);
+  gpu::TextureOptions options;
+  options.min_filter = options.mag_filter = GL_LINEAR;
+  const int size = static_cast<int>(map.sphere_size);
+  return {gpu::kRgba32f, size, size, texels.data(), options};
+}
+
+}  // namespace oriel

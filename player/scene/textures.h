@@ -1,0 +1,27 @@
+// The pack's images on the GPU.
+#pragma once
+
+#include "formats/pack/pack.h"
+#include "player/gpu/texture.h"
+
+namespace oriel {
+
+// sRGB with mipmaps.
+gpu::Texture upload_albedo(const Texture& texture);
+
+// Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that the
+// relative error stays 2^-11 down to a billionth of it. 0: the page is black.
+struct LightmapTexture {
+  gpu::Texture texture;
+  float scale = 0;
+};
+LightmapTexture upload_lightmap(const LightmapPage& page);
+
+// Float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.
+gpu::Texture upload_radiance_map(const RadianceMap& map);
+
+// One row a map, as wide as the longest table; not filtered.
+gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps);
+gpu::Texture upload_sphere_map(const FresnelMap& map);
+
+}  // namespace oriel

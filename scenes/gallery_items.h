@@ -1,0 +1,22 @@
+// What stands and hangs in the gallery's three rooms (gallery.cpp). Each adds its nodes, meshes, materials and
+// textures.
+#pragma once
+
+#include "scenes/kit/scene_builder.h"
+#include "scenes/kit/textures.h"
+
+namespace oriel::sample {
+
+// A purely diffuse material; its index.
+std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color);
+
+// Four in room A, two in room C.
+void add_columns(Scene& scene, std::uint32_t stone);
+void add_pictures(Scene& scene, std::uint32_t frame);
+// The plane mirror on B's south wall and the brushed metal panel on A's north wall.
+void add_mirror_and_panel(Scene& scene, std::uint32_t frame);
+void add_benches(Scene& scene, std::uint32_t wood);
+// A ball on a plinth in C, a vase on B's platform, a ring stack in A.
+void add_sculptures(Scene& scene, std::uint32_t stone);
+
+}  // namespace oriel::sample

@@ -1,0 +1,31 @@
+#include "scenes/kit/scene_builder.h"
+
+namespace oriel::sample {
+
+std::uint32_t add_material(Scene& scene, Material material) {
+  scene.materials.push_back(std::move(material));
+  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+std::uint32_t add_mesh(Scene& scene, Mesh mesh) {
+  scene.meshes.push_back(std::move(mesh));
+  return static_cast<std::uint32_t>(scene.meshes.size() - 1);
+}
+
+void place(Scene& scene, Mesh mesh, const Vec3& position, float yaw_rad) {
+  std::string name = mesh.name;
+  const std::uint32_t index = add_mesh(scene, std::move(mesh));
+  place(scene, index, std::move(name), position, yaw_rad);
+}
+
+void place(Scene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad) {
+  scene.nodes.push_back({std::move(name), mesh, position, yaw_rad});
+}
+
+std::uint64_t triangle_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Node& node : scene.nodes) count += scene.meshes[node.mesh].triangle_count();
+  return count;
+}
+
+}  // namespace oriel::sample

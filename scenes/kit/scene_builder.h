@@ -1,0 +1,83 @@
+// A sample scene in memory: what the generators fill and the GLB writer writes. Metres, +Y up, right-handed, as glTF.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/core/bytes.h"
+#include "formats/core/vec.h"
+
+namespace oriel::sample {
+
+struct Texture {
+  std::string name;
+  Bytes png;
+};
+
+// glTF's metallic-roughness. The defaults are a purely diffuse surface: a dielectric without its specular lobe.
+struct Material {
+  std::string name;
+  Vec3 base_color{0.8f};  // linear
+  float metallic = 0;
+  float roughness = 1;
+  float specular = 0;  // KHR_materials_specular
+  Vec3 emission{0};    // cd/m²
+  int texture = -1;    // base colour, into Scene::textures; its meshes must have uvs
+};
+
+// One primitive. positions and normals have one length, uvs that length or none.
+struct Mesh {
+  std::string name;
+  std::uint32_t material = 0;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;  // unit
+  std::vector<Vec2> uvs;
+  std::vector<std::uint32_t> indices;  // triangles, counter-clockwise from the front
+
+  std::size_t triangle_count() const { return indices.size() / 3; }
+};
+
+// A mesh put into the world: turned about +Y, then moved.
+struct Node {
+  std::string name;
+  std::uint32_t mesh = 0;
+  Vec3 position{0};
+  float yaw_rad = 0;  // turns +z towards +x
+};
+
+struct Camera {
+  std::string name;
+  Vec3 eye{0}, target{0, 0, -1};
+  float vertical_fov_rad = 1;
+};
+
+// An animated camera.
+struct Path {
+  std::string name;
+  float vertical_fov_rad = 1;
+  std::vector<float> times_s;  // ascending
+  std::vector<Vec3> eyes;
+  std::vector<Vec3> forwards;  // unit
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::vector<Camera> cameras;
+  std::vector<Path> paths;
+};
+
+std::uint32_t add_material(Scene& scene, Material material);
+std::uint32_t add_mesh(Scene& scene, Mesh mesh);
+// A mesh used once: a mesh and its node, both with the mesh's name.
+void place(Scene& scene, Mesh mesh, const Vec3& position = Vec3(0), float yaw_rad = 0);
+// One more use of a mesh.
+void place(Scene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad = 0);
+
+// Triangles drawn: those of each node's mesh.
+std::uint64_t triangle_count(const Scene& scene);
+
+}  // namespace oriel::sample

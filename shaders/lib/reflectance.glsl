@@ -1,0 +1,17 @@
+// R: the directional albedo of a material's specular lobe (formats/assets/fresnel_map.h).
+
+// Linear between the entries of row `row`; entry i of count is at cos theta = (i / (count - 1))^2.
+vec3 reflectance_from_table(sampler2D tables, int row, int count, float cos_theta) {
+  float at = sqrt(clamp(cos_theta, 0.0, 1.0)) * float(count - 1);
+  int low = min(int(at), max(count - 2, 0));
+  vec3 a = texelFetch(tables, ivec2(low, row), 0).rgb;
+  vec3 b = texelFetch(tables, ivec2(min(low + 1, count - 1), row), 0).rgb;
+  return mix(a, b, at - float(low));
+}
+
+// Where a direction at angle theta from the normal, with unit tangential direction `around`, lies in the sphere map: an
+// equal-area disk, r = sqrt(2) sin(theta / 2). sin^2(theta / 2) = (1 - cos theta) / 2. Kept half a texel from the rim.
+vec2 sphere_map_uv(float cos_theta, vec2 around, float size) {
+  float r = min(sqrt(max(1.0 - clamp(cos_theta, 0.0, 1.0), 0.0)), 1.0 - 1.5 / size);
+  return 0.5 + 0.5 * r * around;
+}

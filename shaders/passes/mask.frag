@@ -1,0 +1,2 @@
+// A reflector's region in the stencil: no colour.
+void main() {}

@@ -1,0 +1,3 @@
+#include "lib/fullscreen.glsl"
+
+void main() { gl_Position = fullscreen_position(gl_VertexID); }

@@ -1,0 +1,211 @@
+// Kernels and Fresnel maps against closed forms and independent quadrature.
+#include "bake/material/kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "bake/material/reflectance.h"
+#include "bake/trace/albedo.h"
+
+namespace oriel {
+namespace {
+
+double sum(const BrdfKernel& k) { return std::accumulate(k.weights.begin(), k.weights.end(), 0.0); }
+
+double weight(const BrdfKernel& k, std::uint32_t x, std::uint32_t y) { return k.weights[y * k.size + x]; }
+
+// What every kernel promises; the reason it does not, or nothing.
+std::string broken_promise(const BrdfKernel& k) {
+  if (k.size % 2 == 0) return "even side";
+  if (k.weights.size() != std::size_t{k.size} * k.size) return "wrong number of weights";
+  for (const float w : k.weights)
+    if (!(w >= 0) || !std::isfinite(w)) return "a weight is negative or not finite";
+  if (std::abs(sum(k) - 1) > 1e-5) return "the sum is not 1";
+  if (!std::isfinite(k.half_extent) || k.half_extent < 0) return "half_extent";
+  if (!(k.energy_kept >= 0 && k.energy_kept <= 1)) return "energy_kept";
+  return {};
+}
+
+TEST(Kernel, PromisesCanBeSeenToBreak) {
+  BrdfKernel k = make_kernel(0.1f, KernelModel::kGgxDg);
+  EXPECT_EQ(broken_promise(k), "");
+  k.weights[3] += 0.1f;
+  EXPECT_EQ(broken_promise(k), "the sum is not 1");
+  k.weights[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NE(broken_promise(k), "");
+}
+
+TEST(Kernel, HoldsItsPromisesFromMirrorToMatteAtEveryIncidence) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg})
+    for (const float alpha : {-1.0f, 0.0f, 1e-30f, 1e-5f, 1e-4f, 1e-3f, 0.01f, 0.1f, 0.35f, 1.0f, 7.0f, nan})
+      for (const float cos_theta : {1.0f, 0.7f, 0.1f, 1e-3f, 0.0f, -1.0f, nan}) {
+        const BrdfKernel k = make_kernel(alpha, model, cos_theta);
+        EXPECT_EQ(broken_promise(k), "") << "alpha " << alpha << ", cos " << cos_theta;
+        EXPECT_LE(k.size, 31u);
+      }
+}
+
+TEST(Kernel, MirrorIsOnePixel) {
+  const BrdfKernel k = make_kernel(0, KernelModel::kGgxDg);
+  EXPECT_EQ(k.size, 1u);
+  EXPECT_EQ(k.weights, std::vector<float>{1.0f});
+  EXPECT_EQ(k.half_extent, 0);
+  EXPECT_EQ(k.energy_kept, 1);
+}
+
+TEST(Kernel, IsSymmetricAtNormalIncidenceAndPeaksInTheMiddle) {
+  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg}) {
+    const BrdfKernel k = make_kernel(0.1f, model);
+    const std::uint32_t n = k.size, c = n / 2;
+    for (std::uint32_t y = 0; y < n; ++y)
+      for (std::uint32_t x = 0; x < n; ++x) {
+        EXPECT_NEAR(weight(k, x, y), weight(k, y, x), 1e-7);
+        EXPECT_NEAR(weight(k, x, y), weight(k, n - 1 - x, y), 1e-7);
+        EXPECT_LE(weight(k, x, y), weight(k, c, c));
+      }
+    EXPECT_NEAR(k.half_extent, make_kernel(0.1f, model).half_extent, 0);
+  }
+}
+
+// A narrow lobe at normal incidence has a closed form: half vectors with density D cosθ, tan of the reflected angle twice
+// that of the half vector's. Its share inside the disk of tangent 2 tanθh is 1 - exp(-tan²θh/α²) for Beckmann.
+TEST(Kernel, NarrowBeckmannLobeMatchesTheGaussian) {
+  const float alpha = 1e-3f;
+  const BrdfKernel k = make_kernel(alpha, KernelModel::kBeckmannDg);
+  // In the limit the lobe is a Gaussian of exp(-t² / (2α)²); a square of half side s holds erf(s / (2α))².
+  const double held = std::pow(std::erf(k.half_extent / (2 * alpha)), 2);
+  EXPECT_NEAR(held, 0.99, 4e-3);
+  EXPECT_NEAR(k.energy_kept, held, 4e-3);
+  const double width = 2 * k.half_extent / k.size, a2 = 2 * alpha;
+  for (std::uint32_t x = 0; x < k.size; ++x) {
+    const double t0 = x * width - k.half_extent;
+    const double in_x = 0.5 * (std::erf((t0 + width) / a2) - std::erf(t0 / a2));
+    const double in_y = std::erf(0.5 * width / a2);
+    EXPECT_NEAR(weight(k, x, k.size / 2), in_x * in_y / held, 2e-3 * weight(k, k.size / 2, k.size / 2) + 1e-6);
+  }
+}
+
+// energy_kept against direct integration of the density over the square, and the whole lobe against its albedo.
+TEST(Kernel, EnergyKeptIsTheLobesShareInTheSquare) {
+  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg})
+    for (const double alpha : {0.01, 0.1, 0.3})
+      for (const double cos_theta : {1.0, 0.5}) {
+        const BrdfKernel k = make_kernel(static_cast<float>(alpha), model, static_cast<float>(cos_theta));
+        const int n = 1200;
+        const double step = 2.0 * k.half_extent / n;
+        double inside = 0;
+        for (int y = 0; y < n; ++y)
+          for (int x = 0; x < n; ++x)
+            inside += lobe_density(model, k.alpha, cos_theta, {(x + 0.5) * step - k.half_extent, (y + 0.5) * step - k.half_extent});
+        inside *= step * step;
+        EXPECT_NEAR(inside / lobe_albedo(model, k.alpha, cos_theta), k.energy_kept, 4e-3) << alpha << " " << cos_theta;
+        if (alpha < 0.15) {
+          EXPECT_GE(k.energy_kept, 0.985) << alpha << " " << cos_theta;
+        }
+      }
+}
+
+TEST(Kernel, WideLobesSayWhatTheyLose) {
+  const BrdfKernel k = make_kernel(0.8f, KernelModel::kGgxDg);
+  EXPECT_FLOAT_EQ(k.half_extent, 2.0f);
+  EXPECT_LT(k.energy_kept, 0.95f);
+  EXPECT_GT(k.energy_kept, 0.3f);
+}
+
+TEST(Kernel, ExtentGrowsWithTheLobe) {
+  float before = 0;
+  for (const float alpha : {1e-4f, 1e-3f, 1e-2f, 0.05f, 0.1f}) {
+    const float extent = make_kernel(alpha, KernelModel::kGgxDg).half_extent;
+    EXPECT_GT(extent, before);
+    before = extent;
+  }
+}
+
+TEST(Kernel, TinyAlphasScaleExactly) {
+  const BrdfKernel a = make_kernel(1e-4f, KernelModel::kGgxDg), b = make_kernel(1e-3f, KernelModel::kGgxDg);
+  ASSERT_EQ(a.size, b.size);
+  EXPECT_NEAR(b.half_extent / a.half_extent, 10, 0.02);
+  for (std::size_t i = 0; i < a.weights.size(); ++i) EXPECT_NEAR(a.weights[i], b.weights[i], 2e-5);
+}
+
+// A white furnace: the lobe alone, f0 = f90 = 1, against the table that the path tracer uses.
+TEST(Kernel, AlbedoAgreesWithTheSplitSumTable) {
+  for (const float alpha : {0.01f, 0.0625f, 0.25f, 0.5625f, 1.0f})
+    for (const float cos_theta : {1.0f, 0.7f, 0.3f, 0.1f}) {
+      const Vec2 split = specular_albedo(cos_theta, alpha);
+      EXPECT_NEAR(split.x + split.y, lobe_albedo(KernelModel::kGgxDg, alpha, cos_theta), 6e-3) << alpha << " " << cos_theta;
+    }
+}
+
+TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
+  for (const float alpha : {0.0f, 0.01f, 0.25f, 1.0f}) {
+    const FresnelMap black = make_fresnel_map(Vec3(0), 0, alpha), glass = make_fresnel_map(Vec3(0.04f), 1, alpha);
+    const FresnelMap gold = make_fresnel_map({1.0f, 0.78f, 0.34f}, 1, alpha), white = make_fresnel_map(Vec3(1), 1, alpha);
+    for (std::size_t i = 0; i < glass.table.size(); ++i) {
+      EXPECT_EQ(black.table[i], Vec3(0));
+      EXPECT_LE(glass.table[i].g, gold.table[i].g + 1e-6f);
+      EXPECT_LE(max_component(gold.table[i]), 1.0f);
+      EXPECT_LE(gold.table[i].b, gold.table[i].r + 1e-6f);
+      EXPECT_LE(gold.table[i].r, white.table[i].r + 1e-6f);
+    }
+  }
+}
+
+TEST(FresnelMap, MirrorFollowsSchlickAndGrowsTowardsGrazing) {
+  const FresnelMap map = make_fresnel_map(Vec3(0.04f), 1, 0);
+  EXPECT_NEAR(map.table.back().r, 0.04f, 1e-3);
+  EXPECT_NEAR(map.table.front().r, 1, 1e-3);
+  for (std::size_t i = 0; i < map.table.size(); ++i) {
+    const float root = static_cast<float>(i) / 63, cosine = root * root;
+    EXPECT_NEAR(map.table[i].r, 0.04f + 0.96f * std::pow(1 - cosine, 5.0f), 3e-3);
+    if (i > 0) {
+      EXPECT_LE(map.table[i].r, map.table[i - 1].r + 1e-6f);
+    }
+  }
+}
+
+TEST(FresnelMap, LookupInterpolatesTheTable) {
+  const FresnelMap map = make_fresnel_map(Vec3(0.04f, 0.2f, 0.6f), 1, 0.01f);
+  for (const float cosine : {0.0f, 0.01f, 0.3f, 0.77f, 1.0f}) {
+    const Vec2 split = specular_albedo(cosine, 0.01f);
+    EXPECT_NEAR(fresnel_lookup(map, cosine).g, 0.2f * split.x + split.y, 2e-3);
+  }
+  EXPECT_EQ(fresnel_lookup(map, 2), map.table.back());
+  EXPECT_EQ(fresnel_lookup(map, std::numeric_limits<float>::quiet_NaN()), map.table.front());
+  EXPECT_EQ(fresnel_lookup(FresnelMap{}, 0.5f), Vec3(0));
+}
+
+// Centre = normal, rim = grazing, and equal area: cosθ = 1 - r².
+TEST(FresnelMap, SphereMapHoldsTheSameReflectanceAsTheTable) {
+  const FresnelMap map = make_fresnel_map(Vec3(0.04f), 1, 0.04f);
+  ASSERT_EQ(map.sphere.size(), 64u * 64u);
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const double px = (x + 0.5) / 32 - 1, py = (y + 0.5) / 32 - 1, r = std::min(1.0, std::hypot(px, py));
+      const double theta = 2 * std::asin(r / std::sqrt(2.0));
+      EXPECT_NEAR(map.sphere[y * 64 + x].r, fresnel_lookup(map, static_cast<float>(std::cos(theta))).r, 4e-3);
+    }
+  EXPECT_NEAR(map.sphere[32 * 64 + 32].r, 0.04f, 2e-3);
+  EXPECT_EQ(map.sphere[0], map.sphere[64 * 64 - 1]);  // corners: the rim's value
+  EXPECT_EQ(sphere_map_cos_theta(0), 1);
+  EXPECT_EQ(sphere_map_cos_theta(1.3f), 0);
+}
+
+TEST(FresnelMap, BadNumbersAreClamped) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const FresnelMap map = make_fresnel_map({nan, inf, -1}, nan, nan, 0, 3);
+  EXPECT_EQ(map.table.size(), 2u);
+  EXPECT_EQ(map.sphere.size(), 9u);
+  for (const Vec3& r : map.table) {
+    EXPECT_TRUE(is_finite(r));
+    EXPECT_LE(max_component(r), 1);
+  }
+  EXPECT_TRUE(make_fresnel_map(Vec3(0.5f), 1, 0.1f, 8, 0).sphere.empty());
+}
+
+}  // namespace
+}  // namespace oriel

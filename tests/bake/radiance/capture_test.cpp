@@ -1,0 +1,193 @@
+// Captured maps against the closed form of a room's walls.
+#include "bake/radiance/capture.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bake/radiance/reproject.h"
+#include "tests/bake/radiance/mirror_room.h"
+
+namespace oriel {
+namespace {
+
+using test::Captured;
+using test::MirrorRoom;
+
+ViewOptions small_maps(std::uint32_t resolution = 32) {
+  ViewOptions options;
+  options.map_resolution = resolution;
+  return options;
+}
+
+class CaptureAtScale : public testing::TestWithParam<float> {};
+
+// Every pixel of every map: its colour is that of the wall its ray meets, its reprojected point lies there.
+TEST_P(CaptureAtScale, MapsHoldTheWallsThatTheirRaysMeet) {
+  const MirrorRoom room(GetParam());
+  auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  ViewOptions options = small_maps();
+  options.element_m = 1 * room.scale;
+  const Captured c = capture(*accel, room, options);
+  ASSERT_EQ(c.plan.maps.size(), 64u);
+  const Reflector& r = c.reflectors[0].reflector;
+  const DMat4 to_pack(r.pack_from_reflector);
+  double worst = 0;
+  std::size_t wrong = 0, pixels = 0;
+  for (const RadianceMap& map : c.plan.maps)
+    for (std::uint32_t y = 0; y < map.height; ++y)
+      for (std::uint32_t x = 0; x < map.width; ++x, ++pixels) {
+        const std::size_t at = y * map.width + x;
+        const DVec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
+        std::uint32_t material = 0;
+        const DVec3 expected = room.exit_point(DVec3(to_pack * DVec4(q, 1)), DMat3(to_pack) * (q - DVec3(map.eye)), material);
+        ASSERT_EQ(map.valid[at], 1);
+        const Vec4 h = unproject(map, Vec2(x, y) + 0.5f, map.disparity[at]);
+        const DVec3 found(pack_from_reflector(r, Vec3(h) / h.w));
+        worst = std::max(worst, glm::length(found - expected) / room.scale);
+        wrong += map.radiance[at] != MirrorRoom::colour(material);
+      }
+  EXPECT_LT(worst, 1e-4 * 5);  // relative to the room
+  EXPECT_LE(wrong, pixels / 2000);  // rays that meet an edge of the room
+}
+INSTANTIATE_TEST_SUITE_P(Scales, CaptureAtScale, testing::Values(1e-3f, 1.0f, 1e3f));
+
+TEST(Capture, SameBytesForOneAndTwoThreads) {
+  const MirrorRoom room;
+  auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const Captured a = capture(*accel, room, small_maps(), 1), b = capture(*accel, room, small_maps(), 2);
+  ASSERT_EQ(a.plan.maps.size(), 16u);
+  ASSERT_EQ(a.plan.maps.size(), b.plan.maps.size());
+  for (std::size_t i = 0; i < a.plan.maps.size(); ++i) {
+    EXPECT_EQ(a.plan.maps[i].radiance, b.plan.maps[i].radiance);
+    EXPECT_EQ(a.plan.maps[i].disparity, b.plan.maps[i].disparity);
+    EXPECT_EQ(a.plan.maps[i].valid, b.plan.maps[i].valid);
+  }
+}
+
+TEST(Capture, StopsWhenAskedAndCountsItsRays) {
+  const MirrorRoom room;
+  auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
+  ViewPlan plan = plan_views(room.scene, reflectors, small_maps());
+  Context context;
+  std::atomic<std::uint64_t> rays{0};
+  ASSERT_TRUE(capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps, &rays));
+  EXPECT_GE(rays.load(), 16u * 32 * 24);
+  EXPECT_LE(rays.load(), 16u * 32 * 24 + 10);
+  context.stop = true;
+  const Status stopped = capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
+}
+
+// A pane before the mirror and something behind it: what the one map of the middle view sees.
+RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const OutgoingRadiance& outgoing,
+                    const Vec3& sky = Vec3(0)) {
+  test::SceneParts parts;
+  parts.add(SceneMaterial{});
+  parts.diffuse(Vec3(0.5f));
+  parts.quad("mirror", 0, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  furnish(parts);
+  Scene scene = parts.finish();
+  scene.sky = sky;
+  scene.lower = Vec3(-10);
+  scene.upper = Vec3(10);
+  auto accel = Accel::build(scene);
+  EXPECT_TRUE(accel);
+  std::vector<ReflectorMaterial> materials(scene.materials.size(), ReflectorMaterial{1, Vec3(0), 0});
+  materials[0] = {0, Vec3(0.9f), 1};
+  ReflectorOptions options;
+  options.min_open_share = 0;
+  auto reflectors = find_reflectors(*accel, materials, options).reflectors;
+  EXPECT_EQ(reflectors.size(), 1u);
+  ViewOptions views = small_maps(16);
+  views.views_per_element = 1;
+  ViewPlan plan = plan_views(scene, reflectors, views);
+  EXPECT_EQ(plan.maps.size(), 1u);
+  Context context;
+  EXPECT_TRUE(capture_maps(*accel, reflectors, outgoing, {}, context, plan.maps));
+  return plan.maps[0];
+}
+
+Vec3 white(const Hit&, const Vec3&) { return Vec3(1); }
+
+TEST(Capture, TheSkyIsAtInfinity) {
+  const RadianceMap map = one_map([](test::SceneParts&) {}, white, Vec3(3, 4, 5));
+  for (std::size_t i = 0; i < map.valid.size(); ++i) {
+    EXPECT_EQ(map.valid[i], 2);
+    EXPECT_EQ(map.disparity[i], 0);
+    EXPECT_EQ(map.radiance[i], Vec3(3, 4, 5));
+  }
+}
+
+TEST(Capture, BacksOfOneSidedSurfacesAreSeenButNotValid) {
+  const auto wall = [](const Vec3& u, const Vec3& v) {
+    return [u, v](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, u, v); };
+  };
+  const RadianceMap back = one_map(wall({60, 0, 0}, {0, 60, 0}), white), front = one_map(wall({0, 60, 0}, {60, 0, 0}), white);
+  for (std::size_t i = 0; i < back.valid.size(); ++i) {
+    EXPECT_EQ(back.valid[i], 0);
+    EXPECT_EQ(back.radiance[i], Vec3(0));
+    EXPECT_EQ(front.valid[i], 1);
+    EXPECT_EQ(front.radiance[i], Vec3(1));
+    EXPECT_NEAR(height_of(front, front.disparity[i]), 2, 1e-5);
+    EXPECT_EQ(front.disparity[i], back.disparity[i]);
+  }
+}
+
+TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
+  const auto pane = [](const SceneMaterial& material) {
+    return [material](test::SceneParts& p) {
+      const std::uint32_t m = p.add(material);
+      p.quad("pane", m, {-30, -30, 1}, {0, 60, 0}, {60, 0, 0});
+      p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
+    };
+  };
+  const auto coloured = [](const Hit& hit, const Vec3&) { return hit.triangle < 4 ? Vec3(0, 0, 4) : Vec3(1, 2, 0); };
+  SceneMaterial cut_out, veil, glass;
+  cut_out.alpha_mode = AlphaMode::kMask;
+  cut_out.alpha = 0.1f;
+  veil.alpha_mode = AlphaMode::kBlend;
+  veil.alpha = 0.25f;
+  glass.metallic = 0;
+  glass.transmission = 1;
+  glass.base_color = Vec3(1, 0.5f, 1);
+  glass.specular = 0;
+  const RadianceMap a = one_map(pane(cut_out), coloured), b = one_map(pane(veil), coloured), c = one_map(pane(glass), coloured);
+  for (std::size_t i = 0; i < a.valid.size(); ++i) {
+    EXPECT_EQ(a.valid[i] * b.valid[i] * c.valid[i], 1);
+    EXPECT_NEAR(height_of(a, a.disparity[i]), 2, 1e-5);
+    EXPECT_NEAR(height_of(b, b.disparity[i]), 2, 1e-5);
+    EXPECT_NEAR(height_of(c, c.disparity[i]), 2, 1e-5);
+    EXPECT_NEAR(a.radiance[i].g, 2, 1e-5);
+    EXPECT_NEAR(b.radiance[i].g, 1.5f, 1e-5);
+    EXPECT_NEAR(b.radiance[i].b, 1, 1e-5);  // the veil's own light by its coverage
+    EXPECT_NEAR(c.radiance[i].r, 1, 1e-5);
+    EXPECT_NEAR(c.radiance[i].g, 1, 1e-5);
+  }
+}
+
+TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
+  const auto bad = [](const Hit&, const Vec3&) {
+    return Vec3(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1);
+  };
+  const RadianceMap map = one_map([](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0}); }, bad);
+  for (const Vec3& c : map.radiance) EXPECT_EQ(c, Vec3(0));
+}
+
+TEST(Capture, TheCallbackIsAskedForLightTowardsTheEye) {
+  const auto towards = [](const Hit&, const Vec3& d) { return Vec3(-d.z, std::abs(glm::length(d) - 1) < 1e-5f, 0); };
+  const RadianceMap map = one_map([](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0}); }, towards);
+  for (std::size_t i = 0; i < map.radiance.size(); ++i) {
+    const Vec3 q(map_point(map, Vec2(i % map.width, i / map.width) + 0.5f), 0);
+    EXPECT_NEAR(map.radiance[i].x, glm::normalize(q - map.eye).z, 1e-5);
+    EXPECT_EQ(map.radiance[i].y, 1);
+  }
+}
+
+}  // namespace
+}  // namespace oriel
