@@ -47,13 +47,13 @@ const char* air_name(int air) {
 
 const char* facing_name(const SolidPatch& patch) {
   // A wall on the west side of a room faces east.
-  static constexpr std::array<const char*, 6> kInside{"east wall", "west wall",  "ceiling",
-                                                      "floor",     "south wall", "north wall"};
-  static constexpr std::array<const char*, 6> kOutdoors{"west", "east", "underside", "roof", "north", "south"};
+  using Names = std::array<const char*, 6>;
+  static constexpr Names kInside{"east wall", "west wall", "ceiling", "floor", "south wall", "north wall"};
+  static constexpr Names kOutdoors{"west", "east", "underside", "roof", "north", "south"};
+  static constexpr Names kStairs{"platform west side", "platform east side",  "platform underside",
+                                 "platform",           "platform north side", "platform south side"};
   const auto i = static_cast<std::size_t>(patch.facing);
-  if (patch.air_tag == kOutside) return kOutdoors[i];
-  if (patch.solid_tag == kPlatform) return patch.facing == Facing::kUp ? "platform" : "platform sides";
-  return kInside[i];
+  return (patch.air_tag == kOutside ? kOutdoors : patch.solid_tag == kPlatform ? kStairs : kInside)[i];
 }
 
 struct Palette {

@@ -182,20 +182,18 @@ void add_stairs(Scene& scene, const Palette& palette) {
   const Vec3 c = Room{1, 1, 0}.corner();
   Mesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
   const float rise = kStorey / static_cast<float>(kRisers), reach = 0.01f;
+  const float near = kRoomZ - kStairWidth + reach, far = kRoomZ + reach;  // a joint to the slab, and into the wall
   // Each step is a block down to the floor; only what shows: riser, tread, the side to the room. The last riser is the
-  // slab.
+  // slab's edge, which the last tread reaches into.
   for (int i = 0; i + 1 < kRisers; ++i) {
-    const float x0 = kStairX0 + kTread * static_cast<float>(i), x1 = x0 + kTread;
-    const float y0 = rise * static_cast<float>(i), y1 = y0 + rise;
-    const float z0 = kRoomZ - kStairWidth, z1 = kRoomZ + reach;
-    add_quad(stairs, c + Vec3(x0, y0 - (i == 0 ? reach : 0), z0), Vec3(0, 0, z1 - z0),
-             Vec3(0, y1 - y0 + (i == 0 ? reach : 0), 0));
-    add_quad(stairs, c + Vec3(x0, y1, z1), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z0 - z1));
-    add_quad(stairs, c + Vec3(x1, -reach, z0), Vec3(x0 - x1, 0, 0), Vec3(0, y1 + reach, 0));
+    const float x0 = kStairX0 + kTread * static_cast<float>(i), x1 = x0 + kTread + (i + 2 == kRisers ? reach : 0);
+    const float y0 = i == 0 ? -reach : rise * static_cast<float>(i), y1 = rise * static_cast<float>(i + 1);
+    add_quad(stairs, c + Vec3(x0, y0, near), Vec3(0, 0, far - near), Vec3(0, y1 - y0, 0));
+    add_quad(stairs, c + Vec3(x0, y1, far), Vec3(x1 - x0, 0, 0), Vec3(0, 0, near - far));
+    add_quad(stairs, c + Vec3(x1, -reach, near), Vec3(x0 - x1, 0, 0), Vec3(0, y1 + reach, 0));
   }
   const float top = rise * static_cast<float>(kRisers - 1);
-  add_quad(stairs, c + Vec3(kStairX1, -reach, kRoomZ + reach), Vec3(0, 0, -kStairWidth - reach),
-           Vec3(0, top + reach, 0));
+  add_quad(stairs, c + Vec3(kStairX1 + reach, -reach, far), Vec3(0, 0, near - far), Vec3(0, top + reach, 0));
   place(scene, std::move(stairs));
   // The parapet around the opening above.
   Mesh parapet{"parapet", palette.trim, {}, {}, {}, {}};
@@ -203,8 +201,8 @@ void add_stairs(Scene& scene, const Palette& palette) {
   const float z0 = kRoomZ - kStairWidth;
   add_box(parapet, up + Vec3(kHoleX0 - 0.06f, -reach, z0 - 0.06f), up + Vec3(kStairX1, 0.9f, z0 - 0.01f),
           kSides | kTop);
-  add_box(parapet, up + Vec3(kHoleX0 - 0.06f, -reach, z0 - 0.015f), up + Vec3(kHoleX0 - 0.01f, 0.89f, kRoomZ + reach),
-          kSides | kTop);
+  add_box(parapet, up + Vec3(kHoleX0 - 0.055f, -2 * reach, z0 - 0.015f),
+          up + Vec3(kHoleX0 - 0.015f, 0.89f, kRoomZ + reach), kSides | kTop);
   place(scene, std::move(parapet));
 }
 

@@ -23,12 +23,12 @@ constexpr std::array<Primitive, 6> kSofaParts{{
 }};
 // The top's upper face is a mesh of its own: it may be a reflector.
 constexpr std::array<Primitive, 3> kTableParts{{
-    {Kind::kRoundedBox, kWood, {0, 0.36f, 0}, {0.12f, 0.74f, 0.12f}, 0.02f, 0.3f},
+    {Kind::kRoundedBox, kWood, {0, 0.365f, 0}, {0.12f, 0.72f, 0.12f}, 0.02f, 0.3f},
     {Kind::kRoundedBox, kWood, {0, 0.02f, 0}, {0.50f, 0.06f, 0.50f}, 0.02f, 0.3f},
     {Kind::kVase, kCeramic, {0.22f, kTableHeight - 0.005f, 0.18f}, {0.16f, 0.28f, 0.16f}, 0, 1.5f},
 }};
 constexpr std::array<Primitive, 5> kBedParts{{
-    {Kind::kRoundedBox, kWood, {0, 0.16f, 0}, {0.96f, 0.34f, 1.44f}, 0.02f, 0.3f},
+    {Kind::kRoundedBox, kWood, {0, 0.165f, 0}, {0.96f, 0.36f, 1.44f}, 0.02f, 0.3f},
     {Kind::kRoundedBox, kLinen, {0, 0.40f, 0.01f}, {0.90f, 0.20f, 1.38f}, 0.07f, 1.5f},
     {Kind::kRoundedBox, kFabric, {0, 0.44f, 0.18f}, {0.94f, 0.16f, 0.98f}, 0.06f, 1.5f},
     {Kind::kRoundedBox, kLinen, {0, 0.54f, -0.50f}, {0.60f, 0.14f, 0.34f}, 0.068f, 1.6f},

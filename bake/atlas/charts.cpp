@@ -164,6 +164,36 @@ class Grower {
     return pieces;
   }
 
+  // The quick way to know that a chart does not overlap itself: from its outline alone. `sorted`: scene triangles.
+  bool has_simple_outline(const Faces& sorted, const std::vector<Triangle2>& points) {
+    for (const Triangle2& t : points)
+      if (signed_area(t) < 0) return false;
+    for (const std::uint32_t t : sorted) member_[t - first_] = true;
+    std::vector<OutlineEdge> edges;
+    std::vector<std::pair<int, std::uint32_t>> from, to;  // vertex of the mesh, edge
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      for_neighbours(sorted[i] - first_, [&](int neighbour, SurfaceMesh::HalfedgeHandle edge) {
+        if (neighbour >= 0 && member_[static_cast<std::size_t>(neighbour)]) return;
+        const SurfaceMesh::Point& start = mesh_.point(mesh_.from_vertex_handle(edge));
+        std::size_t k = 0;
+        while (k < 2 && corner(sorted[i] - first_, static_cast<int>(k)) != DVec3(start[0], start[1], start[2])) ++k;
+        const auto index = static_cast<std::uint32_t>(edges.size());
+        from.emplace_back(mesh_.from_vertex_handle(edge).idx(), index);
+        to.emplace_back(mesh_.to_vertex_handle(edge).idx(), index);
+        edges.push_back({points[i][k], points[i][(k + 1) % 3], 0});
+      });
+    }
+    for (const std::uint32_t t : sorted) member_[t - first_] = false;
+    std::sort(from.begin(), from.end());
+    std::sort(to.begin(), to.end());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const bool touches = i > 0 && from[i].first == from[i - 1].first;
+      if (touches || from[i].first != to[i].first) return false;
+      edges[to[i].second].next = from[i].second;
+    }
+    return is_simple_outline(edges);
+  }
+
   // Appends a chart; false (and nothing appended) where it would fold or overlap itself.
   bool emit(const Faces& faces) {
     const DVec3 axis = mean_normal(faces);
@@ -175,7 +205,7 @@ class Grower {
     for (std::uint32_t& face : sorted) face += first_;
     std::vector<Triangle2> points(sorted.size());
     const DVec2 size = flatten(scene_, sorted, axis, points);
-    if (faces.size() > 2) {  // two that share an edge and face the same way cannot
+    if (faces.size() > 2 && !has_simple_outline(sorted, points)) {  // two triangles that share an edge cannot overlap
       const double length = std::max(size.x, size.y);
       const OverlapTolerance tolerance{1e-4 * texel_m_ * texel_m_, std::max(1e-6 * length, 1e-3 * texel_m_)};
       if (find_overlap(points, tolerance)) return false;
@@ -199,7 +229,7 @@ class Grower {
   std::vector<std::uint32_t> seeds_, state_;  // state_: by face
   std::vector<std::uint32_t> visit_;          // by face: the last growth that took it
   std::uint32_t round_ = 0;
-  std::vector<bool> member_;                  // by face: still to be taken by connected_pieces
+  std::vector<bool> member_;                  // by face: of the set at hand (all false between uses)
   ChartSet out_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace oriel {
@@ -48,6 +49,39 @@ void for_each_cell(const Grid& grid, const Triangle2& triangle, Visit&& visit) {
   });
 }
 
+// The triangles that touch each cell, ascending.
+class Cells {
+ public:
+  explicit Cells(std::span<const Triangle2> triangles) {
+    const Grid grid = make_grid(triangles);
+    first_.assign(static_cast<std::size_t>(grid.nx) * grid.ny + 1, 0);
+    for (const Triangle2& t : triangles)
+      for_each_cell(grid, t, [&](std::size_t cell) { ++first_[cell + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for_each_cell(grid, triangles[i], [&](std::size_t cell) { members_[next[cell]++] = static_cast<std::uint32_t>(i); });
+  }
+
+  // Calls test(i, j), i < j, for pairs that share a cell (some more than once) until it returns true.
+  template <class Test>
+  bool any_pair(Test&& test) const {
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+      const std::size_t begin = first_[cell], end = first_[cell + 1];
+      const std::size_t reach = end - begin > kCrowd ? kCrowdReach : end - begin;
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t j = i + 1; j < std::min(end, i + 1 + reach); ++j)
+          if (test(members_[i], members_[j])) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<std::uint32_t> members_;
+};
+
 Triangle2 counter_clockwise(const Triangle2& t) { return signed_area(t) >= 0 ? t : Triangle2{t[0], t[2], t[1]}; }
 
 // True where an edge of a has all of b outside it, or inside by no more than the thickness. Both counter-clockwise.
@@ -73,6 +107,34 @@ ConvexPolygon clip_line(const ConvexPolygon& polygon, const DVec2& a, const DVec
     if ((dp > 0 && dq < 0) || (dp < 0 && dq > 0)) out.add(p + (q - p) * (dp / (dp - dq)));
   }
   return out;
+}
+
+// True where the closed segments have a point in common, or cannot be told apart from such by their signs.
+bool meet(const OutlineEdge& e, const OutlineEdge& f) {
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::max(e.a[axis], e.b[axis]) < std::min(f.a[axis], f.b[axis]) ||
+        std::max(f.a[axis], f.b[axis]) < std::min(e.a[axis], e.b[axis]))
+      return false;
+  const auto one_side = [](const OutlineEdge& line, const OutlineEdge& other) {
+    const double p = cross2(line.b - line.a, other.a - line.a), q = cross2(line.b - line.a, other.b - line.a);
+    return (p > 0 && q > 0) || (p < 0 && q < 0);
+  };
+  return !one_side(e, f) && !one_side(f, e);
+}
+
+// Loops with a positive area.
+std::size_t positive_loops(std::span<const OutlineEdge> edges) {
+  std::vector<bool> seen(edges.size());
+  std::size_t count = 0;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    double twice_area = 0;
+    for (std::size_t i = start; !seen[i]; i = edges[i].next) {
+      seen[i] = true;
+      twice_area += cross2(edges[i].a - edges[start].a, edges[i].b - edges[start].a);
+    }
+    count += twice_area > 0;
+  }
+  return count;
 }
 
 std::optional<Overlap> overlap_of(const Triangle2& a, const Triangle2& b, const OverlapTolerance& tolerance) {
@@ -133,31 +195,27 @@ Interval extent(const ConvexPolygon& polygon, int axis) {
   return e;
 }
 
+bool is_simple_outline(std::span<const OutlineEdge> edges) {
+  if (positive_loops(edges) != 1) return false;
+  std::vector<Triangle2> lines;
+  lines.reserve(edges.size());
+  for (const OutlineEdge& e : edges) lines.push_back({e.a, e.b, e.b});
+  const Cells cells(lines);
+  return !cells.any_pair([&](std::uint32_t i, std::uint32_t j) {
+    return edges[i].next != j && edges[j].next != i && meet(edges[i], edges[j]);
+  });
+}
+
 std::optional<Overlap> find_overlap(std::span<const Triangle2> triangles, const OverlapTolerance& tolerance) {
   if (triangles.size() < 2) return std::nullopt;
-  const Grid grid = make_grid(triangles);
-  const std::size_t cells = static_cast<std::size_t>(grid.nx) * grid.ny;
-  std::vector<std::uint32_t> first(cells + 1, 0);
-  for (const Triangle2& t : triangles)
-    for_each_cell(grid, t, [&](std::size_t cell) { ++first[cell + 1]; });
-  for (std::size_t i = 0; i < cells; ++i) first[i + 1] += first[i];
-  std::vector<std::uint32_t> members(first[cells]), next(first.begin(), first.end() - 1);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for_each_cell(grid, triangles[i], [&](std::size_t cell) { members[next[cell]++] = static_cast<std::uint32_t>(i); });
-
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const std::size_t begin = first[cell], end = first[cell + 1];
-    const std::size_t reach = end - begin > kCrowd ? kCrowdReach : end - begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < std::min(end, i + 1 + reach); ++j) {
-        if (auto found = overlap_of(triangles[members[i]], triangles[members[j]], tolerance)) {
-          found->a = members[i], found->b = members[j];
-          return found;
-        }
-      }
-    }
-  }
-  return std::nullopt;
+  std::optional<Overlap> found;
+  const Cells cells(triangles);
+  cells.any_pair([&](std::uint32_t i, std::uint32_t j) {
+    found = overlap_of(triangles[i], triangles[j], tolerance);
+    if (found) found->a = i, found->b = j;
+    return found.has_value();
+  });
+  return found;
 }
 
 }  // namespace oriel

@@ -89,4 +89,15 @@ struct Overlap {
 // of the search grid (the tip of a cone), each is compared with the next 256 there.
 std::optional<Overlap> find_overlap(std::span<const Triangle2> triangles, const OverlapTolerance& tolerance);
 
+// A directed edge of a closed outline.
+struct OutlineEdge {
+  DVec2 a{0}, b{0};
+  std::uint32_t next = 0;  // the edge that goes on from b
+};
+
+// True where no two edges meet except each with its next, and exactly one loop runs counter-clockwise: the outline then
+// winds once around what it encloses. So a chart without turned-over triangles does not overlap itself: the
+// triangles over a point are as many as its outline winds around the point. False may also mean that it only touches itself.
+bool is_simple_outline(std::span<const OutlineEdge> edges);
+
 }  // namespace oriel

@@ -8,9 +8,10 @@
 namespace oriel {
 namespace {
 
-constexpr double kMirrorBelow = 1e-5;  // narrower lobes than any image can resolve
+constexpr double kMirrorBelow = 1e-5;       // narrower lobes than any image can resolve
 constexpr int kPolar = 512, kAzimuth = 64;  // quadrature over half vectors
 constexpr int kSubsamples = 4;              // per pixel and axis
+constexpr double kBinnedBelow = 0.25;       // cosθ: beneath it the lobe is narrower across than what subsamples catch
 
 // Smith's Λ from tan²θ: G2 = 1 / (1 + Λ(wo) + Λ(wi)).
 double smith_lambda(KernelModel model, double alpha, double cos_v) {
@@ -45,7 +46,22 @@ struct MirrorFrame {
 struct Node {
   double extent;  // max of |tangents| of the reflected direction; infinite behind the tangent plane
   double weight;  // of the lobe
+  DVec2 tangent;  // undefined where extent is infinite
 };
+
+// Weights by counting the lobe's nodes, for grazing lobes: their width across the plane of incidence shrinks with cosθ,
+// the nodes follow it.
+std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_extent, std::uint32_t size) {
+  std::vector<double> weights(std::size_t{size} * size);
+  for (const Node& node : nodes) {
+    if (node.extent > half_extent) continue;
+    const auto at = [&](double t) {
+      return std::min(static_cast<std::uint32_t>((t / half_extent + 1) * 0.5 * size), size - 1);
+    };
+    weights[at(node.tangent.y) * size + at(node.tangent.x)] += node.weight;
+  }
+  return weights;
+}
 
 // The lobe as nodes of a midpoint rule over half vectors, drawn with density D cosθh:
 // D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
@@ -66,9 +82,10 @@ std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) 
       if (cos_d <= 0 || wi.z <= 0) continue;
       const double g2 = 1 / (1 + lambda_o + smith_lambda(model, alpha, wi.z));
       const double toward = glm::dot(wi, frame.mirror);
-      const double extent = toward > 0 ? std::max(std::abs(glm::dot(wi, frame.across)), std::abs(glm::dot(wi, frame.along))) / toward
-                                       : std::numeric_limits<double>::infinity();
-      nodes.push_back({extent, g2 * cos_d / (cos_theta * cos_h) / (kPolar * kAzimuth)});
+      const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
+      const double extent =
+          toward > 0 ? std::max(std::abs(tangent.x), std::abs(tangent.y)) : std::numeric_limits<double>::infinity();
+      nodes.push_back({extent, g2 * cos_d / (cos_theta * cos_h) / (kPolar * kAzimuth), tangent});
     }
   }
   return nodes;
@@ -79,7 +96,8 @@ struct Extent {
   double energy_kept;
 };
 
-Extent choose_extent(std::vector<Node> nodes, double alpha, const KernelOptions& options) {
+Extent choose_extent(const std::vector<Node>& unsorted, double alpha, const KernelOptions& options) {
+  std::vector<Node> nodes = unsorted;
   std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
     return a.extent != b.extent ? a.extent < b.extent : a.weight < b.weight;
   });
@@ -106,14 +124,25 @@ std::uint32_t choose_size(double half_extent, double alpha, std::uint32_t max_si
   return std::max(3u, odd > limit ? odd - 2 : odd);
 }
 
-double pixel_weight(KernelModel model, double alpha, double cos_theta, const DVec2& centre, double width) {
-  double sum = 0;
-  for (int y = 0; y < kSubsamples; ++y)
-    for (int x = 0; x < kSubsamples; ++x) {
-      const DVec2 offset((x + 0.5) / kSubsamples - 0.5, (y + 0.5) / kSubsamples - 0.5);
-      sum += lobe_density(model, alpha, cos_theta, centre + offset * width);
+// Weights by subsamples of the density in every pixel: smooth, and symmetric where the lobe is. At oblique incidence
+// more of them across.
+std::vector<double> sampled_weights(KernelModel model, double alpha, double cos_theta, double half_extent,
+                                    std::uint32_t size) {
+  const int across = static_cast<int>(std::ceil(kSubsamples / cos_theta)), along = kSubsamples;
+  const double width = 2 * half_extent / size;
+  std::vector<double> weights;
+  weights.reserve(std::size_t{size} * size);
+  for (std::uint32_t py = 0; py < size; ++py)
+    for (std::uint32_t px = 0; px < size; ++px) {
+      double sum = 0;
+      for (int y = 0; y < along; ++y)
+        for (int x = 0; x < across; ++x) {
+          const DVec2 t((px + (x + 0.5) / across) * width, (py + (y + 0.5) / along) * width);
+          sum += lobe_density(model, alpha, cos_theta, t - half_extent);
+        }
+      weights.push_back(sum);
     }
-  return sum;
+  return weights;
 }
 
 }  // namespace
@@ -140,21 +169,19 @@ double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
 BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const KernelOptions& options) {
   const double a = alpha <= 1 ? std::max(alpha, 0.0f) : 1;  // NaN: 1
   const double c = cos_theta <= 1 ? std::max(cos_theta, 1e-4f) : 1;
-  BrdfKernel kernel{.model = model, .alpha = static_cast<float>(a), .cos_theta = static_cast<float>(c), .weights = {1.0f}};
+  BrdfKernel kernel{
+      .model = model, .alpha = static_cast<float>(a), .cos_theta = static_cast<float>(c), .weights = {1.0f}};
   if (a < kMirrorBelow) return kernel;
 
-  const Extent extent = choose_extent(lobe_nodes(model, a, c), a, options);
+  const std::vector<Node> nodes = lobe_nodes(model, a, c);
+  const Extent extent = choose_extent(nodes, a, options);
   kernel.half_extent = static_cast<float>(extent.half_extent);
   kernel.energy_kept = static_cast<float>(std::min(extent.energy_kept, 1.0));
   kernel.size = choose_size(extent.half_extent, a, options.max_size);
-  const double width = 2 * extent.half_extent / kernel.size;
-  std::vector<double> weights(std::size_t{kernel.size} * kernel.size);
+  const std::vector<double> weights = c < kBinnedBelow ? binned_weights(nodes, extent.half_extent, kernel.size)
+                                                       : sampled_weights(model, a, c, extent.half_extent, kernel.size);
   double sum = 0;
-  for (std::uint32_t y = 0; y < kernel.size; ++y)
-    for (std::uint32_t x = 0; x < kernel.size; ++x) {
-      const DVec2 centre((x + 0.5) * width - extent.half_extent, (y + 0.5) * width - extent.half_extent);
-      sum += weights[y * kernel.size + x] = pixel_weight(model, a, c, centre, width);
-    }
+  for (const double w : weights) sum += w;
   ORIEL_CHECK(sum > 0 && std::isfinite(sum));
   kernel.weights.resize(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) kernel.weights[i] = static_cast<float>(weights[i] / sum);

@@ -97,7 +97,9 @@ MaterialSummary summarize(const Scene& scene, std::uint32_t material, const std:
   return s;
 }
 
-int quantised(float x) { return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024)); }
+int quantised(float x) {
+  return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024));
+}
 
 }  // namespace
 

@@ -11,16 +11,16 @@ namespace oriel {
 // A material's parameters averaged over the surface that it covers (by area), textures and vertex colours applied.
 // A material that covers nothing keeps its factors.
 struct MaterialSummary {
-  Vec3 base_color{1};      // linear
-  Vec3 diffuse{0};         // (1 - metallic) (1 - transmission) base colour
+  Vec3 base_color{1};  // linear
+  Vec3 diffuse{0};     // (1 - metallic) (1 - transmission) base colour
   float metallic = 0;
   float roughness = 1;
-  float alpha = 1;         // GGX width: the square of the mean roughness
+  float alpha = 1;  // GGX width: the square of the mean roughness
   Vec3 f0{0.04f};
   float f90 = 1;
   float transmission = 0;
   float coverage = 1;
-  Vec3 emission{0};        // cd/m²
+  Vec3 emission{0};  // cd/m²
   double area_m2 = 0;
 };
 

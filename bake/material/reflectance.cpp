@@ -7,7 +7,9 @@
 namespace oriel {
 namespace {
 
-float unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }  // NaN: 0
+float unit(float x) {
+  return x > 0 ? std::min(x, 1.0f) : 0.0f;
+}  // NaN: 0
 
 Vec3 albedo(const Vec3& f0, float f90, float alpha, float cos_theta) {
   const Vec2 split = specular_albedo(cos_theta, alpha);
@@ -17,9 +19,12 @@ Vec3 albedo(const Vec3& f0, float f90, float alpha, float cos_theta) {
 
 }  // namespace
 
-float sphere_map_cos_theta(float r) { return 1 - unit(r) * unit(r); }
+float sphere_map_cos_theta(float r) {
+  return 1 - unit(r) * unit(r);
+}
 
-FresnelMap make_fresnel_map(const Vec3& f0, float f90, float alpha, std::uint32_t table_size, std::uint32_t sphere_size) {
+FresnelMap make_fresnel_map(const Vec3& f0, float f90, float alpha, std::uint32_t table_size,
+                            std::uint32_t sphere_size) {
   const Vec3 low(unit(f0.r), unit(f0.g), unit(f0.b));
   const float high = unit(f90);
   FresnelMap map;

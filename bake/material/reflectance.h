@@ -6,8 +6,8 @@
 namespace oriel {
 
 // The directional albedo of the GGX lobe of width alpha with Schlick's Fresnel from f0 (per channel) to f90, [0, 1].
-// table_size entries, at least 2, at cosθ = (i / (n-1))²; sphere_size² texels (0: no sphere map). Arguments are clamped to
-// [0, 1], NaN to 0.
+// table_size entries, at least 2, at cosθ = (i / (n-1))²; sphere_size² texels (0: no sphere map). Arguments are clamped
+// to [0, 1], NaN to 0.
 FresnelMap make_fresnel_map(const Vec3& f0, float f90, float alpha, std::uint32_t table_size = 64,
                             std::uint32_t sphere_size = 64);
 

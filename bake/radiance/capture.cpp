@@ -20,13 +20,21 @@ struct Pixel {
   std::uint8_t valid = 2;
 };
 
-float finite_or_zero(float x) { return std::isfinite(x) && x > 0 ? x : 0.0f; }
-Vec3 finite_or_zero(const Vec3& c) { return {finite_or_zero(c.r), finite_or_zero(c.g), finite_or_zero(c.b)}; }
+float finite_or_zero(float x) {
+  return std::isfinite(x) && x > 0 ? x : 0.0f;
+}
+Vec3 finite_or_zero(const Vec3& c) {
+  return {finite_or_zero(c.r), finite_or_zero(c.g), finite_or_zero(c.b)};
+}
 
 class Capture {
  public:
   Capture(const Accel& accel, const FoundReflector& found, const OutgoingRadiance& outgoing, const RadianceMap& map)
-      : accel_(accel), scene_(accel.scene()), found_(found), outgoing_(outgoing), map_(map),
+      : accel_(accel),
+        scene_(accel.scene()),
+        found_(found),
+        outgoing_(outgoing),
+        map_(map),
         normal_(Vec3(found.reflector.pack_from_reflector[2])) {
     // Coordinates' rounding near the reflector, and how far its triangles bulge from its plane.
     const Vec3 origin(found.reflector.pack_from_reflector[3]);

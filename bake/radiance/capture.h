@@ -19,8 +19,8 @@ struct CaptureOptions {
 // centre, so that colour and depth belong to the same point. Surfaces that let at least half of the light pass in
 // some channel are walked through; what they hide and show is weighted by their transmittance, and depth is that of
 // what lies behind. The reflector's own triangles are never hit. The back of a one-sided surface keeps its depth, with
-// radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Adds to `rays` (may be null). The same bytes for any
-// number of threads. Error kStopped.
+// radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Adds to `rays` (may be null). The same
+// bytes for any number of threads. Error kStopped.
 Status capture_maps(const Accel& accel, std::span<const FoundReflector> reflectors, const OutgoingRadiance& outgoing,
                     const CaptureOptions& options, Context& context, std::vector<RadianceMap>& maps,
                     std::atomic<std::uint64_t>* rays = nullptr);

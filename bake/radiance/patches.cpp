@@ -8,8 +8,8 @@
 namespace oriel {
 namespace {
 
-// Triangles whose planes agree almost exactly: what a flat polygon's triangulation gives. The search for patches works on
-// these, so that a floor of a million triangles is as cheap as one of two.
+// Triangles whose planes agree almost exactly: what a flat polygon's triangulation gives. The search for patches works
+// on these, so that a floor of a million triangles is as cheap as one of two.
 struct Bundle {
   std::vector<std::uint32_t> triangles;
   DVec3 normal{0};  // area-weighted sum, then unit
@@ -30,7 +30,8 @@ std::vector<Bundle> make_bundles(const Scene& scene, std::span<const std::uint32
   for (const std::uint32_t t : triangles) {
     const DVec3 n(geometric_normal(scene, t));
     const double offset = glm::dot(n, centroid(scene, t));
-    const Cell cell{std::llround(n.x * 4096), std::llround(n.y * 4096), std::llround(n.z * 4096), std::llround(offset / distance)};
+    const Cell cell{std::llround(n.x * 4096), std::llround(n.y * 4096), std::llround(n.z * 4096),
+                    std::llround(offset / distance)};
     const auto [it, is_new] = bundle_of.try_emplace(cell, bundles.size());
     if (is_new) bundles.emplace_back();
     Bundle& bundle = bundles[it->second];
@@ -55,36 +56,62 @@ std::vector<Bundle> make_bundles(const Scene& scene, std::span<const std::uint32
 // Bundles by normal cell, sorted by offset inside it.
 class BundleIndex {
  public:
-  BundleIndex(const std::vector<Bundle>& bundles, double max_angle_rad) : bundles_(bundles), size_(std::max(max_angle_rad, 1e-4)) {
+  BundleIndex(const std::vector<Bundle>& bundles, double max_angle_rad)
+      : bundles_(bundles), size_(std::max(max_angle_rad, 1e-4)) {
     for (std::size_t i = 0; i < bundles.size(); ++i)
-      if (!bundles[i].taken) cells_[key(cell(bundles[i].normal))].push_back(i);
-    for (auto& [k, list] : cells_)
-      std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
+      if (!bundles[i].taken) cells_[key(cell(bundles[i].normal))].bundles.push_back(i);
+    for (auto& [k, entry] : cells_) {
+      for (const std::size_t i : entry.bundles) entry.area += bundles[i].area;
+      std::sort(entry.bundles.begin(), entry.bundles.end(), [&](std::size_t a, std::size_t b) {
         return bundles_[a].offset != bundles_[b].offset ? bundles_[a].offset < bundles_[b].offset : a < b;
       });
+    }
   }
+
   // Bundles with a normal within the angle (and somewhat beyond) and an offset within `reach`.
   template <class Visit>
   void near(const DVec3& normal, double offset, double reach, Visit&& visit) const {
-    const Cell centre = cell(normal);
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz) {
-          const auto it = cells_.find(key({centre[0] + dx, centre[1] + dy, centre[2] + dz, 0}));
-          if (it == cells_.end()) continue;
-          auto at = std::lower_bound(it->second.begin(), it->second.end(), offset - reach,
-                                     [&](std::size_t b, double value) { return bundles_[b].offset < value; });
-          for (; at != it->second.end() && bundles_[*at].offset <= offset + reach; ++at) visit(*at);
-        }
+    for_neighbours(cell(normal), [&](const Entry& entry) {
+      auto at = std::lower_bound(entry.bundles.begin(), entry.bundles.end(), offset - reach,
+                                 [&](std::size_t b, double value) { return bundles_[b].offset < value; });
+      for (; at != entry.bundles.end() && bundles_[*at].offset <= offset + reach; ++at) visit(*at);
+    });
+  }
+
+  // Area of everything with a normal near this one, wherever it is: no patch around it is larger. Remembered by cell,
+  // so that the many facets of a curved mesh are dismissed at once.
+  double area_around(const DVec3& normal) {
+    Entry& centre = cells_[key(cell(normal))];
+    if (centre.around < 0) {
+      double sum = 0;
+      for_neighbours(cell(normal), [&](const Entry& entry) { sum += entry.area; });
+      centre.around = sum;
+    }
+    return centre.around;
   }
 
  private:
-  Cell cell(const DVec3& n) const { return {std::llround(n.x / size_), std::llround(n.y / size_), std::llround(n.z / size_), 0}; }
+  struct Entry {
+    std::vector<std::size_t> bundles;
+    double area = 0, around = -1;
+  };
+
+  template <class Visit>
+  void for_neighbours(const Cell& centre, Visit&& visit) const {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dz = -1; dz <= 1; ++dz)
+          if (const auto it = cells_.find(key({centre[0] + dx, centre[1] + dy, centre[2] + dz, 0})); it != cells_.end())
+            visit(it->second);
+  }
+  Cell cell(const DVec3& n) const {
+    return {std::llround(n.x / size_), std::llround(n.y / size_), std::llround(n.z / size_), 0};
+  }
   static std::int64_t key(const Cell& c) { return (c[0] * 2097152 + c[1]) * 2097152 + c[2]; }
 
   const std::vector<Bundle>& bundles_;
   double size_;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
+  std::unordered_map<std::int64_t, Entry> cells_;
 };
 
 double largest_distance(const Scene& scene, std::uint32_t triangle, const DVec3& normal, double offset) {
@@ -110,14 +137,19 @@ void fit_plane(const Scene& scene, PlanarPatch& patch) {
   patch.offset = glm::dot(patch.normal, moment) / patch.area_m2;
 }
 
+// Bundles further than this in offset cannot hold a triangle of the plane: one tilted by the angle about a point at
+// `extent` from the origin shifts its offset by as much.
+double offset_reach(double extent, const PatchOptions& options) {
+  return 2 * std::max(options.max_distance_m, options.min_distance_m) + options.max_angle_rad * 2 * extent;
+}
+
 // Free triangles in the patch's plane replace its list; with `take` they are removed from their bundles.
 void collect(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex& index, double extent,
              const PatchOptions& options, bool take, PlanarPatch& patch) {
-  const double distance = std::max(options.min_distance_m,
-                                   std::min(options.max_distance_m, options.relative_distance * std::sqrt(patch.area_m2)));
+  const double distance = std::max(
+      options.min_distance_m, std::min(options.max_distance_m, options.relative_distance * std::sqrt(patch.area_m2)));
   const double min_cos = std::cos(options.max_angle_rad);
-  // A plane tilted by the angle about a point at `extent` from the origin shifts its offset by as much.
-  const double reach = options.max_distance_m + distance + options.max_angle_rad * 2 * extent;
+  const double reach = offset_reach(extent, options);
   patch.triangles.clear();
   index.near(patch.normal, patch.offset, reach, [&](std::size_t i) {
     Bundle& bundle = bundles[i];
@@ -135,8 +167,8 @@ void collect(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex
 
 // The patch that grows from a bundle: its plane is fitted anew as triangles join, so that the noise of small triangles
 // does not tilt it.
-PlanarPatch grow(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex& index, std::size_t seed, double extent,
-                 const PatchOptions& options) {
+PlanarPatch grow(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex& index, std::size_t seed,
+                 double extent, const PatchOptions& options) {
   const Bundle& bundle = bundles[seed];
   std::uint32_t largest = bundle.triangles.front();
   for (const std::uint32_t t : bundle.triangles)
@@ -163,9 +195,10 @@ std::vector<PlanarPatch> find_planar_patches(const Scene& scene, std::span<const
   std::vector<std::uint32_t> sorted(triangles.begin(), triangles.end());
   std::sort(sorted.begin(), sorted.end());
   std::vector<Bundle> bundles = make_bundles(scene, sorted, std::max(options.max_distance_m, options.min_distance_m));
-  const BundleIndex index(bundles, options.max_angle_rad);
+  BundleIndex index(bundles, options.max_angle_rad);
   double extent = 0;
-  for (const std::uint32_t t : sorted) extent = std::max(extent, double{glm::length(scene.positions[scene.triangles[t].x])});
+  for (const std::uint32_t t : sorted)
+    extent = std::max(extent, double{glm::length(scene.positions[scene.triangles[t].x])});
 
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < bundles.size(); ++i)
@@ -175,7 +208,7 @@ std::vector<PlanarPatch> find_planar_patches(const Scene& scene, std::span<const
   });
   std::vector<PlanarPatch> patches;
   for (const std::size_t seed : order) {
-    if (bundles[seed].taken) continue;
+    if (bundles[seed].taken || index.area_around(bundles[seed].normal) < options.min_area_m2) continue;
     // More than once where a bundle holds planes closer to each other than its cell.
     for (int repeat = 0; repeat < 4 && !bundles[seed].taken; ++repeat) {
       PlanarPatch patch = grow(scene, bundles, index, seed, extent, options);
@@ -183,7 +216,8 @@ std::vector<PlanarPatch> find_planar_patches(const Scene& scene, std::span<const
       if (patch.area_m2 >= options.min_area_m2) patches.push_back(std::move(patch));
     }
   }
-  std::stable_sort(patches.begin(), patches.end(), [](const PlanarPatch& a, const PlanarPatch& b) { return a.area_m2 > b.area_m2; });
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const PlanarPatch& a, const PlanarPatch& b) { return a.area_m2 > b.area_m2; });
   return patches;
 }
 

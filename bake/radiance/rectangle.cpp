@@ -7,19 +7,23 @@ namespace {
 
 constexpr std::size_t kMaxEdges = 256;  // of a hull that are tried: a finer one is round, and any side will do
 
-double cross(const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; }
+double cross(const DVec2& a, const DVec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
 
 // Andrew's monotone chain, counter-clockwise, without collinear points.
 std::vector<DVec2> convex_hull(std::span<const DVec2> input) {
   std::vector<DVec2> points(input.begin(), input.end());
-  std::sort(points.begin(), points.end(), [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::sort(points.begin(), points.end(),
+            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<DVec2> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (const DVec2& p : points) {
-      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();

@@ -10,8 +10,8 @@
 namespace oriel {
 
 struct Rectangle {
-  DVec2 axis{1, 0};             // unit: the direction of the longer side
-  DVec2 lower{0}, upper{0};     // bounds along axis and its left perpendicular
+  DVec2 axis{1, 0};          // unit: the direction of the longer side
+  DVec2 lower{0}, upper{0};  // bounds along axis and its left perpendicular
   double area() const { return (upper.x - lower.x) * (upper.y - lower.y); }
 };
 

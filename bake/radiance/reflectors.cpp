@@ -35,11 +35,12 @@ std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r,
   return {};
 }
 
-Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> materials, const ReflectorOptions& options,
-                       std::vector<std::string>& omitted) {
+Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> materials,
+                       const ReflectorOptions& options, std::vector<std::string>& omitted) {
   std::vector<std::string> reason(scene.materials.size());
   std::vector<char> used(scene.materials.size());
-  for (std::size_t m = 0; m < reason.size(); ++m) reason[m] = excluded_because(scene.materials[m], materials[m], options);
+  for (std::size_t m = 0; m < reason.size(); ++m)
+    reason[m] = excluded_because(scene.materials[m], materials[m], options);
   Groups groups;
   for (const Surface& surface : scene.surfaces) {
     if (surface.triangle_count == 0) continue;
@@ -50,7 +51,8 @@ Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> ma
   }
   for (std::size_t m = 0; m < reason.size(); ++m)
     // A material without any specular lobe leaves nothing out.
-    if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0)) omitted.push_back(fmt::format("material '{}': {}", scene.materials[m].name, reason[m]));
+    if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0))
+      omitted.push_back(fmt::format("material '{}': {}", scene.materials[m].name, reason[m]));
   return groups;
 }
 
@@ -115,8 +117,9 @@ FoundReflector make_reflector(const Scene& scene, const PlanarPatch& patch, bool
   return found;
 }
 
-void add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMaterial& material, const ReflectorOptions& options,
-               FoundReflectors& out) {
+// The sides of a patch from which it reflects; false where neither sees anything.
+bool add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMaterial& material,
+               const ReflectorOptions& options, std::vector<FoundReflector>& out) {
   const Scene& scene = accel.scene();
   const Surface& surface = scene.surfaces[scene.triangle_surface[patch.triangles.front()]];
   const bool both = scene.materials[surface.material].double_sided;
@@ -127,19 +130,33 @@ void add_sides(const Accel& accel, const PlanarPatch& patch, const ReflectorMate
     FoundReflector found = make_reflector(scene, patch, front);
     found.reflectance = reflectance_at_60_deg(material);
     found.roughness = material.roughness;
-    out.reflectors.push_back(std::move(found));
+    out.push_back(std::move(found));
     any = true;
   }
-  if (!any)
-    out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): sees nothing further away than a tenth of its size", surface.name,
-                                      patch.area_m2));
+  return any;
 }
 
-double importance(const FoundReflector& f) { return double{f.reflectance} * f.reflector.area_m2 * (1 - f.roughness); }
+// Keeps the first ones and says which were dropped: by name the next few, the rest by number.
+void keep_most_important(std::uint32_t limit, FoundReflectors& found) {
+  constexpr std::size_t kNamed = 8;
+  auto& list = found.reflectors;
+  if (list.size() <= limit) return;
+  for (std::size_t i = limit; i < std::min<std::size_t>(list.size(), limit + kNamed); ++i)
+    found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than the {} reflectors kept",
+                                        list[i].reflector.name, list[i].reflector.area_m2, limit));
+  if (list.size() > limit + kNamed)
+    found.omitted.push_back(fmt::format("{} more reflectors: less important still", list.size() - limit - kNamed));
+  list.resize(limit);
+}
+
+double importance(const FoundReflector& f) {
+  return double{f.reflectance} * f.reflector.area_m2 * (1 - f.roughness);
+}
 
 }  // namespace
 
-FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials, const ReflectorOptions& options) {
+FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
+                                const ReflectorOptions& options) {
   const Scene& scene = accel.scene();
   ORIEL_CHECK_EQ(materials.size(), scene.materials.size());
   FoundReflectors out;
@@ -152,23 +169,27 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
                                    .min_area_m2 = options.min_area_m2};
   for (const auto& [key, triangles] : groups) {
     const auto& [material, name] = key;
-    double total = 0, kept = 0;
+    double total = 0, kept = 0, hidden = 0;
+    std::size_t hidden_count = 0;
     for (const std::uint32_t t : triangles) total += triangle_area(scene, t);
     for (const PlanarPatch& patch : find_planar_patches(scene, triangles, patch_options)) {
       kept += patch.area_m2;
-      add_sides(accel, patch, materials[material], options, out);
+      if (add_sides(accel, patch, materials[material], options, out.reflectors)) continue;
+      hidden += patch.area_m2;
+      ++hidden_count;
     }
+    if (hidden_count > 0)
+      out.omitted.push_back(
+          fmt::format("'{}' ({} planar pieces, {:.3g} m²): sees nothing further away than a tenth of its size", name,
+                      hidden_count, hidden));
     if (total - kept > 1e-3 * total)
-      out.omitted.push_back(fmt::format("'{}', material '{}': {:.3g} m² are curved or in planar pieces below {:.3g} m²", name,
-                                        scene.materials[material].name, total - kept, options.min_area_m2));
+      out.omitted.push_back(fmt::format("'{}', material '{}': {:.3g} m² are curved or in planar pieces below {:.3g} m²",
+                                        name, scene.materials[material].name, total - kept, options.min_area_m2));
   }
   std::stable_sort(out.reflectors.begin(), out.reflectors.end(), [](const FoundReflector& a, const FoundReflector& b) {
     return importance(a) != importance(b) ? importance(a) > importance(b) : a.triangles.front() < b.triangles.front();
   });
-  for (std::size_t i = options.max_reflectors; i < out.reflectors.size(); ++i)
-    out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than the {} reflectors kept",
-                                      out.reflectors[i].reflector.name, out.reflectors[i].reflector.area_m2, options.max_reflectors));
-  if (out.reflectors.size() > options.max_reflectors) out.reflectors.resize(options.max_reflectors);
+  keep_most_important(options.max_reflectors, out);
   return out;
 }
 

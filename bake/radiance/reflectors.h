@@ -19,14 +19,14 @@ struct ReflectorMaterial {
 };
 
 struct ReflectorOptions {
-  float max_roughness = 0.4f;       // wider lobes show no image
-  float min_reflectance = 0.03f;    // Schlick's reflectance at 60°, largest channel: weaker ones are not seen
-  float min_area_m2 = 0.25f;        // of one reflector
+  float max_roughness = 0.4f;         // wider lobes show no image
+  float min_reflectance = 0.03f;      // Schlick's reflectance at 60°, largest channel: weaker ones are not seen
+  float min_area_m2 = 0.25f;          // of one reflector
   std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
-  float max_angle_deg = 0.5f;       // of a triangle's normal from its reflector's
-  float flatness = 1e-4f;           // largest distance of a vertex from the plane, in scene radii; and at most 1e-3 of the
-                                    // reflector's own size
-  float min_open_share = 0.1f;      // of directions into which it sees something further away than a tenth of its size
+  float max_angle_deg = 0.5f;         // of a triangle's normal from its reflector's
+  float flatness = 1e-4f;       // largest distance of a vertex from the plane, in scene radii; and at most 1e-3 of the
+                                // reflector's own size
+  float min_open_share = 0.1f;  // of directions into which it sees something further away than a tenth of its size
 };
 
 struct FoundReflector {
@@ -42,8 +42,8 @@ struct FoundReflectors {
 };
 
 // Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the
-// middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with the
-// world where that costs no more than 1 % of area; x along the longer side. A double-sided surface reflects on each
+// middle of its bounds, z the normal (area-weighted mean), x, y the tightest rectangle's axes, or those aligned with
+// the world where that costs no more than 1 % of area; x along the longer side. A double-sided surface reflects on each
 // side from which it can be seen. The order depends on the scene only. materials: one entry for each of the scene's.
 FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
                                 const ReflectorOptions& options = {});

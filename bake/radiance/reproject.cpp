@@ -6,7 +6,8 @@
 namespace oriel {
 namespace {
 
-// What the viewer sees in the mirror is the scene mirrored in it: a mirrored view of points p is the view of mirrored p.
+// What the viewer sees in the mirror is the scene mirrored in it: a mirrored view of points p is the view of mirrored
+// p.
 Pinhole mirror(const Pinhole& view) {
   Pinhole m = view;
   m.eye = mirrored(view.eye);
@@ -20,6 +21,14 @@ float sine_to_axis(const Vec3& direction, int axis) {
   return std::sqrt(std::max(0.0f, 1 - direction[axis] * direction[axis]));
 }
 
+// Equation (3) from the distance scale: at infinity the ratio of depths is that of a direction's components.
+Vec2 point_size_of(const RadianceMap& map, const Pinhole& mirror_view, float distance_scale) {
+  const Vec2 ref_pixels = Vec2(map.width, map.height) * -map.eye.z / (map.upper - map.lower);  // per unit of tangent
+  const Vec2 window = ref_pixels / mirror_view.focal_px;
+  const Vec2 angular(sine_to_axis(mirror_view.forward, 0), sine_to_axis(mirror_view.forward, 1));
+  return distance_scale * angular / window;
+}
+
 class Splatter {
  public:
   Splatter(const Reflector& reflector, const Pinhole& view) : view_(view), mirror_view_(mirror(view)) {
@@ -31,7 +40,8 @@ class Splatter {
     image_.covered.assign(pixels, 0);
     image_.inside.assign(pixels, 0);
     for (std::uint32_t y = 0; y < view.height; ++y)
-      for (std::uint32_t x = 0; x < view.width; ++x) image_.inside[y * view.width + x] = sees(reflector, Vec2(x, y) + 0.5f);
+      for (std::uint32_t x = 0; x < view.width; ++x)
+        image_.inside[y * view.width + x] = sees(reflector, Vec2(x, y) + 0.5f);
   }
 
   void splat(const RadianceMap& map, std::uint32_t x, std::uint32_t y) {
@@ -43,7 +53,8 @@ class Splatter {
     if (!(depth_w > 0)) return;
     const Vec2 tangent(glm::dot(to_point, mirror_view_.right) / depth_w, glm::dot(to_point, mirror_view_.up) / depth_w);
     const Vec2 centre = Vec2(tangent.x, -tangent.y) * view_.focal_px + 0.5f * Vec2(view_.width, view_.height);
-    const Vec2 size = p.w > 0 ? point_size(map, mirror_view_, Vec3(p) / p.w) : point_size_at_infinity(map, glm::normalize(to_point));
+    const Vec2 size =
+        p.w > 0 ? point_size(map, mirror_view_, Vec3(p) / p.w) : point_size_of(map, mirror_view_, to_point.z / depth_w);
     const float depth = p.w > 0 ? depth_w / p.w : std::numeric_limits<float>::infinity();
     fill(centre, glm::max(size, Vec2(1)), depth, map.radiance[at]);
   }
@@ -56,13 +67,8 @@ class Splatter {
     const Vec3 direction = view_.right * t.x - view_.up * t.y + view_.forward;
     if (!(view_.eye.z > 0) || !(direction.z < 0)) return false;
     const Vec3 hit = view_.eye - direction * (view_.eye.z / direction.z);
-    return hit.x >= reflector.lower.x && hit.x <= reflector.upper.x && hit.y >= reflector.lower.y && hit.y <= reflector.upper.y;
-  }
-
-  Vec2 point_size_at_infinity(const RadianceMap& map, const Vec3& direction) const {
-    const Vec2 pixels_per_tangent = Vec2(map.width, map.height) * -map.eye.z / (map.upper - map.lower);
-    const float depths = std::max(0.0f, direction.z) / std::max(1e-6f, glm::dot(direction, mirror_view_.forward));
-    return depths * view_.focal_px / pixels_per_tangent * Vec2(sine_to_axis(direction, 0), sine_to_axis(direction, 1));
+    return hit.x >= reflector.lower.x && hit.x <= reflector.upper.x && hit.y >= reflector.lower.y &&
+           hit.y <= reflector.upper.y;
   }
 
   void fill(const Vec2& centre, const Vec2& size, float depth, const Vec3& radiance) {
@@ -95,7 +101,8 @@ Vec3 reflector_from_pack(const Reflector& reflector, const Vec3& p) {
 
 Vec3 pack_from_reflector(const Reflector& reflector, const Vec3& p) {
   const Mat4& m = reflector.pack_from_reflector;
-  return Vec3(DVec3(Vec3(m[3])) + double{p.x} * DVec3(Vec3(m[0])) + double{p.y} * DVec3(Vec3(m[1])) + double{p.z} * DVec3(Vec3(m[2])));
+  return Vec3(DVec3(Vec3(m[3])) + double{p.x} * DVec3(Vec3(m[0])) + double{p.y} * DVec3(Vec3(m[1])) +
+              double{p.z} * DVec3(Vec3(m[2])));
 }
 
 Vec2 map_point(const RadianceMap& map, const Vec2& pixel) {
@@ -108,9 +115,13 @@ Vec2 map_pixel(const RadianceMap& map, const Vec3& p) {
   return (q - map.lower) / (map.upper - map.lower) * Vec2(map.width, map.height);
 }
 
-float disparity_of(const RadianceMap& map, float z) { return -map.eye.z / (z - map.eye.z); }
+float disparity_of(const RadianceMap& map, float z) {
+  return -map.eye.z / (z - map.eye.z);
+}
 
-float height_of(const RadianceMap& map, float disparity) { return -map.eye.z * (1 - disparity) / disparity; }
+float height_of(const RadianceMap& map, float disparity) {
+  return -map.eye.z * (1 - disparity) / disparity;
+}
 
 Vec4 unproject(const RadianceMap& map, const Vec2& pixel, float disparity) {
   const Vec3 q(map_point(map, pixel), 0);
@@ -133,7 +144,8 @@ Mat4 clip_from_reflector(const RadianceMap& map) {
   return m;
 }
 
-Pinhole pinhole_from_camera(const Reflector& reflector, const Camera& camera, std::uint32_t width, std::uint32_t height) {
+Pinhole pinhole_from_camera(const Reflector& reflector, const Camera& camera, std::uint32_t width,
+                            std::uint32_t height) {
   const Vec3 forward = normalize_or(camera.forward, Vec3(0, 0, -1));
   const Vec3 right = normalize_or(glm::cross(forward, camera.up), Vec3(frame_from_normal(forward)[0]));
   const Mat3 to_reflector = glm::transpose(Mat3(reflector.pack_from_reflector));
@@ -148,16 +160,12 @@ Pinhole pinhole_from_camera(const Reflector& reflector, const Camera& camera, st
 }
 
 Vec2 point_size(const RadianceMap& map, const Pinhole& mirror_view, const Vec3& p) {
-  const Vec2 ref_pixels = Vec2(map.width, map.height) * -map.eye.z / (map.upper - map.lower);  // per unit of tangent
-  const Vec2 window = ref_pixels / mirror_view.focal_px;
   const float depth = glm::dot(p - mirror_view.eye, mirror_view.forward);
-  const float distance_scale = (p.z - map.eye.z) / std::max(depth, 1e-30f);
-  const Vec3 direction = normalize_or(p - mirror_view.eye, mirror_view.forward);
-  return distance_scale * Vec2(sine_to_axis(direction, 0), sine_to_axis(direction, 1)) / window;
+  return point_size_of(map, mirror_view, (p.z - map.eye.z) / std::max(depth, 1e-30f));
 }
 
-std::vector<std::uint32_t> select_maps(const Reflector& reflector, std::span<const RadianceMap> maps, const Vec3& mirrored_eye,
-                                       std::uint32_t n, SelectBy by) {
+std::vector<std::uint32_t> select_maps(const Reflector& reflector, std::span<const RadianceMap> maps,
+                                       const Vec3& mirrored_eye, std::uint32_t n, SelectBy by) {
   std::vector<std::uint32_t> selected;
   struct Candidate {
     float cost;
@@ -168,12 +176,14 @@ std::vector<std::uint32_t> select_maps(const Reflector& reflector, std::span<con
   for (std::uint32_t i = reflector.first_map; i < end; ++i) {
     const RadianceMap& map = maps[i];
     const Vec3 centre(0.5f * (map.lower + map.upper), 0);
-    const Vec3 a = normalize_or(mirrored_eye - centre, Vec3(0, 0, -1)), b = normalize_or(map.eye - centre, Vec3(0, 0, -1));
+    const Vec3 a = normalize_or(mirrored_eye - centre, Vec3(0, 0, -1)),
+               b = normalize_or(map.eye - centre, Vec3(0, 0, -1));
     // The chord grows with the angle, and tells small ones apart where a cosine cannot.
     candidates.push_back({by == SelectBy::kAngle ? length2(a - b) : length2(mirrored_eye - map.eye), i});
     if (i + 1 < end && maps[i + 1].lower == map.lower && maps[i + 1].upper == map.upper) continue;
     const std::size_t count = std::min<std::size_t>(n, candidates.size());
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
     for (std::size_t k = 0; k < count; ++k) selected.push_back(candidates[k].map);
     candidates.clear();
   }

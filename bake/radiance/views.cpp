@@ -24,7 +24,8 @@ std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& 
   for (std::uint32_t y = 0; y < grid.y; ++y)
     for (std::uint32_t x = 0; x < grid.x; ++x) {
       const Vec2 lower = r.lower + step * Vec2(x, y);
-      elements.push_back({lower, Vec2(x + 1 == grid.x ? r.upper.x : lower.x + step.x, y + 1 == grid.y ? r.upper.y : lower.y + step.y)});
+      elements.push_back({lower, Vec2(x + 1 == grid.x ? r.upper.x : lower.x + step.x,
+                                      y + 1 == grid.y ? r.upper.y : lower.y + step.y)});
     }
   std::vector<double> covered(elements.size());
   for (const std::uint32_t t : found.triangles) {
@@ -57,7 +58,8 @@ IVec2 map_size(const Element& element, std::uint32_t resolution) {
   const Vec2 size = element.upper - element.lower;
   const float longer = std::max(size.x, size.y);
   const auto pixels = [&](float side) {
-    return static_cast<int>(std::clamp<long>(std::lround(resolution * side / longer), std::min(kMinShortSide, resolution), resolution));
+    return static_cast<int>(
+        std::clamp<long>(std::lround(resolution * side / longer), std::min(kMinShortSide, resolution), resolution));
   };
   return {pixels(size.x), pixels(size.y)};
 }
@@ -122,12 +124,16 @@ Fit fit_memory(const Planner& planner, std::vector<std::string>& omitted) {
   Fit fit{planner.reflectors.size(), std::max(1u, options.views_per_element)};
   const std::uint64_t wanted = planner.total_bytes(fit.reflectors, fit.views, 1);
   if (wanted <= options.memory_bytes) return fit;
-  while (fit.views > 1 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes) --fit.views;
-  while (fit.divisor < 64 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes) fit.divisor *= 2;
-  while (fit.reflectors > 0 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes) --fit.reflectors;
-  std::string line = fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: {} of {} views per element",
-                                 static_cast<double>(wanted) / (1 << 20), static_cast<double>(options.memory_bytes) / (1 << 20),
-                                 fit.views, std::max(1u, options.views_per_element));
+  while (fit.views > 1 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes)
+    --fit.views;
+  while (fit.divisor < 64 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes)
+    fit.divisor *= 2;
+  while (fit.reflectors > 0 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes)
+    --fit.reflectors;
+  std::string line =
+      fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: {} of {} views per element",
+                  static_cast<double>(wanted) / (1 << 20), static_cast<double>(options.memory_bytes) / (1 << 20),
+                  fit.views, std::max(1u, options.views_per_element));
   if (fit.divisor > 1) line += fmt::format(", 1/{} of the resolution", fit.divisor);
   if (fit.reflectors < planner.reflectors.size())
     line += fmt::format(", {} of {} reflectors", fit.reflectors, planner.reflectors.size());
@@ -145,7 +151,8 @@ ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_el
   side = std::max({side, s.x / limit * 0.999, s.y / limit * 0.999});
   for (;;) {
     const DVec2 counts = glm::max(glm::ceil(s / side - 1e-6), DVec2(1));
-    if (counts.x * counts.y <= limit) return {static_cast<std::uint32_t>(counts.x), static_cast<std::uint32_t>(counts.y)};
+    if (counts.x * counts.y <= limit)
+      return {static_cast<std::uint32_t>(counts.x), static_cast<std::uint32_t>(counts.y)};
     side *= 1.02;
   }
 }
@@ -153,8 +160,8 @@ ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_el
 std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
   std::vector<Vec3> directions{{0, 0, -1}};
   if (count <= 1) return directions;
-  // Rings at θ_k = k Δ; their natural number of points is 2π sinθ_k / Δ. The number of rings whose natural total is nearest
-  // to what is asked, its points then shared out in proportion.
+  // Rings at θ_k = k Δ; their natural number of points is 2π sinθ_k / Δ. The number of rings whose natural total is
+  // nearest to what is asked, its points then shared out in proportion.
   const auto natural = [](int rings) {
     const double arc = kLowestRing / rings;
     double total = 0;
@@ -163,7 +170,8 @@ std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
   };
   const double wanted = count - 1;
   int rings = 1;
-  while (rings < 64 && std::abs(std::log(natural(rings + 1) / wanted)) < std::abs(std::log(natural(rings) / wanted))) ++rings;
+  while (rings < 64 && std::abs(std::log(natural(rings + 1) / wanted)) < std::abs(std::log(natural(rings) / wanted)))
+    ++rings;
   double sines = 0, before = 0;
   for (int k = 1; k <= rings; ++k) sines += std::sin(k * kLowestRing / rings);
   for (int k = 1; k <= rings; ++k) {
@@ -188,7 +196,8 @@ std::uint32_t resolution_for(float roughness) {
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options) {
   Planner planner{.scene = scene, .reflectors = reflectors, .options = options, .elements = {}};
   for (FoundReflector& found : reflectors) {
-    const ElementGrid grid = element_grid(found.reflector.upper - found.reflector.lower, options.element_m, options.max_elements);
+    const ElementGrid grid =
+        element_grid(found.reflector.upper - found.reflector.lower, options.element_m, options.max_elements);
     found.reflector.elements_x = grid.x;
     found.reflector.elements_y = grid.y;
     planner.elements.push_back(covered_elements(scene, found, grid));

@@ -10,8 +10,8 @@
 namespace oriel {
 
 struct ViewOptions {
-  float element_m = 3.0f;            // largest side of a reflector element, metres
-  std::uint32_t max_elements = 16;   // per reflector: larger ones get larger elements
+  float element_m = 3.0f;           // largest side of a reflector element, metres
+  std::uint32_t max_elements = 16;  // per reflector: larger ones get larger elements
   std::uint32_t views_per_element = 16;
   std::uint32_t map_resolution = 0;  // longer side of a map, pixels; 0: by the lobe (resolution_for)
   std::uint64_t memory_bytes = std::uint64_t{64} << 20;  // of all maps as captured, kMapBytesPerPixel each
@@ -19,30 +19,30 @@ struct ViewOptions {
 
 inline constexpr std::uint64_t kMapBytesPerPixel = 17;  // radiance 12, disparity 4, validity 1
 
-// Elements over bounds of that size: as few as keep both sides within element_m, or within the smallest larger side that
-// needs no more than max_elements. Both counts are at least 1.
+// Elements over bounds of that size: as few as keep both sides within element_m, or within the smallest larger side
+// that needs no more than max_elements. Both counts are at least 1.
 struct ElementGrid {
   std::uint32_t x = 1, y = 1;
 };
 ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_elements);
 
-// Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points at
-// about the same spacing. Exactly `count` of them, at least 1.
+// Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points
+// at about the same spacing. Exactly `count` of them, at least 1.
 std::vector<Vec3> hemisphere_directions(std::uint32_t count);
 
 // Pixels of a map's longer side for a lobe of that roughness: a mirror 256, wider lobes fewer.
 std::uint32_t resolution_for(float roughness);
 
 struct ViewPlan {
-  std::vector<RadianceMap> maps;      // everything but the pixels; by reflector, element (row by row), viewpoint
-  std::vector<std::string> omitted;   // what was reduced or left out and why, one line each
+  std::vector<RadianceMap> maps;        // everything but the pixels; by reflector, element (row by row), viewpoint
+  std::vector<std::string> omitted;     // what was reduced or left out and why, one line each
   std::uint32_t views_per_element = 0;  // as used
 };
 
 // Plans the maps of all reflectors and sets each one's elements_x, elements_y, first_map and map_count. Left out are
 // elements that the reflector's polygons do not cover and viewpoints whose mirror image is outside the scene's
-// bounds by more than the hemisphere's radius. Where memory_bytes does not suffice, views per element are reduced for all,
-// then resolution (down to 16), then the least important reflectors get no maps.
+// bounds by more than the hemisphere's radius. Where memory_bytes does not suffice, views per element are reduced for
+// all, then resolution (down to 16), then the least important reflectors get no maps.
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options);
 
 }  // namespace oriel

@@ -53,7 +53,7 @@ Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std
   if (!reader->input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", png ? "PNG" : "JPEG");
   const OIIO::ImageSpec& spec = reader->spec;
   if (!reader->input->open(png ? "memory.png" : "memory.jpg", reader->spec, config))
-    return invalid(name, "corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
+    return invalid(name, "found a corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
   if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
       spec.height > static_cast<int>(kMaxImageSize))
     return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
@@ -92,7 +92,7 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& 
     const std::size_t count = std::size_t{image.width} * image.height;
     image.texels.resize(count * 4);
     if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
-      return invalid(name, "the image is corrupt: {}", reader->input->geterror());
+      return invalid(name, "found a corrupt image: {}", reader->input->geterror());
     spread(image.texels, count, channels);
     return image;
   });

@@ -44,9 +44,9 @@ Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint
     if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE") continue;
     const gltf::AccessorDesc& desc = accessors.desc(accessor);
     if (desc.components != components || desc.matrix)
-      return invalid(where, "{} has {} components, expected {}", name, desc.components, components);
+      return invalid(where, "found {1} components in {0}, expected {2}", name, desc.components, components);
     if (count && *count != desc.count)
-      return invalid(where, "{} has {} elements, expected {} as the others", name, desc.count, *count);
+      return invalid(where, "found {1} elements in {0}, expected {2} as in the others", name, desc.count, *count);
     count = desc.count;
     ORIEL_TRY(values[name], accessors.floats(accessor));
   }
@@ -62,7 +62,7 @@ Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint
       s = {v->second[3 * i], v->second[3 * i + 1], v->second[3 * i + 2]};
     if (const auto v = values.find("ROTATION"); v != values.end()) {
       r = {v->second[4 * i], v->second[4 * i + 1], v->second[4 * i + 2], v->second[4 * i + 3]};
-      if (!(glm::dot(r, r) > 0)) return invalid(where, "rotation {} is zero, expected a unit quaternion", i);
+      if (!(glm::dot(r, r) > 0)) return invalid(where, "found zero as rotation {}, expected a unit quaternion", i);
       r /= std::sqrt(glm::dot(r, r));
     }
     matrices.push_back(gltf::matrix_from_trs(t, r, s));
@@ -85,7 +85,8 @@ Result<std::vector<Instance>> find_instances(const Document& document, std::span
     for (const DMat4& node_from_instance : matrices) {
       instances.push_back({pose.node, pose.world_from_node * node_from_instance});
       if (!finite(instances.back().world_from_mesh))
-        return invalid(node_path(document, pose.node), "an instance's transform overflows");
+        return invalid(node_path(document, pose.node),
+                       "found an instance's transform that overflows, expected a finite one");
     }
   }
   return instances;
@@ -217,9 +218,9 @@ Result<DVec3> find_origin(const Document& document, std::span<const LoadedMesh> 
   const DVec3 size = upper - lower;
   const double largest = std::max({size.x, size.y, size.z});
   if (!(largest <= kLargestScene))
-    return invalid(document.file, "the scene measures {} m, expected at most {} m", largest, kLargestScene);
+    return invalid(document.file, "found a scene of {} m, expected at most {} m", largest, kLargestScene);
   if (largest < kSmallestScene)
-    return invalid(document.file, "the scene measures {} m, expected at least {} m", largest, kSmallestScene);
+    return invalid(document.file, "found a scene of {} m, expected at least {} m", largest, kSmallestScene);
   return lower + 0.5 * size;
 }
 
@@ -234,8 +235,7 @@ Status reserve(const Document& document, std::span<const LoadedMesh> meshes, std
   if (triangles == 0)
     return invalid(document.file, "found no mesh with a triangle in the scene, expected at least one");
   if (triangles > (1u << 30))
-    return invalid(document.file, "the scene has {} triangles with all instances, expected at most {}", triangles,
-                   1u << 30);
+    return invalid(document.file, "found {} triangles with all instances, expected at most {}", triangles, 1u << 30);
   ORIEL_TRY_VOID(budget.take(triangles * (sizeof(UVec3) + sizeof(std::uint32_t)) + vertices * 44, document.file));
   scene.triangles.reserve(triangles);
   scene.triangle_surface.reserve(triangles);
@@ -266,7 +266,7 @@ Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<con
     const gltf::NodeDesc& node = document.nodes[pose.node];
     pose.world_from_node = pose.world_from_node * node.matrix;
     if (!finite(pose.world_from_node))
-      return invalid(node_path(document, pose.node), "the node's world transform overflows");
+      return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, pose.world_from_node});
     poses.push_back(pose);
@@ -300,7 +300,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
   placer.finish();
   if (scene.triangles.empty())
     return invalid(document.file,
-                   "all triangles are too small or thin for the scene's size, expected at least one that is not");
+                   "found only triangles too small or thin for the scene's size, expected at least one that is not");
   scene.lower = scene.upper = scene.positions.front();
   for (const Vec3& p : scene.positions) {
     scene.lower = glm::min(scene.lower, p);

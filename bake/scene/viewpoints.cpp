@@ -81,9 +81,10 @@ Result<Track> load_track(const Document& document, const AnimationDesc& animatio
   track.interpolation = sampler.interpolation;
   track.components = track.target == 'r' ? 4 : 3;
   if (accessors.desc(sampler.input).components != 1)
-    return invalid(where, "keyframe times have {} components, expected 1", accessors.desc(sampler.input).components);
+    return invalid(where, "found {} components in keyframe times, expected 1",
+                   accessors.desc(sampler.input).components);
   if (accessors.desc(sampler.output).components != track.components)
-    return invalid(where, "{} has {} components, expected {}", channel.target,
+    return invalid(where, "found {1} components in {0}, expected {2}", channel.target,
                    accessors.desc(sampler.output).components, track.components);
   ORIEL_TRY(track.times, accessors.floats(sampler.input));
   ORIEL_TRY(track.values, accessors.floats(sampler.output));
@@ -93,12 +94,12 @@ Result<Track> load_track(const Document& document, const AnimationDesc& animatio
                    track.values.size() / track.components);
   for (std::size_t i = 1; i < track.times.size(); ++i)
     if (!(track.times[i] > track.times[i - 1]))
-      return invalid(where, "keyframe time {} is {} after {}, expected increasing times", i, track.times[i],
+      return invalid(where, "found {1} as keyframe time {0} after {2}, expected increasing times", i, track.times[i],
                      track.times[i - 1]);
   if (track.target == 'r')
     for (std::size_t i = 0; i < track.times.size(); ++i)
       if (!(glm::dot(track.value(i), track.value(i)) > 0))
-        return invalid(where, "rotation {} is zero, expected a unit quaternion", i);
+        return invalid(where, "found zero as rotation {}, expected a unit quaternion", i);
   return track;
 }
 

@@ -41,17 +41,17 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene) {
     const double area = triangle_area(scene, t) * (scene.materials[m].double_sided ? 2 : 1);
     const DVec3 flux = kPiD * area * DVec3(mean_emission(scene, t));
     power_ += flux;
-    add(false, t, luminance(Vec3(flux)));
+    add({false, t, 0, geometric_normal(scene, t), scene.materials[m].double_sided}, luminance(Vec3(flux)));
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (light.type == LightType::kDirectional) {
       const double r = scene.radius();
-      add(true, i, luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
+      add({true, i, 0, {}, false}, luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
     } else {
       const DVec3 flux = punctual_power(light);
       power_ += flux;
-      add(true, i, luminance(Vec3(flux)));
+      add({true, i, 0, {}, false}, luminance(Vec3(flux)));
     }
   }
   const double total = cdf_.empty() ? 0 : cdf_.back();
@@ -62,9 +62,9 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene) {
   }
 }
 
-void LightSet::add(bool punctual, std::uint32_t index, double weight) {
+void LightSet::add(const Pick& pick, double weight) {
   if (!(weight > 0) || !std::isfinite(weight)) return;
-  picks_.push_back({punctual, index, 0});
+  picks_.push_back(pick);
   cdf_.push_back((cdf_.empty() ? 0 : cdf_.back()) + weight);
 }
 
@@ -83,9 +83,8 @@ LightSample LightSet::sample_triangle(const Pick& pick, const Vec3& p, const Vec
   if (!(d2 > 0)) return s;
   s.distance = std::sqrt(d2);
   s.direction = to / s.distance;
-  const float cosine = -glm::dot(geometric_normal(*scene_, pick.index), s.direction);
-  const bool both = scene_->materials[scene_->surfaces[scene_->triangle_surface[pick.index]].material].double_sided;
-  if (both ? cosine == 0 : cosine <= 0) return s;
+  const float cosine = -glm::dot(pick.normal, s.direction);
+  if (pick.double_sided ? cosine == 0 : cosine <= 0) return s;
   s.pdf = triangle_pdf_[pick.index] * d2 / std::abs(cosine);
   s.estimate = shade_point(*scene_, pick.index, barycentric).emission / s.pdf;
   s.distance *= 1 - 0x1p-14f;  // stop short of the emitter itself
@@ -110,12 +109,12 @@ LightSample LightSet::sample_punctual(const Pick& pick, const Vec3& p) const {
   return s;
 }
 
-float LightSet::pdf(const Vec3& p, const Hit& hit) const {
-  if (triangle_pdf_.empty() || triangle_pdf_[hit.triangle] == 0) return 0;
-  const Vec3 to = point_on(*scene_, hit.triangle, hit.barycentric) - p;
+float LightSet::pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const {
+  if (triangle_pdf_.empty() || triangle_pdf_[triangle] == 0) return 0;
+  const Vec3 to = on - p;
   const float d2 = length2(to);
-  const float cosine = std::abs(glm::dot(geometric_normal(*scene_, hit.triangle), to)) / std::sqrt(d2);
-  return cosine > 0 ? triangle_pdf_[hit.triangle] * d2 / cosine : 0;
+  const float cosine = std::abs(glm::dot(normal, to)) / std::sqrt(d2);
+  return cosine > 0 ? triangle_pdf_[triangle] * d2 / cosine : 0;
 }
 
 }  // namespace oriel

@@ -26,18 +26,21 @@ class LightSet {
   // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate of
   // 0 where that point cannot shine on p.
   LightSample sample(const Vec3& p, float u, const Vec2& v) const;
-  // The density per steradian with which sample() chooses the hit point of an emissive triangle from p.
-  float pdf(const Vec3& p, const Hit& hit) const;
+  // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that unit normal
+  // (either side); 0 for triangles that are not sampled.
+  float pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const;
 
  private:
   struct Pick {
     bool punctual;
     std::uint32_t index;  // of a triangle or of Scene::lights
     float probability;
+    Vec3 normal;        // of a triangle, front side
+    bool double_sided;  // triangles
   };
   LightSample sample_triangle(const Pick& pick, const Vec3& p, const Vec2& v) const;
   LightSample sample_punctual(const Pick& pick, const Vec3& p) const;
-  void add(bool punctual, std::uint32_t index, double weight);
+  void add(const Pick& pick, double weight);
 
   const Scene* scene_;
   std::vector<Pick> picks_;

@@ -69,7 +69,7 @@ Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sam
   if (max_component(value) <= 0) return Vec3(0);
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
   ++rays;
-  const Vec3 origin = spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, light.direction);
+  const Vec3 origin = spawn_origin(surface, light.direction);
   return value * t.accel.transmittance({origin, light.direction, light.distance});
 }
 
@@ -101,12 +101,12 @@ class Walk {
       }
       const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
-        ray.origin = spawn_origin(t_.accel.scene(), hit.triangle, hit.barycentric, ray.direction);
+        ray.origin = spawn_origin(surface, ray.direction);
         ++passes;
         continue;
       }
       if (surface.emits) {
-        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit)) : 1.0f;
+        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal)) : 1.0f;
         sink += throughput_ * surface.shade.emission * weight;
       }
       if (!surface.reflects) {
@@ -140,7 +140,7 @@ class Walk {
     const Vec3 direction = passes ? ray.direction : shading.above(sample->wi);
     throughput_ *= sample->weight;
     if (!(max_component(throughput_) > 0)) return Step::kEnd;
-    ray = {spawn_origin(t_.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+    ray = {spawn_origin(surface, direction), direction};
     // Straight transmission continues the same segment: light sampling from the last vertex sees through glass too.
     if (passes) return Step::kPassed;
     from_ = surface.position;
@@ -171,6 +171,7 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
   s.barycentric = hit.barycentric;
   s.position = point_on(scene, hit.triangle, hit.barycentric);
   const UVec3& t = scene.triangles[hit.triangle];
+  for (int i = 0; i < 3; ++i) s.magnitude = std::max(s.magnitude, max_component(glm::abs(scene.positions[t[i]])));
   const float side = hit.front ? 1.0f : -1.0f;
   s.geometric_normal = side * geometric_normal(scene, hit.triangle);
   const Vec2& b = hit.barycentric;
@@ -201,7 +202,7 @@ Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3
   const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
   if (!sample || sample->lobe == Lobe::kTransmission) return light;
   const Vec3 direction = shading.above(sample->wi);
-  const Ray ray{spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+  const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   const PathLight rest = Walk(t, sampler, rays).follow(ray, pdf, 1, sample->weight);
   return light + rest.emitted + rest.scattered;
@@ -214,7 +215,7 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
       t, surface, sampler, rays, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
       [&](const Vec3& wi) { return shading.cosine(wi) / kPi; });
   const Vec3 direction = shading.above(square_to_cosine_hemisphere(sampler.next2()));
-  const Ray ray{spawn_origin(t.accel.scene(), surface.triangle, surface.barycentric, direction), direction};
+  const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = std::max(shading.cosine(direction) / kPi, 1e-12f);
   const PathLight light = Walk(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
   s.direct += kPi * light.emitted;  // cosθ / pdf = π

@@ -24,6 +24,7 @@ struct SurfacePoint {
   std::uint32_t triangle = 0;
   Vec2 barycentric{0};
   Vec3 position{0};
+  float magnitude = 0;  // largest |coordinate| of the triangle: what position's rounding error is relative to
   Vec3 geometric_normal{0, 0, 1};  // unit, on the side of wo
   Vec3 normal{0, 0, 1};            // unit shading normal, on the side of wo
   ShadePoint shade;
@@ -35,6 +36,11 @@ struct SurfacePoint {
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction);
 // The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit).
 SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction);
+
+// The origin of a ray that leaves the surface.
+inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
+  return offset_origin(s.position, glm::dot(s.geometric_normal, direction) < 0 ? -s.geometric_normal : s.geometric_normal, s.magnitude);
+}
 
 struct PathLight {
   Vec3 emitted{0};         // met directly, through glass and cut-outs only

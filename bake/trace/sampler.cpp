@@ -21,12 +21,15 @@ std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-// Second dimension of Sobol's sequence, not yet bit-reversed: its generator matrix is Pascal's triangle modulo 2.
-std::uint32_t sobol_second(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1, column ^= column >> 1)
-    if (index & 1u) result ^= column;
-  return result;
+// Second dimension of Sobol's sequence, bit-reversed. Its generator matrix is Pascal's triangle modulo 2, and C(j, i) is odd
+// where the bits of i are among those of j: bit i of the result is the sum of all index bits j that contain i, a
+// superset transform of five butterflies.
+std::uint32_t sobol_second_reversed(std::uint32_t index) {
+  index ^= (index & 0xaaaaaaaau) >> 1;
+  index ^= (index & 0xccccccccu) >> 2;
+  index ^= (index & 0xf0f0f0f0u) >> 4;
+  index ^= (index & 0xff00ff00u) >> 8;
+  return index ^ (index & 0xffff0000u) >> 16;
 }
 
 float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
@@ -53,7 +56,7 @@ Vec2 Sampler::next2() {
   const std::uint64_t h = mix64(key_ + dimension_++), g = mix64(h);
   const std::uint32_t index = reverse_bits(scramble_reversed(reverse_bits(sample_), static_cast<std::uint32_t>(h)));
   const std::uint32_t x = reverse_bits(scramble_reversed(index, static_cast<std::uint32_t>(h >> 32)));
-  const std::uint32_t y = reverse_bits(scramble_reversed(reverse_bits(sobol_second(index)), static_cast<std::uint32_t>(g)));
+  const std::uint32_t y = reverse_bits(scramble_reversed(sobol_second_reversed(index), static_cast<std::uint32_t>(g)));
   return {unit_float(x), unit_float(y)};
 }
 

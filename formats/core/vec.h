@@ -1,6 +1,7 @@
 // The project's names for GLM's types. GLM types are never written to a file as they lie in memory.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -24,7 +25,7 @@ inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr double kPiD = 3.14159265358979323846;
 
 inline float length2(const Vec3& v) { return glm::dot(v, v); }
-inline float max_component(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+inline float max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // The unit vector along v, or fallback where v has no direction (zero, denormal or not finite).

@@ -3,8 +3,8 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>
@@ -109,8 +109,8 @@ Result<FloatImage> decode(const std::string& where, const Bytes& bytes) {
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide ||
       static_cast<std::uint64_t>(width * height) > kMaxPixels)
-    return invalid(where, "found {} x {} pixels, expected 1 to {} a side and at most {} in all", width, height, kMaxSide,
-                   kMaxPixels);
+    return invalid(where, "found {} x {} pixels, expected 1 to {} a side and at most {} in all", width, height,
+                   kMaxSide, kMaxPixels);
   image.width = static_cast<std::uint32_t>(width);
   image.height = static_cast<std::uint32_t>(height);
   image.pixels.resize(std::size_t{image.width} * image.height * image.channels);
@@ -126,8 +126,8 @@ Status write_exr(const std::filesystem::path& path, const FloatImage& image,
   ORIEL_TRY_VOID(check_shape(path.string(), image));
   MemoryOut out;
   try {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height), 1, {0, 0}, 1,
-                       Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height), 1, {0, 0}, 1, Imf::INCREASING_Y,
+                       Imf::ZIP_COMPRESSION);
     for (std::uint32_t c = 0; c < image.channels; ++c)
       header.channels().insert(channel_name(image.channels, c), Imf::Channel(Imf::FLOAT));
     for (const auto& [name, value] : attributes) header.insert(name, Imf::StringAttribute(value));

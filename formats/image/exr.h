@@ -16,8 +16,8 @@ namespace oriel {
 Status write_exr(const std::filesystem::path& path, const FloatImage& image,
                  const std::map<std::string, std::string>& attributes = {});
 
-// Reads R, G, B (and A) or Y of a flat, single-part file of any pixel type and compression. Other channels are left out.
-// Errors: kIo; kInvalid for deep and multi-part files, subsampled or missing channels, broken files.
+// Reads R, G, B (and A) or Y of a flat, single-part file of any pixel type and compression. Other channels are left
+// out. Errors: kIo; kInvalid for deep and multi-part files, subsampled or missing channels, broken files.
 Result<FloatImage> read_exr(const std::filesystem::path& path);
 
 }  // namespace oriel

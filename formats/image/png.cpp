@@ -56,8 +56,8 @@ Result<ByteImage> read_png(const std::filesystem::path& path) {
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &in_file, channels), &stbi_image_free);
   if (!pixels) return invalid(path.string(), "is a broken PNG file: {}", stbi_failure_reason());
-  ByteImage image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                  static_cast<std::uint32_t>(channels), {}};
+  ByteImage image{
+      static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), static_cast<std::uint32_t>(channels), {}};
   const std::size_t count = std::size_t{image.width} * image.height * image.channels;
   image.pixels.assign(pixels.get(), pixels.get() + count);
   return image;

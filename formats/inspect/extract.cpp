@@ -63,8 +63,8 @@ Status Extraction::lightmaps() {
     const std::string name = fmt::format("lightmap_{:03}", i);
     Json entry{{"kind", "lightmap"}, {"number", i}, {"width", page.width}, {"height", page.height}, {"unit", "lux"}};
     ORIEL_TRY_VOID(exr(entry, "irradiance", name + ".exr", rgb_image(page.width, page.height, page.irradiance), "lux"));
-    ORIEL_TRY_VOID(
-        exr(entry, "standard_error", name + "_error.exr", rgb_image(page.width, page.height, page.standard_error), "lux"));
+    ORIEL_TRY_VOID(exr(entry, "standard_error", name + "_error.exr",
+                       rgb_image(page.width, page.height, page.standard_error), "lux"));
     ByteImage states{page.width, page.height, 1, {}};
     for (const TexelState state : page.state) states.pixels.push_back(static_cast<std::uint8_t>(state));
     ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", states));
@@ -108,8 +108,8 @@ Status Extraction::kernels() {
                {"cos_theta", kernel.cos_theta},
                {"half_extent", kernel.half_extent},
                {"energy_kept", kernel.energy_kept}};
-    ORIEL_TRY_VOID(exr(entry, "weights", fmt::format("brdf_kernel_{:02}.exr", i), {kernel.size, kernel.size, 1, kernel.weights},
-                       "1"));
+    ORIEL_TRY_VOID(exr(entry, "weights", fmt::format("brdf_kernel_{:02}.exr", i),
+                       {kernel.size, kernel.size, 1, kernel.weights}, "1"));
     index_.push_back(std::move(entry));
   }
   return {};
@@ -139,7 +139,11 @@ Status Extraction::fresnel_maps() {
 Status Extraction::textures() {
   for (std::size_t i = 0; i < pack_.textures.size(); ++i) {
     const auto& texture = pack_.textures[i];
-    Json entry{{"kind", "texture"}, {"number", i}, {"name", texture.name}, {"width", texture.width}, {"height", texture.height}};
+    Json entry{{"kind", "texture"},
+               {"number", i},
+               {"name", texture.name},
+               {"width", texture.width},
+               {"height", texture.height}};
     ORIEL_TRY_VOID(
         png(entry, "color", fmt::format("texture_{:03}.png", i), {texture.width, texture.height, 4, texture.texels}));
     index_.push_back(std::move(entry));
@@ -170,9 +174,9 @@ struct Kind {
   const char* name;
   Status (Extraction::*write)();
 };
-constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},       {"radiance_map", &Extraction::radiance_maps},
-                           {"brdf_kernel", &Extraction::kernels},      {"fresnel_map", &Extraction::fresnel_maps},
-                           {"texture", &Extraction::textures},         {"mesh", &Extraction::mesh}};
+constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},  {"radiance_map", &Extraction::radiance_maps},
+                           {"brdf_kernel", &Extraction::kernels}, {"fresnel_map", &Extraction::fresnel_maps},
+                           {"texture", &Extraction::textures},    {"mesh", &Extraction::mesh}};
 
 }  // namespace
 
@@ -189,7 +193,8 @@ int extract(const fs::path& path, const ExtractOptions& options) {
   bool known = options.kind == "all";
   for (const auto& kind : kKinds) known = known || options.kind == kind.name;
   if (!known)
-    return report({ErrorCode::kUsage, fmt::format("found '{}', expected one of {}", options.kind, extract_kinds()), "--kind"});
+    return report(
+        {ErrorCode::kUsage, fmt::format("found '{}', expected one of {}", options.kind, extract_kinds()), "--kind"});
   const auto pack = read_pack(path);
   if (!pack) return report(pack.error());
   std::error_code ec;

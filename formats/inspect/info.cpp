@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json triple(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 Json sections_json(const PackIndex& index) {
   Json out = Json::array();
@@ -55,11 +57,13 @@ Json lightmaps_json(const Pack& pack) {
   Json out = Json::array();
   for (const auto& page : pack.lightmaps) {
     const auto s = summarise(page);
-    out.push_back({{"width", page.width},
-                   {"height", page.height},
-                   {"texels", {{"empty", s.states[0]}, {"dilated", s.states[1]}, {"buried", s.states[2]}, {"valid", s.states[3]}}},
-                   {"lux", {{"min", s.min_lux}, {"mean", s.mean_lux}, {"max", s.max_lux}}},
-                   {"relative_standard_error", s.error}});
+    out.push_back(
+        {{"width", page.width},
+         {"height", page.height},
+         {"texels",
+          {{"empty", s.states[0]}, {"dilated", s.states[1]}, {"buried", s.states[2]}, {"valid", s.states[3]}}},
+         {"lux", {{"min", s.min_lux}, {"mean", s.mean_lux}, {"max", s.max_lux}}},
+         {"relative_standard_error", s.error}});
   }
   return out;
 }
@@ -117,7 +121,8 @@ Json small_maps_json(const Pack& pack, Json out) {
                               {"energy_kept", k.energy_kept}});
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
-    out["fresnel_maps"].push_back({{"alpha", f.alpha}, {"table_entries", f.table.size()}, {"sphere_size", f.sphere_size}});
+    out["fresnel_maps"].push_back(
+        {{"alpha", f.alpha}, {"table_entries", f.table.size()}, {"sphere_size", f.sphere_size}});
   out["cameras"] = Json::array();
   for (const auto& c : pack.cameras) out["cameras"].push_back(c.name);
   out["paths"] = Json::array();
@@ -156,7 +161,8 @@ void print_sections(const PackIndex& index) {
       stored += index.sections[i].stored_bytes;
       raw += index.sections[i].raw_bytes;
     }
-    fmt::print("{} {:<14}{:>6} {:>16} {:>16}\n", kind_text(kind), known ? known->meaning : "unknown", number, stored, raw);
+    fmt::print("{} {:<14}{:>6} {:>16} {:>16}\n", kind_text(kind), known ? known->meaning : "unknown", number, stored,
+               raw);
   }
 }
 
@@ -164,8 +170,8 @@ void print_maps(const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
     const auto s = summarise(page);
-    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %\n", i, page.width,
-               page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error);
+    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %\n", i,
+               page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error);
   }
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const auto& r = pack.reflectors[i];
@@ -175,13 +181,14 @@ void print_maps(const Pack& pack) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const auto& map = pack.radiance_maps[i];
     const auto s = summarise(map);
-    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i, map.width,
-               map.height, map.reflector, 100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()),
-               s.mean, s.max);
+    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i,
+               map.width, map.height, map.reflector,
+               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
   }
   for (std::size_t i = 0; i < pack.kernels.size(); ++i)
-    fmt::print("kernel {}: {} x {}, alpha {:.4g}, at cosine {:.4g}, keeps {:.4g} of the lobe\n", i, pack.kernels[i].size,
-               pack.kernels[i].size, pack.kernels[i].alpha, pack.kernels[i].cos_theta, pack.kernels[i].energy_kept);
+    fmt::print("kernel {}: {} x {}, alpha {:.4g}, at cosine {:.4g}, keeps {:.4g} of the lobe\n", i,
+               pack.kernels[i].size, pack.kernels[i].size, pack.kernels[i].alpha, pack.kernels[i].cos_theta,
+               pack.kernels[i].energy_kept);
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i)
     fmt::print("Fresnel map {}: alpha {:.4g}, {} entries, sphere map {} x {}\n", i, pack.fresnel_maps[i].alpha,
                pack.fresnel_maps[i].table.size(), pack.fresnel_maps[i].sphere_size, pack.fresnel_maps[i].sphere_size);
@@ -194,8 +201,8 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   fmt::print("mesh: {} triangles, {} vertices, {} parts, {:.4g} x {:.4g} x {:.4g} m around ({:.6g}, {:.6g}, {:.6g})\n",
              pack.mesh.indices.size() / 3, pack.mesh.positions.size(), pack.mesh.parts.size(), size.x, size.y, size.z,
              pack.mesh.origin.x, pack.mesh.origin.y, pack.mesh.origin.z);
-  fmt::print("{} materials, {} textures, sky ({:.4g}, {:.4g}, {:.4g}) cd/m2\n", pack.materials.size(), pack.textures.size(),
-             pack.sky.r, pack.sky.g, pack.sky.b);
+  fmt::print("{} materials, {} textures, sky ({:.4g}, {:.4g}, {:.4g}) cd/m2\n", pack.materials.size(),
+             pack.textures.size(), pack.sky.r, pack.sky.g, pack.sky.b);
   print_sections(index);
   fmt::print("\n");
   print_maps(pack);

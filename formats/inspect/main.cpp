@@ -1,6 +1,7 @@
 // oriel-inspect: what a pack holds, and whether it can be trusted. docs/oriel-inspect.md is its page.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <system_error>
 
 #include "formats/inspect/commands.h"
 
@@ -75,6 +76,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0)
       return oriel::inspect::report({oriel::ErrorCode::kIo, "the result cannot be written", "stdout"});
     return code;
+  } catch (const std::system_error& e) {  // fmt, when stdout takes no more
+    return oriel::inspect::report({oriel::ErrorCode::kIo, e.what(), "stdout"});
   } catch (const std::exception& e) {
     return oriel::inspect::report({oriel::ErrorCode::kRuntime, e.what(), ""});
   }

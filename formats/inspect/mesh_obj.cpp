@@ -24,7 +24,8 @@ std::string obj_text(const Mesh& mesh) {
   for (const Vec2& uv : mesh.lightmap_uvs) fmt::format_to(out, "vt {} {}\n", uv.x, 1 - uv.y);
   for (const Vec3& n : mesh.normals) fmt::format_to(out, "vn {} {} {}\n", n.x, n.y, n.z);
   for (const auto& part : mesh.parts) {
-    fmt::format_to(out, "g {}\nusemtl material_{}_lightmap_{}\n", group_name(part.name), part.material, part.lightmap_page);
+    fmt::format_to(out, "g {}\nusemtl material_{}_lightmap_{}\n", group_name(part.name), part.material,
+                   part.lightmap_page);
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
       text += 'f';
       for (std::uint32_t k = 0; k < 3; ++k) {

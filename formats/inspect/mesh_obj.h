@@ -7,8 +7,9 @@
 
 namespace oriel::inspect {
 
-// Positions in pack space (metres, relative to the mesh's origin), normals, and the *lightmap* coordinates with v flipped
-// to OBJ's convention, so that lightmap_000.exr fits as a texture; one group a part, and the page in the material's name.
+// Positions in pack space (metres, relative to the mesh's origin), normals, and the *lightmap* coordinates with v
+// flipped to OBJ's convention, so that lightmap_000.exr fits as a texture; one group a part, and the page in the
+// material's name.
 std::string obj_text(const Mesh& mesh);
 
 }  // namespace oriel::inspect

@@ -24,8 +24,7 @@ LightmapSummary summarise(const LightmapPage& page) {
   summary.min_lux = low;
   summary.max_lux = high;
   summary.mean_lux = sum / static_cast<double>(count);
-  if (summary.mean_lux > 0)
-    summary.error = std::sqrt(squared_error / static_cast<double>(count)) / summary.mean_lux;
+  if (summary.mean_lux > 0) summary.error = std::sqrt(squared_error / static_cast<double>(count)) / summary.mean_lux;
   return summary;
 }
 

@@ -16,9 +16,7 @@ namespace {
 // sections are named, not only the first.
 std::vector<Issue> damage(const Bytes& file) {
   std::vector<Issue> issues;
-  const auto add = [&](const Error& error) {
-    issues.push_back({1, Severity::kError, error.where, error.message});
-  };
+  const auto add = [&](const Error& error) { issues.push_back({1, Severity::kError, error.where, error.message}); };
   const auto index = read_index(file);
   if (!index) {
     add(index.error());

@@ -46,7 +46,8 @@ Result<FileHeader> read_header(std::span<const std::byte> file) {
     return invalid("section table", "the file ends at byte {}, inside the table of {} sections, expected at least {}",
                    file.size(), header.section_count, table_end);
   Bytes covered(file.begin(), file.begin() + offsetof(FileHeader, checksum));
-  covered.insert(covered.end(), file.begin() + sizeof(FileHeader), file.begin() + static_cast<std::ptrdiff_t>(table_end));
+  covered.insert(covered.end(), file.begin() + sizeof(FileHeader),
+                 file.begin() + static_cast<std::ptrdiff_t>(table_end));
   const std::uint64_t checksum = hash64(covered);
   if (checksum != header.checksum)
     return invalid("section table", "header and table have checksum {:016x}, expected {:016x}", checksum,
@@ -115,9 +116,9 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
   for (std::uint32_t i = 0; i < header.section_count; ++i) {
     const auto record = load<SectionRecord>(file, sizeof(FileHeader) + i * sizeof(SectionRecord));
     const std::uint64_t nth = seen[record.kind]++;
-    SectionInfo section{record.kind,         record.codec,     (record.flags & kSectionOptional) != 0,
-                        record.offset,       record.stored_bytes, record.raw_bytes,
-                        record.count,        record.checksum,  section_label(record.kind, nth)};
+    SectionInfo section{record.kind,   record.codec,        (record.flags & kSectionOptional) != 0,
+                        record.offset, record.stored_bytes, record.raw_bytes,
+                        record.count,  record.checksum,     section_label(record.kind, nth)};
     if ((record.flags & ~kSectionOptional) != 0 || record.reserved0 != 0 || record.reserved1 != 0)
       return invalid(section.label, "found reserved bits that are not zero");
     ORIEL_TRY_VOID(check_kind(section, nth));
@@ -127,7 +128,8 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
       return invalid(section.label, "the padding before it is not zero");
     // Each addend is at most kMaxExpansion times the file's length; the sum is checked before it can wrap.
     if (section.raw_bytes > kMaxRawBytes || (raw_total += section.raw_bytes) > kMaxRawBytes)
-      return invalid(section.label, "the sections hold more than the accepted {} bytes when decompressed", kMaxRawBytes);
+      return invalid(section.label, "the sections hold more than the accepted {} bytes when decompressed",
+                     kMaxRawBytes);
     end = section.offset + section.stored_bytes;
     index.sections.push_back(std::move(section));
   }
@@ -135,7 +137,8 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
     if (kind.required && !seen.contains(kind.kind))
       return invalid("section table", "has no {}, expected one", section_label(kind.kind, 0));
   if (header.file_bytes != end)
-    return invalid("header", "found a file length of {} bytes, but the last section ends at {}", header.file_bytes, end);
+    return invalid("header", "found a file length of {} bytes, but the last section ends at {}", header.file_bytes,
+                   end);
   if (file.size() != end)
     return invalid("header", "found {} bytes after the last section, expected none", file.size() - end);
   return index;

@@ -25,8 +25,8 @@ struct PackIndex {
   std::vector<SectionInfo> sections;  // in file order
 };
 
-// Checks the header, the table with its checksum, the place of every section, the padding and the file's length; not the
-// sections' own checksums. Error kInvalid names the field or the section.
+// Checks the header, the table with its checksum, the place of every section, the padding and the file's length; not
+// the sections' own checksums. Error kInvalid names the field or the section.
 Result<PackIndex> read_index(std::span<const std::byte> file);
 
 // The stored bytes of a section. file and section belong to a read_index that succeeded.

@@ -44,18 +44,32 @@ class IssueList {
   std::string section_;
 };
 
-inline std::string text_of(float v) { return fmt::format("{}", v); }
-inline std::string text_of(const Vec2& v) { return fmt::format("({}, {})", v.x, v.y); }
-inline std::string text_of(const Vec3& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
+inline std::string text_of(float v) {
+  return fmt::format("{}", v);
+}
+inline std::string text_of(const Vec2& v) {
+  return fmt::format("({}, {})", v.x, v.y);
+}
+inline std::string text_of(const Vec3& v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
 
-inline bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+inline bool is_finite(const Vec2& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
 // Comparisons with NaN are false, so NaN is never within.
-inline bool within(float v, float low, float high) { return v >= low && v <= high; }
+inline bool within(float v, float low, float high) {
+  return v >= low && v <= high;
+}
 inline bool within(const Vec3& v, float low, float high) {
   return within(v.x, low, high) && within(v.y, low, high) && within(v.z, low, high);
 }
-inline bool not_negative(float v) { return std::isfinite(v) && v >= 0; }
-inline bool not_negative(const Vec3& v) { return not_negative(v.x) && not_negative(v.y) && not_negative(v.z); }
+inline bool not_negative(float v) {
+  return std::isfinite(v) && v >= 0;
+}
+inline bool not_negative(const Vec3& v) {
+  return not_negative(v.x) && not_negative(v.y) && not_negative(v.z);
+}
 
 // The parts of validate(), by section.
 void validate_mesh(const Pack& pack, IssueList& list);

@@ -36,9 +36,9 @@ static_assert(offsetof(FileHeader, table_offset) == 24 && offsetof(FileHeader, f
 static_assert(offsetof(FileHeader, reserved) == 40 && offsetof(FileHeader, checksum) == 56);
 
 struct SectionRecord {
-  std::uint32_t kind;   // fourcc
-  std::uint32_t codec;  // Codec
-  std::uint32_t flags;  // bit 0: optional (a reader that does not know the kind may skip it); the others are 0
+  std::uint32_t kind;       // fourcc
+  std::uint32_t codec;      // Codec
+  std::uint32_t flags;      // bit 0: optional (a reader that does not know the kind may skip it); the others are 0
   std::uint32_t reserved0;  // 0
   std::uint64_t offset;     // from the file's first byte
   std::uint64_t stored_bytes;
@@ -67,9 +67,9 @@ constexpr std::uint32_t fourcc(const char (&text)[5]) {
 struct SectionKind {
   std::uint32_t kind;
   const char* meaning;
-  bool optional;   // what bit 0 of the flags says
-  bool required;   // exactly one in every pack
-  bool one_each;   // a section an element, in order; of the other kinds there is at most one section
+  bool optional;  // what bit 0 of the flags says
+  bool required;  // exactly one in every pack
+  bool one_each;  // a section an element, in order; of the other kinds there is at most one section
 };
 
 inline constexpr std::uint32_t kProvenanceSection = fourcc("PROV");
@@ -112,7 +112,7 @@ constexpr const SectionKind* find_section_kind(std::uint32_t kind) {
 
 // Limits, so that a hostile file cannot make a reader allocate without end (docs/format.md gives the reasons).
 inline constexpr std::uint32_t kMaxSections = 1u << 20;
-inline constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;  // of all sections together
+inline constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;   // of all sections together
 inline constexpr std::uint64_t kMaxExpansion = std::uint64_t{1} << 16;  // raw bytes for a stored byte
 inline constexpr std::uint32_t kMaxSide = 32768;                        // texels of any map
 

@@ -11,8 +11,8 @@
 
 namespace oriel {
 
-// Scalars, and structs of them without padding. GLM's vectors initialise themselves, so they are not trivially copyable in
-// the language's sense, but their bytes are their floats.
+// Scalars, and structs of them without padding. GLM's vectors initialise themselves, so they are not trivially copyable
+// in the language's sense, but their bytes are their floats.
 template <class T>
 concept Planar = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>;
 

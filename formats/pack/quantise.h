@@ -1,5 +1,5 @@
-// How numbers lose bits in a pack. Each encoding gives back the same code for its own decoded value, so that reading and
-// writing a pack again changes no byte. docs/format.md states the errors.
+// How numbers lose bits in a pack. Each encoding gives back the same code for its own decoded value, so that reading
+// and writing a pack again changes no byte. docs/format.md states the errors.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ inline constexpr int kMaxScaleExponent = 112;
 // (11: half, 9: RGB9E5). Values below 2^-80 count as nothing: exponent 0, under which they become 0.
 int scale_exponent(float largest, int mantissa_bits);
 
-// Unit vectors in 2 x 16 bits, x in the low half. Error at most 6e-5 rad.
+// Unit vectors in 2 x 16 bits, x in the low half. Error at most 7e-5 rad.
 // Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors", oct32.
 std::uint32_t octahedral_from_normal(const Vec3& normal);
 Vec3 normal_from_octahedral(std::uint32_t code);  // unit for every code

@@ -48,8 +48,10 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
   ORIEL_TRY(const RawBytes raw, section_bytes(file, section));
   ByteReader in(raw.span());
   switch (section.kind) {
-    case kProvenanceSection: return decode_text(in, section, pack.provenance);
-    case kPlanSection: return decode_text(in, section, pack.plan);
+    case kProvenanceSection:
+      return decode_text(in, section, pack.provenance);
+    case kPlanSection:
+      return decode_text(in, section, pack.plan);
     case kSceneSection:
       ORIEL_TRY_VOID(one_element_only(section));
       pack.sky = get_vec3(in);
@@ -60,16 +62,26 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
         return invalid(section.label, "{}", status.error().message);
       return check_end(in, section);
     }
-    case kMaterialSection: return decode_list(in, section, pack.materials);
-    case kTextureSection: return decode_list(in, section, pack.textures);
-    case kLightmapSection: return decode_list(in, section, pack.lightmaps);
-    case kReflectorSection: return decode_list(in, section, pack.reflectors);
-    case kRadianceMapSection: return decode_list(in, section, pack.radiance_maps);
-    case kKernelSection: return decode_list(in, section, pack.kernels);
-    case kFresnelSection: return decode_list(in, section, pack.fresnel_maps);
-    case kCameraSection: return decode_list(in, section, pack.cameras);
-    case kPathSection: return decode_list(in, section, pack.paths);
-    default: return invalid(section.label, "is of a kind that cannot be decoded");
+    case kMaterialSection:
+      return decode_list(in, section, pack.materials);
+    case kTextureSection:
+      return decode_list(in, section, pack.textures);
+    case kLightmapSection:
+      return decode_list(in, section, pack.lightmaps);
+    case kReflectorSection:
+      return decode_list(in, section, pack.reflectors);
+    case kRadianceMapSection:
+      return decode_list(in, section, pack.radiance_maps);
+    case kKernelSection:
+      return decode_list(in, section, pack.kernels);
+    case kFresnelSection:
+      return decode_list(in, section, pack.fresnel_maps);
+    case kCameraSection:
+      return decode_list(in, section, pack.cameras);
+    case kPathSection:
+      return decode_list(in, section, pack.paths);
+    default:
+      return invalid(section.label, "is of a kind that cannot be decoded");
   }
 }
 

@@ -11,8 +11,8 @@
 namespace oriel {
 
 // Checks the table and all checksums, and decodes every section: all numbers are what the file holds, and enums have
-// their named values, but ranges and references are not checked (validate.h). Errors: kInvalid names the section, kRuntime
-// when memory does not suffice.
+// their named values, but ranges and references are not checked (validate.h). Errors: kInvalid names the section,
+// kRuntime when memory does not suffice.
 Result<Pack> decode_pack(std::span<const std::byte> file);
 
 // A pack that may be used without further checks: the file is read and decoded, and validate() finds no error in it.

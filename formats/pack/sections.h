@@ -20,7 +20,8 @@ void encode(ByteWriter& out, const BrdfKernel& kernel);
 void encode(ByteWriter& out, const FresnelMap& map);
 
 // Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
-// the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes left.
+// the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes
+// left.
 Status decode(ByteReader& in, Mesh& mesh);
 Status decode(ByteReader& in, Material& material);
 Status decode(ByteReader& in, Reflector& reflector);

@@ -46,7 +46,8 @@ Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::ve
     for (int c = 0; c < 3; ++c) {
       const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
       if (half >= 0x7c00)
-        return invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what, half, i);
+        return invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what, half,
+                       i);
       values[i][c] = float_from_half(half) * scale;
     }
   return {};

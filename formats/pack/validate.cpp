@@ -41,11 +41,11 @@ void validate_camera(std::size_t i, const Camera& camera, IssueList& list) {
     list.error(702, "camera {} ('{}'): forward {} and up {} span no plane", i, camera.name, text_of(camera.forward),
                text_of(camera.up));
   const bool perspective = camera.vertical_fov_rad > 0 && camera.vertical_fov_rad < kPi;
-  const bool orthographic =
-      camera.vertical_fov_rad == 0 && camera.half_height > 0 && std::isfinite(camera.half_height);
+  const bool orthographic = camera.vertical_fov_rad == 0 && camera.half_height > 0 && std::isfinite(camera.half_height);
   if (!perspective && !orthographic)
-    list.error(703, "camera {} ('{}'): found a field of view of {} rad and half height {} m, expected 0 < fov < pi, or 0 "
-                    "and a height above 0",
+    list.error(703,
+               "camera {} ('{}'): found a field of view of {} rad and half height {} m, expected 0 < fov < pi, or 0 "
+               "and a height above 0",
                i, camera.name, camera.vertical_fov_rad, camera.half_height);
 }
 
@@ -86,8 +86,9 @@ void validate_mesh(const Pack& pack, IssueList& list) {
   list.in_section(kMeshSection);
   if (mesh.normals.size() != n || mesh.uvs.size() != n || mesh.lightmap_uvs.size() != n ||
       (!mesh.colors.empty() && mesh.colors.size() != n))
-    list.error(101, "found {} positions, {} normals, {} texture and {} lightmap coordinates, {} colours, expected as many "
-                    "of each (or no colours)",
+    list.error(101,
+               "found {} positions, {} normals, {} texture and {} lightmap coordinates, {} colours, expected as many "
+               "of each (or no colours)",
                n, mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size());
   if (n > 0xffffffffu || mesh.indices.size() > 0xffffffffu)
     list.error(102, "found {} vertices and {} indices, expected less than 2^32", n, mesh.indices.size());
@@ -95,7 +96,8 @@ void validate_mesh(const Pack& pack, IssueList& list) {
     list.error(103, "found origin ({}, {}, {}), expected finite numbers", mesh.origin.x, mesh.origin.y, mesh.origin.z);
   const auto text2 = [](const Vec2& v) { return text_of(v); };
   const auto text3 = [](const Vec3& v) { return text_of(v); };
-  list.each(103, "positions", mesh.positions, [](const Vec3& v) { return is_finite(v); }, text3, "finite numbers");
+  list.each(
+      103, "positions", mesh.positions, [](const Vec3& v) { return is_finite(v); }, text3, "finite numbers");
   list.each(
       104, "normals", mesh.normals, [](const Vec3& v) { return std::abs(glm::length(DVec3(v)) - 1) <= 1e-3; }, text3,
       "length 1");
@@ -116,7 +118,8 @@ void validate_materials(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.materials.size(); ++i) {
     const Material& m = pack.materials[i];
     const auto in_unit = [&](const char* what, float value) {
-      if (!within(value, 0, 1)) list.error(201, "material {} ('{}'): found {} {}, expected 0 to 1", i, m.name, what, value);
+      if (!within(value, 0, 1))
+        list.error(201, "material {} ('{}'): found {} {}, expected 0 to 1", i, m.name, what, value);
     };
     for (int c = 0; c < 3; ++c) {
       in_unit("base colour", m.base_color[c]);
@@ -127,12 +130,13 @@ void validate_materials(const Pack& pack, IssueList& list) {
     in_unit("roughness", m.roughness);
     in_unit("transmission", m.transmission);
     if (!not_negative(m.alpha_cutoff) || !not_negative(m.ior) || !not_negative(m.emission))
-      list.error(202, "material {} ('{}'): found alpha cutoff {}, index of refraction {}, emission {}, expected finite "
-                      "numbers from 0 up",
+      list.error(202,
+                 "material {} ('{}'): found alpha cutoff {}, index of refraction {}, emission {}, expected finite "
+                 "numbers from 0 up",
                  i, m.name, m.alpha_cutoff, m.ior, text_of(m.emission));
     if (!optional_index(m.base_color_texture, pack.textures.size()))
-      list.error(203, "material {} ('{}'): found texture {}, expected -1 or less than {}", i, m.name, m.base_color_texture,
-                 pack.textures.size());
+      list.error(203, "material {} ('{}'): found texture {}, expected -1 or less than {}", i, m.name,
+                 m.base_color_texture, pack.textures.size());
     if (!optional_index(m.kernel, pack.kernels.size()))
       list.error(204, "material {} ('{}'): found kernel {}, expected -1 or less than {}", i, m.name, m.kernel,
                  pack.kernels.size());
@@ -163,7 +167,8 @@ void validate_unknown(const Pack& pack, IssueList& list) {
     list.in_section(unknown.kind);
     if (find_section_kind(unknown.kind)) list.error(901, "is of a known kind, expected an unknown one");
     const bool plain = unknown.codec == static_cast<std::uint32_t>(Codec::kNone);
-    if ((plain && unknown.raw_bytes != unknown.stored.size()) || unknown.raw_bytes / kMaxExpansion > unknown.stored.size())
+    if ((plain && unknown.raw_bytes != unknown.stored.size()) ||
+        unknown.raw_bytes / kMaxExpansion > unknown.stored.size())
       list.error(902, "found {} raw bytes for {} stored with codec {}", unknown.raw_bytes, unknown.stored.size(),
                  unknown.codec);
   }

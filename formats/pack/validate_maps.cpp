@@ -44,24 +44,24 @@ void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
   if (!is_rigid(r.pack_from_reflector))
     list.error(402, "reflector {} ('{}'): pack_from_reflector is not a rotation and a translation", i, r.name);
   if (!is_finite(r.lower) || !is_finite(r.upper) || !(r.lower.x <= r.upper.x) || !(r.lower.y <= r.upper.y))
-    list.error(403, "reflector {} ('{}'): found bounds {} to {}, expected finite and rising", i, r.name, text_of(r.lower),
-               text_of(r.upper));
+    list.error(403, "reflector {} ('{}'): found bounds {} to {}, expected finite and rising", i, r.name,
+               text_of(r.lower), text_of(r.upper));
   if (!not_negative(r.area_m2) || !not_negative(r.flatness_m))
-    list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2, r.flatness_m,
-               kLight);
+    list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2,
+               r.flatness_m, kLight);
   const auto bad = std::count_if(r.indices.begin(), r.indices.end(),
                                  [&](std::uint32_t index) { return index >= pack.mesh.positions.size(); });
   if (bad > 0 || r.indices.size() % 3 != 0)
-    list.error(405, "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}", i,
-               r.name, r.indices.size(), bad, pack.mesh.positions.size());
+    list.error(405, "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}",
+               i, r.name, r.indices.size(), bad, pack.mesh.positions.size());
   if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
     list.error(406, "reflector {} ('{}'): found radiance maps {} to {}, expected at most {}", i, r.name, r.first_map,
                std::uint64_t{r.first_map} + r.map_count, pack.radiance_maps.size());
     return;
   }
   if (r.map_count > 0 && (r.elements_x == 0 || r.elements_y == 0))
-    list.error(407, "reflector {} ('{}'): found {} x {} elements with {} radiance maps, expected at least 1 x 1", i, r.name,
-               r.elements_x, r.elements_y, r.map_count);
+    list.error(407, "reflector {} ('{}'): found {} x {} elements with {} radiance maps, expected at least 1 x 1", i,
+               r.name, r.elements_x, r.elements_y, r.map_count);
 }
 
 void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
@@ -76,7 +76,8 @@ void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
                std::uint64_t{r.first_map} + r.map_count);
   if (!is_finite(map.eye) || !(map.eye.z < 0))
     list.error(413, "found eye {}, expected it behind the reflector (z < 0)", text_of(map.eye));
-  const bool rises = is_finite(map.lower) && is_finite(map.upper) && map.lower.x < map.upper.x && map.lower.y < map.upper.y;
+  const bool rises =
+      is_finite(map.lower) && is_finite(map.upper) && map.lower.x < map.upper.x && map.lower.y < map.upper.y;
   // Elements that were laid out in floats may pass the bounds by a rounding.
   const Vec2 slack = 1e-3f * (r.upper - r.lower);
   const bool inside = map.lower.x >= r.lower.x - slack.x && map.lower.y >= r.lower.y - slack.y &&
@@ -89,8 +90,9 @@ void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
 void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
   if (!within(kernel.alpha, 0, 1) || !within(kernel.cos_theta, 0, 1) || !not_negative(kernel.half_extent) ||
       !within(kernel.energy_kept, 0, 1.001f))
-    list.error(501, "kernel {}: found alpha {}, cosine {}, half extent {}, energy {}, expected 0 to 1 (extent: from 0 up)", i,
-               kernel.alpha, kernel.cos_theta, kernel.half_extent, kernel.energy_kept);
+    list.error(501,
+               "kernel {}: found alpha {}, cosine {}, half extent {}, energy {}, expected 0 to 1 (extent: from 0 up)",
+               i, kernel.alpha, kernel.cos_theta, kernel.half_extent, kernel.energy_kept);
   if (kernel.size % 2 == 0 || kernel.size > kMaxSide ||
       kernel.weights.size() != std::size_t{kernel.size} * kernel.size) {
     list.error(502, "kernel {}: found size {} with {} weights, expected an odd size and its square", i, kernel.size,
@@ -98,7 +100,8 @@ void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
     return;
   }
   const std::size_t before = list.issues.size();
-  list.each(503, "kernel weights", kernel.weights, [](float w) { return not_negative(w); }, text1, kLight);
+  list.each(
+      503, "kernel weights", kernel.weights, [](float w) { return not_negative(w); }, text1, kLight);
   double sum = 0;
   for (const float w : kernel.weights) sum += w;
   if (list.issues.size() == before && !(std::abs(sum - 1) <= 1e-4))
@@ -163,8 +166,9 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
     if (!within(map.alpha, 0, 1)) list.error(601, "Fresnel map {}: found alpha {}, expected 0 to 1", i, map.alpha);
     if (map.table.size() < 2 || map.table.size() > kMaxSide || map.sphere_size > kMaxSide ||
         map.sphere.size() != std::size_t{map.sphere_size} * map.sphere_size)
-      list.error(602, "Fresnel map {}: found {} table entries and {} texels of a sphere map of side {}, expected at least "
-                      "2, and a square",
+      list.error(602,
+                 "Fresnel map {}: found {} table entries and {} texels of a sphere map of side {}, expected at least "
+                 "2, and a square",
                  i, map.table.size(), map.sphere.size(), map.sphere_size);
     const auto share = [](const Vec3& v) { return within(v, 0, 1); };
     list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");

@@ -14,7 +14,8 @@
 namespace oriel {
 namespace {
 
-// Level 6 saves 1 to 2 % on maps for two to three times the time, level 15 no more than that (measured: docs/format.md).
+// Level 6 saves 1 to 2 % on maps for two to three times the time, level 15 no more than that (measured:
+// docs/format.md).
 constexpr int kZstdLevel = 3;
 
 struct Section {
@@ -128,8 +129,7 @@ std::uint64_t align(std::uint64_t offset) {
 
 Result<Bytes> encode_pack(const Pack& pack) {
   for (const auto& issue : validate(pack))
-    if (issue.severity == Severity::kError)
-      return invalid(issue.section, "issue {}: {}", issue.number, issue.message);
+    if (issue.severity == Severity::kError) return invalid(issue.section, "issue {}: {}", issue.number, issue.message);
   const SectionList list = encode_sections(pack);
   if (list.sections().size() > kMaxSections)
     return invalid("section table", "found {} sections, at most {} are accepted", list.sections().size(), kMaxSections);

@@ -37,6 +37,7 @@ class Program {
   // Setters act on the program in use; a uniform that the shader does not have is ignored.
   void set(const char* uniform, int value) const;
   void set(const char* uniform, float value) const;
+  void set(const char* uniform, const IVec2& value) const;
   void set(const char* uniform, const Vec2& value) const;
   void set(const char* uniform, const Vec3& value) const;
   void set(const char* uniform, const Vec4& value) const;

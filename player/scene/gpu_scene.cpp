@@ -13,7 +13,7 @@ constexpr int kKernelTaps = 48;
 template <class T>
 void add_attribute(std::vector<gpu::Buffer>& buffers, GLuint location, const std::vector<T>& values, int components,
                    GLenum type, bool normalized) {
-  buffers.emplace_back(GL_ARRAY_BUFFER, std::span<const T>(values));
+  buffers.emplace_back(GLenum{GL_ARRAY_BUFFER}, std::span<const T>(values));
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
 }
@@ -87,7 +87,7 @@ void GpuScene::upload_geometry() {
   } else {
     add_attribute(buffers_, 4, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
   }
-  buffers_.emplace_back(GL_ELEMENT_ARRAY_BUFFER, std::span<const std::uint32_t>(indices));
+  buffers_.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
 }
 

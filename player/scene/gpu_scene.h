@@ -7,6 +7,7 @@
 
 #include "formats/pack/pack.h"
 #include "player/gpu/buffer.h"
+#include "player/gpu/device.h"
 #include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/map_point.h"

@@ -140,7 +140,8 @@ Pack tiny_pack() {
   pack.radiance_maps = {tiny_radiance_map(-0.5f), tiny_radiance_map(0.5f)};
   pack.kernels = {tiny_kernel(1), tiny_kernel(5)};
   pack.fresnel_maps = {tiny_fresnel_map()};
-  pack.cameras = {{"door", {0, 1.6f, 1.5f}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0}, {"plan", {0, 5, 0}, {0, -1, 0}, {0, 0, -1}, 0, 3}};
+  pack.cameras = {{"door", {0, 1.6f, 1.5f}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0},
+                  {"plan", {0, 5, 0}, {0, -1, 0}, {0, 0, -1}, 0, 3}};
   pack.paths = {{"walk", 1.0f, {{0, {0, 1.6f, 1.5f}, {0, 0, -1}}, {2, {0, 1.6f, 0}, {1, 0, 0}}}}};
   UnknownSection unknown;
   unknown.kind = 'X' | 'T' << 8 | 'R' << 16 | 'A' << 24;

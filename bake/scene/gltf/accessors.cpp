@@ -91,7 +91,8 @@ Result<std::vector<float>> AccessorReader::decode(int accessor) {
     }
   });
   if (!status) return tl::unexpected<Error>(status.error());
-  if (bad != a.count) return invalid(where(accessor), "element {} is NaN or infinite, expected finite numbers", bad);
+  if (bad != a.count)
+    return invalid(where(accessor), "found NaN or infinity in element {}, expected finite numbers", bad);
   return out;
 }
 
@@ -109,12 +110,12 @@ Result<std::vector<std::uint32_t>> AccessorReader::indices(int accessor) {
   const bool unsigned_type = a.type == ComponentType::kUnsignedByte || a.type == ComponentType::kUnsignedShort ||
                              a.type == ComponentType::kUnsignedInt;
   if (a.components != 1 || !unsigned_type || a.normalized)
-    return invalid(where(accessor), "expected indices: unsigned scalars, not normalized");
+    return invalid(where(accessor), "found something else than unsigned scalars, expected them as indices");
   if (a.view < 0 && a.count > kMaxZeroElements)
     return invalid(where(accessor), "found {} elements without a bufferView, expected at most {}", a.count,
                    kMaxZeroElements);
   if (a.count * sizeof(std::uint32_t) > budget_.left())
-    return invalid(where(accessor), "{} indices exceed the import's memory limit", a.count);
+    return invalid(where(accessor), "found {} indices, expected what fits the import's memory limit", a.count);
   std::vector<std::uint32_t> out(a.count);
   ORIEL_TRY_VOID(
       for_each(accessor, [&](std::uint64_t i, const std::byte* bytes) { out[i] = load_unsigned(bytes, a.type); }));
@@ -134,7 +135,7 @@ Status AccessorReader::check_unread() {
         if (!std::isfinite(load<float>(bytes + c)) && bad == a.count) bad = k;
     }));
     if (bad != a.count)
-      return invalid(where(static_cast<int>(i)), "element {} is NaN or infinite, expected finite numbers", bad);
+      return invalid(where(static_cast<int>(i)), "found NaN or infinity in element {}, expected finite numbers", bad);
   }
   return {};
 }

@@ -24,8 +24,8 @@ Result<Bytes> decode_meshopt(const MeshoptDesc& desc, std::span<const std::byte>
       break;
   }
   if (error != 0)
-    return invalid(where, "EXT_meshopt_compression: the data of {} bytes is corrupt (decoder error {})", source.size(),
-                   error);
+    return invalid(where, "found {} bytes that EXT_meshopt_compression cannot decode (error {}), expected intact data",
+                   source.size(), error);
   // The filters work four elements at a time: rounded up, cut again.
   const std::size_t padded = (desc.count + 3) / 4 * 4;
   const std::size_t size = out.size();
@@ -50,7 +50,10 @@ Result<Bytes> decode_meshopt(const MeshoptDesc& desc, std::span<const std::byte>
 }  // namespace
 
 Status MemoryBudget::take(std::uint64_t bytes, const std::string& where) {
-  if (bytes > left_) return invalid(where, "needs {} bytes, {} are left of the import's memory limit", bytes, left_);
+  if (bytes > left_)
+    return invalid(where,
+                   "found a need for {} bytes, expected at most the {} that are left of the import's memory limit",
+                   bytes, left_);
   left_ -= bytes;
   return {};
 }
@@ -61,9 +64,10 @@ Result<Bytes> read_external(const std::string& uri, const std::filesystem::path&
   const std::filesystem::path path = folder / name;
   std::error_code ec;
   const auto status = std::filesystem::status(path, ec);
-  if (!std::filesystem::exists(status)) return invalid(where, "the file \"{}\" is missing", path.string());
+  if (!std::filesystem::exists(status)) return invalid(where, "found no file \"{}\", expected one", path.string());
   // Pipes and devices could block for ever.
-  if (!std::filesystem::is_regular_file(status)) return invalid(where, "\"{}\" is no regular file", path.string());
+  if (!std::filesystem::is_regular_file(status))
+    return invalid(where, "found \"{}\", which is no regular file, expected one", path.string());
   auto bytes = read_file(path, budget.left());
   if (!bytes) return invalid(where, "{}", bytes.error().text());
   ORIEL_TRY_VOID(budget.take(bytes->size(), where));
@@ -103,13 +107,13 @@ Result<BufferStore> BufferStore::load(const Document& document, const Container&
     const std::string where = fmt::format("{}: bufferViews[{}]", document.file, i);
     const auto buffer = buffers[static_cast<std::size_t>(view.meshopt ? view.meshopt->buffer : view.buffer)];
     if (!view.meshopt && buffer.size() < view.offset + view.length)
-      return invalid(where, "points into a fallback buffer without being compressed");
+      return invalid(where, "found a plain view of a fallback buffer, expected a compressed one");
     if (!view.meshopt) {
       store.views_.push_back(buffer.subspan(view.offset, view.length));
       continue;
     }
     if (buffer.size() < view.meshopt->offset + view.meshopt->length)
-      return invalid(where, "compressed data points into a fallback buffer");
+      return invalid(where, "found compressed data in a fallback buffer, expected it in another");
     ORIEL_TRY_VOID(budget.take(view.length, where));
     ORIEL_TRY(Bytes decoded,
               decode_meshopt(*view.meshopt, buffer.subspan(view.meshopt->offset, view.meshopt->length), where));

@@ -17,7 +17,8 @@ Result<Container> split_glb(std::span<const std::byte> bytes, const std::string&
   const auto length = header.get<std::uint32_t>();
   if (!header.ok()) return invalid(file, "found {} bytes, expected a GLB header of 12", bytes.size());
   if (version != 2) return invalid(file, "found GLB version {}, expected 2", version);
-  if (length != bytes.size()) return invalid(file, "GLB header says {} bytes, the file holds {}", length, bytes.size());
+  if (length != bytes.size())
+    return invalid(file, "found {} bytes, expected the {} that the GLB header says", bytes.size(), length);
   Container parts;
   std::size_t at = 12;
   for (int chunk = 0; at < bytes.size(); ++chunk) {
@@ -27,7 +28,8 @@ Result<Container> split_glb(std::span<const std::byte> bytes, const std::string&
     const auto type = reader.get<std::uint32_t>();
     if (!reader.ok()) return invalid(where, "found {} bytes, expected a chunk header of 8", bytes.size() - at);
     if (size > reader.remaining())
-      return invalid(where, "chunk says {} bytes, {} are left in the file", size, reader.remaining());
+      return invalid(where, "found a chunk of {} bytes, expected at most the {} that are left", size,
+                     reader.remaining());
     const auto data = bytes.subspan(at + 8, size);
     if (chunk == 0 && type != kJsonChunk) return invalid(where, "found chunk type {:#010x}, expected JSON first", type);
     if (chunk > 0 && type == kJsonChunk) return invalid(where, "found a second JSON chunk, expected one");

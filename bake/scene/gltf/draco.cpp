@@ -27,10 +27,10 @@ float integer_scale(draco::DataType type) {
 Result<std::vector<float>> read_attribute(const draco::Mesh& mesh, const std::string& name, const DracoRequest& request,
                                           const std::string& where) {
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(request.id);
-  if (!attribute) return invalid(where, "the Draco mesh has no attribute {} for {}", request.id, name);
+  if (!attribute) return invalid(where, "found no Draco attribute {}, expected one for {}", request.id, name);
   const auto components = static_cast<std::uint32_t>(attribute->num_components());
   if (components != request.components)
-    return invalid(where, "Draco attribute {} has {} components, expected the accessor's {}", name, components,
+    return invalid(where, "found {1} components in Draco attribute {0}, expected the accessor's {2}", name, components,
                    request.components);
   // ConvertValue normalises by the attribute's own flag; glTF's is the accessor's.
   const float scale = request.normalized && !attribute->normalized() ? 1 / integer_scale(attribute->data_type()) : 1.0f;
@@ -40,11 +40,12 @@ Result<std::vector<float>> read_attribute(const draco::Mesh& mesh, const std::st
     const draco::AttributeValueIndex at = attribute->mapped_index(draco::PointIndex(point));
     float* target = out.data() + static_cast<std::size_t>(point) * components;
     if (at.value() >= values || !attribute->ConvertValue<float>(at, static_cast<std::int8_t>(components), target))
-      return invalid(where, "Draco attribute {} holds no value for vertex {}", name, point);
+      return invalid(where, "found no value for vertex {1} in Draco attribute {0}, expected one", name, point);
     for (std::uint32_t c = 0; c < components; ++c) {
       target[c] *= scale;
       if (!std::isfinite(target[c]))
-        return invalid(where, "Draco attribute {} of vertex {} is NaN or infinite", name, point);
+        return invalid(where, "found NaN or infinity in Draco attribute {} of vertex {}, expected finite numbers", name,
+                       point);
     }
   }
   return out;
@@ -59,7 +60,8 @@ Result<DracoMesh> decode_draco(std::span<const std::byte> bytes, const std::map<
   draco::Decoder decoder;
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok())
-    return invalid(where, "Draco data of {} bytes is corrupt: {}", bytes.size(), decoded.status().error_msg_string());
+    return invalid(where, "found {} bytes that Draco cannot decode ({}), expected intact data", bytes.size(),
+                   decoded.status().error_msg_string());
   const draco::Mesh& mesh = *decoded.value();
   DracoMesh out;
   out.vertex_count = mesh.num_points();
@@ -67,7 +69,7 @@ Result<DracoMesh> decode_draco(std::span<const std::byte> bytes, const std::map<
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t index = mesh.face(draco::FaceIndex(f))[static_cast<std::size_t>(k)].value();
       if (index >= out.vertex_count)
-        return invalid(where, "Draco face {} has index {}, expected one below {}", f, index, out.vertex_count);
+        return invalid(where, "found index {1} in Draco face {0}, expected one below {2}", f, index, out.vertex_count);
       out.indices.push_back(index);
     }
   for (const auto& [name, request] : requests) {
@@ -76,7 +78,8 @@ Result<DracoMesh> decode_draco(std::span<const std::byte> bytes, const std::map<
   }
   return out;
 } catch (const std::bad_alloc&) {
-  return invalid(where, "Draco data of {} bytes asks for more memory than there is", bytes.size());
+  return invalid(where, "found Draco data of {} bytes that asks for more memory than there is, expected less",
+                 bytes.size());
 }
 
 }  // namespace oriel::gltf

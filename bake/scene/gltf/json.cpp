@@ -26,6 +26,13 @@ bool nested_deeper_than(std::string_view text, int limit) {
   return false;
 }
 
+// What nlohmann says, without its own code in brackets.
+std::string reason(const nlohmann::json::exception& e) {
+  const std::string_view text = e.what();
+  const std::size_t bracket = text.find("] ");
+  return std::string(bracket == std::string_view::npos ? text : text.substr(bracket + 2));
+}
+
 std::string shown(const nlohmann::json& value) {
   if (value.is_object()) return value.empty() ? "{}" : "an object";
   if (value.is_array()) return fmt::format("an array of {}", value.size());
@@ -45,15 +52,15 @@ Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const
   if (text.starts_with("\xEF\xBB\xBF"))
     return invalid(file, "found a UTF-8 byte order mark, expected JSON without one");
   if (nested_deeper_than(text, kMaxJsonDepth))
-    return invalid(file, "JSON is nested deeper than {} levels", kMaxJsonDepth);
+    return invalid(file, "found JSON nested deeper than {} levels, expected less", kMaxJsonDepth);
   JsonDocument document;
   document.file_ = file;
   try {
     document.value_.reset(new nlohmann::json(nlohmann::json::parse(text.begin(), text.end())));
   } catch (const nlohmann::json::parse_error& e) {
-    return invalid(file, "invalid JSON at byte {} of {}: {}", e.byte, text.size(), e.what());
+    return invalid(file, "found invalid JSON at byte {} of {}: {}", e.byte, text.size(), reason(e));
   } catch (const nlohmann::json::exception& e) {
-    return invalid(file, "invalid JSON: {}", e.what());
+    return invalid(file, "found invalid JSON: {}", reason(e));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kRuntime, file, "not enough memory for {} bytes of JSON", text.size());
   }

@@ -148,12 +148,13 @@ class PrimitiveLoader {
                                   : type == ComponentType::kUnsignedShort ? 0xFFFF
                                                                           : ~0u;
     if (const auto at = std::find(indices.begin(), indices.end(), restart); at != indices.end())
-      return invalid(where_ + ".indices",
-                     "index {} is {}, the primitive restart value that glTF forbids (POSITION has {} elements)",
-                     at - indices.begin(), restart, *count_);
+      return invalid(
+          where_ + ".indices",
+          "found {1} as index {0}, the primitive restart value, expected one below {2} (the count of POSITION)",
+          at - indices.begin(), restart, *count_);
     const auto bad = std::find_if(indices.begin(), indices.end(), [this](std::uint32_t i) { return i >= *count_; });
     if (bad != indices.end())
-      return invalid(where_ + ".indices", "index {} is {}, expected one below {} (the count of POSITION)",
+      return invalid(where_ + ".indices", "found {1} as index {0}, expected one below {2} (the count of POSITION)",
                      bad - indices.begin(), *bad, *count_);
     return indices;
   }

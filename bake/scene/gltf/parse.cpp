@@ -53,7 +53,7 @@ void parse_extensions(const Json& root, Document& document) {
     const std::string name = required.at(i).text();
     if (name == "KHR_mesh_quantization") document.quantized = true;
     if (!known_extensions().contains(name))
-      required.at(i).error(fmt::format("the scene requires the extension \"{}\", which is not supported", name));
+      required.at(i).error(fmt::format("found the required extension \"{}\", expected one that is supported", name));
   }
 }
 
@@ -70,8 +70,8 @@ void check_range(const Json& value, int buffer, std::uint64_t offset, std::uint6
   if (buffer < 0) return;
   const std::uint64_t size = document.buffers[static_cast<std::size_t>(buffer)].byte_length;
   if (offset > size || length > size - offset)
-    value.error(
-        fmt::format("bytes {} to {} lie beyond buffer {}, which holds {}", offset, offset + length, buffer, size));
+    value.error(fmt::format("found bytes {} to {}, expected them inside of buffer {}, which holds {}", offset,
+                            offset + length, buffer, size));
 }
 
 MeshoptDesc parse_meshopt(const Json& value, const Document& document) {
@@ -107,10 +107,12 @@ MeshoptDesc parse_meshopt(const Json& value, const Document& document) {
                                              ? out.stride == 4 || out.stride == 8
                                              : out.filter != MeshoptDesc::Filter::kQuaternion || out.stride == 8));
   if (!filter_fits)
-    value["filter"].error(fmt::format("filter {} does not go with stride {} and mode {}", filter, out.stride, mode));
+    value["filter"].error(fmt::format("found filter {} with stride {} and mode {}, expected one that goes with them",
+                                      filter, out.stride, mode));
   // The codec's best case is far below this ratio; what claims more would only make us allocate.
   if (out.count * out.stride > 4096 + out.length * 1024)
-    value["count"].error(fmt::format("{} bytes cannot hold {} elements of {}", out.length, out.count, out.stride));
+    value["count"].error(fmt::format("found {1} elements of {2} bytes, expected what {0} compressed bytes can hold",
+                                     out.length, out.count, out.stride));
   return out;
 }
 
@@ -152,8 +154,9 @@ void check_elements(const Json& value, int view, std::uint64_t offset, std::uint
     return value.error(fmt::format("found byteStride {} in bufferView {}, expected at least the element's {} bytes",
                                    stride, view, element));
   if (offset > v.length || element > v.length - offset || (count - 1) > (v.length - offset - element) / stride)
-    value.error(fmt::format("{} elements of {} bytes at offset {} do not fit bufferView {}, which holds {} bytes",
-                            count, element, offset, view, v.length));
+    value.error(fmt::format(
+        "found {} elements of {} bytes from offset {} on, expected them inside of bufferView {}, which holds {} bytes",
+        count, element, offset, view, v.length));
 }
 
 SparseDesc parse_sparse(const Json& value, const AccessorDesc& accessor, const Document& document) {

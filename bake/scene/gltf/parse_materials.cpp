@@ -138,7 +138,7 @@ class MaterialParser {
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k)
         if (!(std::abs(matrix[i][k]) <= 1e9)) {
-          value.error("found offset or scale beyond 1e9");
+          value.error("found offset or scale beyond 1e9, expected them within");
           return Mat3(1);
         }
     return Mat3(matrix);

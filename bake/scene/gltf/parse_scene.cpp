@@ -65,7 +65,7 @@ void parse_transform(const Json& value, NodeDesc& node) {
   matrix.numbers(m);
   for (std::size_t i = 0; i < 16; ++i) node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = m[i];
   if (!decomposable(node.matrix))
-    matrix.error("the matrix shears or is singular, expected a translation, rotation and scale");
+    matrix.error("found a matrix that shears or is singular, expected a translation, rotation and scale");
 }
 
 NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, const Document& document) {
@@ -182,7 +182,7 @@ void check_tree(const Json& nodes, Document& document) {
       int& parent = document.nodes[child].parent;
       if (parent >= 0)
         return nodes.at(i)["children"].error(
-            fmt::format("node {} is also a child of node {}, expected one parent", child, parent));
+            fmt::format("found node {} to be a child of node {} too, expected one parent", child, parent));
       parent = static_cast<int>(i);
     }
   std::vector<char> seen(document.nodes.size());
@@ -195,7 +195,7 @@ void check_tree(const Json& nodes, Document& document) {
     reached.insert(reached.end(), document.nodes[node].children.begin(), document.nodes[node].children.end());
   }
   for (std::size_t i = 0; i < seen.size(); ++i)
-    if (!seen[i]) return nodes.at(i).error("the node is its own ancestor, expected a tree");
+    if (!seen[i]) return nodes.at(i).error("found a node that is its own ancestor, expected a tree");
 }
 
 void parse_scenes(const Json& root, Document& document) {
@@ -211,8 +211,8 @@ void parse_scenes(const Json& root, Document& document) {
       const auto n = static_cast<std::size_t>(node);
       if (document.nodes[n].parent >= 0)
         nodes.at(k).error(
-            fmt::format("node {} is a child of node {}, expected a root node", node, document.nodes[n].parent));
-      if (taken[n] == i) nodes.at(k).error(fmt::format("node {} is listed twice", node));
+            fmt::format("found node {}, a child of node {}, expected a root node", node, document.nodes[n].parent));
+      if (taken[n] == i) nodes.at(k).error(fmt::format("found node {} twice, expected it once", node));
       taken[n] = i;
       scene.nodes.push_back(static_cast<std::uint32_t>(node));
     }

@@ -13,9 +13,13 @@
 namespace oriel {
 namespace {
 
-double sum(const BrdfKernel& k) { return std::accumulate(k.weights.begin(), k.weights.end(), 0.0); }
+double sum(const BrdfKernel& k) {
+  return std::accumulate(k.weights.begin(), k.weights.end(), 0.0);
+}
 
-double weight(const BrdfKernel& k, std::uint32_t x, std::uint32_t y) { return k.weights[y * k.size + x]; }
+double weight(const BrdfKernel& k, std::uint32_t x, std::uint32_t y) {
+  return k.weights[y * k.size + x];
+}
 
 // What every kernel promises; the reason it does not, or nothing.
 std::string broken_promise(const BrdfKernel& k) {
@@ -71,8 +75,8 @@ TEST(Kernel, IsSymmetricAtNormalIncidenceAndPeaksInTheMiddle) {
   }
 }
 
-// A narrow lobe at normal incidence has a closed form: half vectors with density D cosθ, tan of the reflected angle twice
-// that of the half vector's. Its share inside the disk of tangent 2 tanθh is 1 - exp(-tan²θh/α²) for Beckmann.
+// A narrow lobe at normal incidence has a closed form: half vectors with density D cosθ, tan of the reflected angle
+// twice that of the half vector's. Its share inside the disk of tangent 2 tanθh is 1 - exp(-tan²θh/α²) for Beckmann.
 TEST(Kernel, NarrowBeckmannLobeMatchesTheGaussian) {
   const float alpha = 1e-3f;
   const BrdfKernel k = make_kernel(alpha, KernelModel::kBeckmannDg);
@@ -100,7 +104,8 @@ TEST(Kernel, EnergyKeptIsTheLobesShareInTheSquare) {
         double inside = 0;
         for (int y = 0; y < n; ++y)
           for (int x = 0; x < n; ++x)
-            inside += lobe_density(model, k.alpha, cos_theta, {(x + 0.5) * step - k.half_extent, (y + 0.5) * step - k.half_extent});
+            inside += lobe_density(model, k.alpha, cos_theta,
+                                   {(x + 0.5) * step - k.half_extent, (y + 0.5) * step - k.half_extent});
         inside *= step * step;
         EXPECT_NEAR(inside / lobe_albedo(model, k.alpha, cos_theta), k.energy_kept, 4e-3) << alpha << " " << cos_theta;
         if (alpha < 0.15) {
@@ -137,14 +142,16 @@ TEST(Kernel, AlbedoAgreesWithTheSplitSumTable) {
   for (const float alpha : {0.01f, 0.0625f, 0.25f, 0.5625f, 1.0f})
     for (const float cos_theta : {1.0f, 0.7f, 0.3f, 0.1f}) {
       const Vec2 split = specular_albedo(cos_theta, alpha);
-      EXPECT_NEAR(split.x + split.y, lobe_albedo(KernelModel::kGgxDg, alpha, cos_theta), 6e-3) << alpha << " " << cos_theta;
+      EXPECT_NEAR(split.x + split.y, lobe_albedo(KernelModel::kGgxDg, alpha, cos_theta), 6e-3)
+          << alpha << " " << cos_theta;
     }
 }
 
 TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
   for (const float alpha : {0.0f, 0.01f, 0.25f, 1.0f}) {
     const FresnelMap black = make_fresnel_map(Vec3(0), 0, alpha), glass = make_fresnel_map(Vec3(0.04f), 1, alpha);
-    const FresnelMap gold = make_fresnel_map({1.0f, 0.78f, 0.34f}, 1, alpha), white = make_fresnel_map(Vec3(1), 1, alpha);
+    const FresnelMap gold = make_fresnel_map({1.0f, 0.78f, 0.34f}, 1, alpha),
+                     white = make_fresnel_map(Vec3(1), 1, alpha);
     for (std::size_t i = 0; i < glass.table.size(); ++i) {
       EXPECT_EQ(black.table[i], Vec3(0));
       EXPECT_LE(glass.table[i].g, gold.table[i].g + 1e-6f);

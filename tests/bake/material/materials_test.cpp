@@ -20,11 +20,11 @@ SceneMaterial glossy(float roughness, float metallic = 0) {
 TEST(Materials, ShareMapsThatAreTheSame) {
   test::SceneParts parts;
   parts.add(glossy(0.1f));
-  parts.add(glossy(0.1f, 1));   // same kernel, other reflectance
-  parts.add(glossy(0.1f));      // both the same
-  parts.add(glossy(0.5f));      // still narrow enough
-  parts.add(glossy(0.9f));      // too rough for a kernel
-  parts.diffuse(Vec3(0.5f));    // no specular lobe... but a Lambert surface
+  parts.add(glossy(0.1f, 1));  // same kernel, other reflectance
+  parts.add(glossy(0.1f));     // both the same
+  parts.add(glossy(0.5f));     // still narrow enough
+  parts.add(glossy(0.9f));     // too rough for a kernel
+  parts.diffuse(Vec3(0.5f));   // no specular lobe... but a Lambert surface
   SceneMaterial unlit = glossy(0);
   unlit.unlit = true;
   parts.add(unlit);
@@ -94,7 +94,8 @@ TEST(Materials, SameBytesForAnyNumberOfThreads) {
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->kernels.size(), b->kernels.size());
   for (std::size_t i = 0; i < a->kernels.size(); ++i) EXPECT_EQ(a->kernels[i].weights, b->kernels[i].weights);
-  for (std::size_t i = 0; i < a->fresnel_maps.size(); ++i) EXPECT_EQ(a->fresnel_maps[i].sphere, b->fresnel_maps[i].sphere);
+  for (std::size_t i = 0; i < a->fresnel_maps.size(); ++i)
+    EXPECT_EQ(a->fresnel_maps[i].sphere, b->fresnel_maps[i].sphere);
 }
 
 TEST(Materials, StopIsObeyed) {

@@ -41,14 +41,15 @@ TEST_P(CaptureAtScale, MapsHoldTheWallsThatTheirRaysMeet) {
         const std::size_t at = y * map.width + x;
         const DVec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
         std::uint32_t material = 0;
-        const DVec3 expected = room.exit_point(DVec3(to_pack * DVec4(q, 1)), DMat3(to_pack) * (q - DVec3(map.eye)), material);
+        const DVec3 expected =
+            room.exit_point(DVec3(to_pack * DVec4(q, 1)), DMat3(to_pack) * (q - DVec3(map.eye)), material);
         ASSERT_EQ(map.valid[at], 1);
         const Vec4 h = unproject(map, Vec2(x, y) + 0.5f, map.disparity[at]);
         const DVec3 found(pack_from_reflector(r, Vec3(h) / h.w));
         worst = std::max(worst, glm::length(found - expected) / room.scale);
         wrong += map.radiance[at] != MirrorRoom::colour(material);
       }
-  EXPECT_LT(worst, 1e-4 * 5);  // relative to the room
+  EXPECT_LT(worst, 1e-4 * 5);       // relative to the room
   EXPECT_LE(wrong, pixels / 2000);  // rays that meet an edge of the room
 }
 INSTANTIATE_TEST_SUITE_P(Scales, CaptureAtScale, testing::Values(1e-3f, 1.0f, 1e3f));
@@ -113,7 +114,9 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   return plan.maps[0];
 }
 
-Vec3 white(const Hit&, const Vec3&) { return Vec3(1); }
+Vec3 white(const Hit&, const Vec3&) {
+  return Vec3(1);
+}
 
 TEST(Capture, TheSkyIsAtInfinity) {
   const RadianceMap map = one_map([](test::SceneParts&) {}, white, Vec3(3, 4, 5));
@@ -128,7 +131,8 @@ TEST(Capture, BacksOfOneSidedSurfacesAreSeenButNotValid) {
   const auto wall = [](const Vec3& u, const Vec3& v) {
     return [u, v](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, u, v); };
   };
-  const RadianceMap back = one_map(wall({60, 0, 0}, {0, 60, 0}), white), front = one_map(wall({0, 60, 0}, {60, 0, 0}), white);
+  const RadianceMap back = one_map(wall({60, 0, 0}, {0, 60, 0}), white),
+                    front = one_map(wall({0, 60, 0}, {60, 0, 0}), white);
   for (std::size_t i = 0; i < back.valid.size(); ++i) {
     EXPECT_EQ(back.valid[i], 0);
     EXPECT_EQ(back.radiance[i], Vec3(0));
@@ -157,7 +161,8 @@ TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
   glass.transmission = 1;
   glass.base_color = Vec3(1, 0.5f, 1);
   glass.specular = 0;
-  const RadianceMap a = one_map(pane(cut_out), coloured), b = one_map(pane(veil), coloured), c = one_map(pane(glass), coloured);
+  const RadianceMap a = one_map(pane(cut_out), coloured), b = one_map(pane(veil), coloured),
+                    c = one_map(pane(glass), coloured);
   for (std::size_t i = 0; i < a.valid.size(); ++i) {
     EXPECT_EQ(a.valid[i] * b.valid[i] * c.valid[i], 1);
     EXPECT_NEAR(height_of(a, a.disparity[i]), 2, 1e-5);
@@ -175,13 +180,21 @@ TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
   const auto bad = [](const Hit&, const Vec3&) {
     return Vec3(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1);
   };
-  const RadianceMap map = one_map([](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0}); }, bad);
+  const RadianceMap map = one_map(
+      [](test::SceneParts& p) {
+        p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
+      },
+      bad);
   for (const Vec3& c : map.radiance) EXPECT_EQ(c, Vec3(0));
 }
 
 TEST(Capture, TheCallbackIsAskedForLightTowardsTheEye) {
   const auto towards = [](const Hit&, const Vec3& d) { return Vec3(-d.z, std::abs(glm::length(d) - 1) < 1e-5f, 0); };
-  const RadianceMap map = one_map([](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0}); }, towards);
+  const RadianceMap map = one_map(
+      [](test::SceneParts& p) {
+        p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
+      },
+      towards);
   for (std::size_t i = 0; i < map.radiance.size(); ++i) {
     const Vec3 q(map_point(map, Vec2(i % map.width, i / map.width) + 0.5f), 0);
     EXPECT_NEAR(map.radiance[i].x, glm::normalize(q - map.eye).z, 1e-5);

@@ -8,8 +8,8 @@ namespace oriel::test {
 
 inline constexpr float kMirrorInset = 1.0f / 64;  // of the mirror before its wall, in room units
 
-// The room is [0, 4] x [0, 3] x [0, 5] times `scale`, its walls facing inwards with one material each: -x, +x, -y, +y, -z, +z are
-// materials 1 … 6; the mirror (material 0, 2 x 1.5) hangs before the -z wall and faces +z.
+// The room is [0, 4] x [0, 3] x [0, 5] times `scale`, its walls facing inwards with one material each: -x, +x, -y, +y,
+// -z, +z are materials 1 … 6; the mirror (material 0, 2 x 1.5) hangs before the -z wall and faces +z.
 struct MirrorRoom {
   float scale;
   Scene scene;
@@ -40,7 +40,8 @@ struct MirrorRoom {
   std::vector<ReflectorMaterial> materials() const {
     std::vector<ReflectorMaterial> out;
     for (const SceneMaterial& m : scene.materials)
-      out.push_back({m.roughness, glm::mix(Vec3(0.04f * m.specular), m.base_color, m.metallic), glm::mix(m.specular, 1.0f, m.metallic)});
+      out.push_back({m.roughness, glm::mix(Vec3(0.04f * m.specular), m.base_color, m.metallic),
+                     glm::mix(m.specular, 1.0f, m.metallic)});
     return out;
   }
   ReflectorOptions reflector_options() const {
@@ -63,11 +64,15 @@ struct MirrorRoom {
     }
     return origin + nearest * direction;
   }
-  static Vec3 colour(std::uint32_t material) { return {static_cast<float>(material), 1, 0.5f * static_cast<float>(material)}; }
+  static Vec3 colour(std::uint32_t material) {
+    return {static_cast<float>(material), 1, 0.5f * static_cast<float>(material)};
+  }
 
   // The radiance of a surface is the colour of its material.
   OutgoingRadiance outgoing() const {
-    return [this](const Hit& hit, const Vec3&) { return colour(scene.surfaces[scene.triangle_surface[hit.triangle]].material); };
+    return [this](const Hit& hit, const Vec3&) {
+      return colour(scene.surfaces[scene.triangle_surface[hit.triangle]].material);
+    };
   }
 };
 

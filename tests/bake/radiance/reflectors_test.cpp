@@ -49,7 +49,7 @@ TEST(Reflectors, TheMirrorOfARoomIsFoundWithItsFrame) {
   EXPECT_NEAR(r.upper.y - r.lower.y, 1.5, 1e-6);
   EXPECT_LT(r.flatness_m, 1e-6);
   EXPECT_NEAR(glm::length(pack_from_reflector(r, {0, 0, 1}) - Vec3(2, 1.5f, 1 + test::kMirrorInset)), 0, 1e-6);
-  EXPECT_EQ(found.omitted.size(), 6u);  // the walls, one line a material
+  EXPECT_TRUE(found.omitted.empty());  // the walls reflect nothing that could be missed
 }
 
 TEST(Reflectors, FramesAreRigidAndTightWhateverTheTilt) {
@@ -83,8 +83,8 @@ TEST(Reflectors, FramesAreRigidAndTightWhateverTheTilt) {
 TEST(Reflectors, AConcavePolygonIsOneReflector) {
   Workshop w;
   // An L of three unit squares.
-  w.parts.mesh("L", 0, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, std::vector<Vec3>(6, Vec3(0, 0, 1)),
-               {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
+  w.parts.mesh("L", 0, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+               std::vector<Vec3>(6, Vec3(0, 0, 1)), {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
   const FoundReflectors found = w.find();
   ASSERT_EQ(found.reflectors.size(), 1u);
   EXPECT_EQ(found.reflectors[0].triangles.size(), 4u);
@@ -95,14 +95,14 @@ TEST(Reflectors, AConcavePolygonIsOneReflector) {
 TEST(Reflectors, CoplanarQuadsOfOneNodeJoinAndOthersDoNot) {
   Workshop w;
   w.parts.quad("panes", 0, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  w.parts.quad("panes", 0, {1.5f, 0, 0}, {1, 0, 0}, {0, 1, 0});       // same node, apart
-  w.parts.quad("panes", 0, {0, 0, 0.05f}, {1, 0, 0}, {0, 1, 0});      // parallel
-  w.parts.quad("panes", 0, {4, 0, 0}, {0, 1, 0}, {1, 0, 0});          // coplanar, facing away
-  w.parts.quad("other", 0, {-2, 0, 0}, {1, 0, 0}, {0, 1, 0});         // coplanar, another node
+  w.parts.quad("panes", 0, {1.5f, 0, 0}, {1, 0, 0}, {0, 1, 0});   // same node, apart
+  w.parts.quad("panes", 0, {0, 0, 0.05f}, {1, 0, 0}, {0, 1, 0});  // parallel
+  w.parts.quad("panes", 0, {4, 0, 0}, {0, 1, 0}, {1, 0, 0});      // coplanar, facing away
+  w.parts.quad("other", 0, {-2, 0, 0}, {1, 0, 0}, {0, 1, 0});     // coplanar, another node
   const FoundReflectors found = w.find();
   std::vector<std::size_t> triangles;
   for (const FoundReflector& f : found.reflectors) triangles.push_back(f.triangles.size());
-  ASSERT_EQ(triangles.size(), 3u);  // the pair, the one facing away, and the other node; the one at 5 cm hides a pane
+  ASSERT_EQ(triangles.size(), 4u);  // the pair, the parallel one, the one facing away, and the other node
   EXPECT_EQ(triangles[0], 4u);
 }
 
@@ -136,7 +136,8 @@ TEST(Reflectors, CurvedRoughWeakEmissiveAndSmallOnesAreLeftOutWithAReason) {
   EXPECT_TRUE(found.reflectors.empty());
   std::string all;
   for (const std::string& line : found.omitted) all += line + "\n";
-  for (const char* expected : {"'rough': has roughness 0.7", "'weak': reflects", "'lamp': emits", "'column'", "'small'", "curved or in planar pieces"})
+  for (const char* expected : {"'rough': has roughness 0.7", "'weak': reflects", "'lamp': emits", "'column'", "'small'",
+                               "curved or in planar pieces"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
 }
 
@@ -159,7 +160,8 @@ TEST(Reflectors, AFineFlatGridIsOneReflectorEvenWithNoise) {
         const float bump = noise * (static_cast<float>((x * 7919u + y * 104729u) % 101u) / 50 - 1);
         positions.push_back(frame * Vec3(3.0f * static_cast<float>(x) / n, 3.0f * static_cast<float>(y) / n, bump));
         const std::uint32_t i = y * (n + 1) + x;
-        if (x < n && y < n) triangles.insert(triangles.end(), {UVec3(i, i + 1, i + n + 2), UVec3(i, i + n + 2, i + n + 1)});
+        if (x < n && y < n)
+          triangles.insert(triangles.end(), {UVec3(i, i + 1, i + n + 2), UVec3(i, i + n + 2, i + n + 1)});
       }
     w.parts.mesh("grid", 0, positions, std::vector<Vec3>(positions.size(), frame[2]), triangles);
     const FoundReflectors found = w.find();
@@ -186,7 +188,8 @@ TEST(Reflectors, ADoubleSidedPaneReflectsOnBothSidesAndABuriedOneOnNone) {
   w.parts.quad("pane", 0, Vec3(0), {1, 0, 0}, {0, 1, 0});
   const FoundReflectors both = w.find();
   ASSERT_EQ(both.reflectors.size(), 2u);
-  EXPECT_NEAR(both.reflectors[0].reflector.pack_from_reflector[2].z, -both.reflectors[1].reflector.pack_from_reflector[2].z, 1e-6);
+  EXPECT_NEAR(both.reflectors[0].reflector.pack_from_reflector[2].z,
+              -both.reflectors[1].reflector.pack_from_reflector[2].z, 1e-6);
 
   Workshop buried;
   buried.parts.quad("pane", 0, Vec3(0), {1, 0, 0}, {0, 1, 0});
@@ -199,7 +202,8 @@ TEST(Reflectors, ADoubleSidedPaneReflectsOnBothSidesAndABuriedOneOnNone) {
 TEST(Reflectors, OnlyTheMostImportantAreKept) {
   Workshop w;
   for (int i = 0; i < 5; ++i)
-    w.parts.quad("q" + std::to_string(i), 0, {0, 0, 0.5f * static_cast<float>(i) - 1}, {1.0f + 0.1f * static_cast<float>(i), 0, 0}, {0, 1, 0});
+    w.parts.quad(fmt::format("q{}", i), 0, {0, 0, 0.5f * static_cast<float>(i) - 1},
+                 {1.0f + 0.1f * static_cast<float>(i), 0, 0}, {0, 1, 0});
   ReflectorOptions options;
   options.max_reflectors = 2;
   const FoundReflectors found = w.find(10, options);
@@ -207,7 +211,8 @@ TEST(Reflectors, OnlyTheMostImportantAreKept) {
   EXPECT_EQ(found.reflectors[0].reflector.name, "q4");
   EXPECT_EQ(found.reflectors[1].reflector.name, "q3");
   EXPECT_GE(std::count_if(found.omitted.begin(), found.omitted.end(),
-                          [](const std::string& s) { return s.find("less important") != std::string::npos; }), 3);
+                          [](const std::string& s) { return s.find("less important than") != std::string::npos; }),
+            3);
 }
 
 TEST(Rectangle, IsTightAndPrefersTheGivenAxes) {

@@ -73,7 +73,7 @@ TEST(Views, EyesLieOnHemispheresThatTheElementsInscribe) {
     EXPECT_LT(map.eye.z, 0);
     EXPECT_NEAR(glm::length(map.eye - centre), 0.5f * glm::length(map.upper - map.lower), 1e-6);
     EXPECT_EQ(map.width, 256u);
-    EXPECT_EQ(map.height, 192u);  // 1 x 0.75
+    EXPECT_EQ(map.height, 192u);                                                // 1 x 0.75
     const Vec2 expected = r.lower + Vec2(i / 16 % 2, i / 32) * Vec2(1, 0.75f);  // row by row
     EXPECT_NEAR(glm::length(map.lower - expected), 0, 1e-6);
   }
@@ -90,7 +90,8 @@ TEST(Views, ElementsWithoutReflectorAndEyesOutsideTheSceneAreSkipped) {
   const Scene scene = parts.finish();
   auto accel = Accel::build(scene);
   ASSERT_TRUE(accel);
-  const std::vector<ReflectorMaterial> materials{{.roughness = 0, .f0 = Vec3(0.9f), .f90 = 1}, {.roughness = 1, .f0 = Vec3(0), .f90 = 0}};
+  const std::vector<ReflectorMaterial> materials{{.roughness = 0, .f0 = Vec3(0.9f), .f90 = 1},
+                                                 {.roughness = 1, .f0 = Vec3(0), .f90 = 0}};
   ReflectorOptions options;
   options.min_open_share = 0;
   auto reflectors = find_reflectors(*accel, materials, options).reflectors;
@@ -117,8 +118,9 @@ TEST(Views, MemoryIsNeverExceededAndWhatWasReducedIsSaid) {
   auto accel = Accel::build(room.scene);
   ASSERT_TRUE(accel);
   std::size_t before = 1u << 30;
-  for (const std::uint64_t memory : {std::uint64_t{64} << 20, std::uint64_t{4} << 20, std::uint64_t{1} << 20, std::uint64_t{100000},
-                                     std::uint64_t{5000}, std::uint64_t{100}, std::uint64_t{0}}) {
+  for (const std::uint64_t memory :
+       {std::uint64_t{64} << 20, std::uint64_t{4} << 20, std::uint64_t{1} << 20, std::uint64_t{100000},
+        std::uint64_t{5000}, std::uint64_t{100}, std::uint64_t{0}}) {
     auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
     ViewOptions options;
     options.memory_bytes = memory;

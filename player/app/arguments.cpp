@@ -1,0 +1,151 @@
+#include "player/app/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+
+namespace oriel {
+namespace {
+
+constexpr const char* kDescription =
+    "Shows an .oriel pack made by oriel-bake: in a window to walk through, or as pictures without any display.\n\n"
+    "  oriel-play gallery.oriel                                     walk\n"
+    "  oriel-play gallery.oriel --list                              which cameras and paths it has\n"
+    "  oriel-play gallery.oriel --offscreen --camera mirror -o mirror.png\n"
+    "  oriel-play gallery.oriel --offscreen --camera all -o pictures\n"
+    "  oriel-play gallery.oriel --offscreen --camera walk@3.5 --show M -o M.exr\n";
+
+constexpr const char* kFooter =
+    "In the window:\n"
+    "  W A S D        walk           Q E    down, up (flying)     F      fly or walk\n"
+    "  arrows, mouse  look           Shift  faster                wheel  speed\n"
+    "  click          grab the mouse; Esc releases it, then quits; Ctrl-Q quits\n"
+    "  1 … 9          cameras        P      play the path         F12    screenshot\n"
+    "  + -            exposure       X      automatic exposure    M      next stage of --show\n\n"
+    "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
+    "            4 failed at run time (no OpenGL 3.3, no display), 130 stopped by the user";
+
+std::string parse_size(const std::string& text, int& width, int& height) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0) return {};
+  return "found '" + text + "', expected WIDTHxHEIGHT, as 1280x720";
+}
+
+std::string parse_exposure(const std::string& text, std::optional<float>& ev100) {
+  ev100.reset();
+  if (text == "auto") return {};
+  char* end = nullptr;
+  const float value = std::strtof(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(std::fabs(value) <= 40)) {
+    return "found '" + text + "', expected auto or an exposure value from -40 to 40";
+  }
+  ev100 = value;
+  return {};
+}
+
+void add_picture_options(CLI::App& app, PlayArguments& out) {
+  app.add_option_function<std::string>(
+         "--exposure",
+         [&out](const std::string& text) {
+           const std::string complaint = parse_exposure(text, out.ev100);
+           if (!complaint.empty()) throw CLI::ValidationError("--exposure", complaint);
+         },
+         "Exposure value at ISO 100: 1.2 * 2^EV cd/m2 is shown as white (a room: 5 to 9, daylight: 15). auto: the frame's "
+         "log-average luminance becomes middle grey")
+      ->type_name("EV|auto")
+      ->default_str("auto");
+  const std::map<std::string, ToneCurve> curves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
+  app.add_option("--tonemap", out.curve, "Tone curve: aces rolls highlights off like film, none clips them")
+      ->transform(CLI::CheckedTransformer(curves))
+      ->type_name("aces|none")
+      ->default_str("aces");
+  const std::map<std::string, Show> stages{
+      {"all", Show::kAll}, {"M", Show::kM}, {"MK", Show::kMK}, {"MKR", Show::kMKR}, {"D", Show::kD}};
+  app.add_option("--show", out.frame.show,
+                 "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
+                 "(MKR), the diffuse light alone (D), or the whole frame (all)")
+      ->transform(CLI::CheckedTransformer(stages))
+      ->type_name("M|MK|MKR|D|all")
+      ->default_str("all");
+  app.add_option("--maps", out.frame.maps_per_element,
+                 "Radiance maps drawn for each reflector element in view: more fill more gaps and cost more time; 0 shows none")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  const std::map<std::string, Selection> selections{{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
+  app.add_option("--select", out.frame.selection,
+                 "Which maps: taken from the direction nearest to the mirrored eye's, or from the nearest place")
+      ->transform(CLI::CheckedTransformer(selections))
+      ->type_name("angle|distance")
+      ->default_str("angle");
+  const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable}, {"sphere", Reflectance::kSphereMap}};
+  app.add_option("--reflectance", out.frame.reflectance,
+                 "R from the exact table by angle, or from the sphere map as Bastos et al. published it")
+      ->transform(CLI::CheckedTransformer(reflectances))
+      ->type_name("table|sphere")
+      ->default_str("table");
+}
+
+void add_options(CLI::App& app, PlayArguments& out) {
+  app.add_option("pack", out.pack, "The .oriel pack")->required()->type_name("PACK");
+  app.add_flag("--list", out.list, "Print the cameras and paths of the pack, and stop");
+  app.add_flag("--offscreen", out.offscreen, "Draw pictures into files: needs no display and no window");
+  app.add_option_function<std::string>(
+         "--size",
+         [&out](const std::string& text) {
+           const std::string complaint = parse_size(text, out.width, out.height);
+           if (!complaint.empty()) throw CLI::ValidationError("--size", complaint);
+         },
+         "Pixels of the window or the picture")
+      ->type_name("WxH")
+      ->default_str("1280x720");
+  app.add_option("--camera", out.cameras,
+                 "A camera by name or by number from 0, PATH@SECONDS for a point of a path, or eye and target in world metres. "
+                 "May be repeated offscreen; all: every camera of the pack")
+      ->type_name("NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all")
+      ->allow_extra_args(false);
+  add_picture_options(app, out);
+  app.add_option("-o,--output", out.output,
+                 "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")
+      ->type_name("FILE|DIR");
+  app.add_option("--format", out.format, "Of the files written to a folder")
+      ->check(CLI::IsMember({"png", "exr"}))
+      ->type_name("png|exr")
+      ->capture_default_str();
+  app.add_option("--frames", out.frames, "Close the window after so many frames: for tests and timings")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");
+}
+
+std::string contradiction(const PlayArguments& out) {
+  if (out.offscreen && !out.list && out.output.empty()) return "--offscreen draws into files: -o FILE is missing";
+  if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
+  if (out.offscreen && out.frames > 0) return "--frames is for the window, not for --offscreen";
+  if (!out.offscreen && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all"))) {
+    return "several cameras need --offscreen";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv) {
+  PlayArguments out;
+  CLI::App app(kDescription, "oriel-play");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "oriel-play " ORIEL_PLAY_VERSION);
+  add_options(app, out);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
+  }
+  const std::string complaint = contradiction(out);
+  if (!complaint.empty()) {
+    std::fprintf(stderr, "oriel-play: %s\nRun with --help for more information.\n", complaint.c_str());
+    return static_cast<int>(ErrorCode::kUsage);
+  }
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,33 @@
+// The command line of oriel-play.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "formats/core/result.h"
+#include "player/passes/display_pass.h"
+#include "player/scene/frame_options.h"
+
+namespace oriel {
+
+struct PlayArguments {
+  std::string pack;
+  bool list = false;
+  bool offscreen = false;
+  int width = 1280, height = 720;
+  std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
+  std::optional<float> ev100;        // nothing: automatic
+  ToneCurve curve = ToneCurve::kAces;
+  FrameOptions frame;
+  std::string output;        // a file, or a folder
+  std::string format = "png";  // of files in a folder
+  int frames = -1;           // the window closes after so many; -1: never
+  bool gl_debug = false;
+};
+
+// The arguments, or the exit code after help or a complaint was printed.
+std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace oriel

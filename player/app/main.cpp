@@ -1,0 +1,49 @@
+// oriel-play: shows a pack in a window or in files.
+#include <cstdio>
+#include <exception>
+
+#include "formats/pack/reader.h"
+#include "player/app/arguments.h"
+#include "player/app/offscreen.h"
+#include "player/app/stop.h"
+#include "player/app/window.h"
+#include "player/walk/path.h"
+
+namespace {
+using namespace oriel;
+
+void list_cameras(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.cameras.size(); ++i) {
+    const Camera& camera = pack.cameras[i];
+    const DVec3 eye = DVec3(camera.eye) + pack.mesh.origin;
+    fmt::print("camera {} {} at {:.2f},{:.2f},{:.2f}\n", i, camera.name, eye.x, eye.y, eye.z);
+  }
+  for (const CameraPath& path : pack.paths) fmt::print("path {} {:.2f} s\n", path.name, path_duration_s(path));
+  if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
+}
+
+Status play(const PlayArguments& arguments) {
+  ORIEL_TRY(Pack pack, read_pack(arguments.pack));
+  if (arguments.list) {
+    list_cameras(pack);
+    return {};
+  }
+  return arguments.offscreen ? play_offscreen(std::move(pack), arguments) : play_in_window(std::move(pack), arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const auto parsed = parse_arguments(argc, argv);
+    if (const int* code = std::get_if<int>(&parsed)) return *code;
+    install_stop_handler();
+    const Status status = play(std::get<PlayArguments>(parsed));
+    if (status) return 0;
+    fmt::print(stderr, "oriel-play: {}\n", status.error().text());
+    return static_cast<int>(status.error().code);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "oriel-play: %s\n", error.what());
+    return static_cast<int>(ErrorCode::kRuntime);
+  }
+}

@@ -1,0 +1,44 @@
+// Keys and mouse of a GLFW window.
+#pragma once
+
+#include <epoxy/gl.h>  // before GLFW, which would include a GL header of its own
+
+#include <GLFW/glfw3.h>
+
+#include <vector>
+
+#include "player/walk/controller.h"
+
+namespace oriel {
+
+// What happened since the last poll.
+struct InputFrame {
+  MoveInput move;
+  std::vector<int> pressed;  // GLFW key codes, in order
+  bool control = false;      // while the last of them was pressed
+  bool quit = false;
+};
+
+class WindowInput {
+ public:
+  // Takes over the window's callbacks and user pointer; lives at one address as long as the window.
+  explicit WindowInput(GLFWwindow* window);
+  WindowInput(const WindowInput&) = delete;
+  WindowInput& operator=(const WindowInput&) = delete;
+
+  // Handles events and returns them. dt_s: of the last frame, for keys that turn. Esc releases the mouse, or quits.
+  InputFrame poll(float dt_s);
+
+ private:
+  void key(int code, int action, int mods);
+  void grab(bool on);
+  bool down(int code) const { return glfwGetKey(window_, code) == GLFW_PRESS; }
+
+  GLFWwindow* window_;
+  std::vector<int> pressed_;
+  bool control_ = false, quit_ = false, grabbed_ = false;
+  double last_x_ = 0, last_y_ = 0, moved_x_ = 0, moved_y_ = 0, wheel_ = 0;
+  bool has_last_ = false;
+};
+
+}  // namespace oriel

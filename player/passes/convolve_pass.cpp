@@ -1,0 +1,75 @@
+#include "player/passes/convolve_pass.h"
+
+#include <algorithm>
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+float pixels_per_tangent(const View& view) { return 0.5f * static_cast<float>(view.height) / view.tangents.y; }
+
+}  // namespace
+
+ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View& view, int texture_limit) {
+  ImageRect rect;
+  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before it.
+  const float blur = view.orthographic ? 0.0f : 0.5f * taps.median * pixels_per_tangent(view);
+  if (blur >= 6) rect.scale = 0.5f;
+  if (blur >= 16) rect.scale = 0.25f;
+  float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
+  margin = std::min(margin, std::floor(0.5f * (static_cast<float>(texture_limit) - std::max(size.x, size.y)) - 8));
+  margin = std::max(margin, 0.0f);
+  // Snapped to whole image pixels, so that a standing image does not shimmer when its rectangle grows.
+  const Vec2 lower = (screen.lower * 0.5f + 0.5f) * size - margin;
+  const Vec2 upper = (screen.upper * 0.5f + 0.5f) * size + margin;
+  const Vec2 first = glm::floor(lower * rect.scale), last = glm::ceil(upper * rect.scale);
+  rect.origin = first / rect.scale;
+  rect.width = std::max(static_cast<int>(last.x - first.x), 1);
+  rect.height = std::max(static_cast<int>(last.y - first.y), 1);
+  return rect;
+}
+
+Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
+  ConvolvePass pass;
+  ORIEL_TRY(pass.program_, gpu::Program::create("convolve", dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
+  return pass;
+}
+
+void ConvolvePass::draw(const GpuReflector& reflector, const KernelTaps& taps, const View& view, const ImageRect& rect,
+                        const ImageTarget& target, float scene_radius, FrameStats& stats) const {
+  std::array<Vec4, kMaxKernelTaps> packed{};
+  const int count = std::min(static_cast<int>(taps.taps.size()), kMaxKernelTaps);
+  for (int i = 0; i < count; ++i) packed[i] = Vec4(taps.taps[i].tangent, taps.taps[i].width, 0);
+  const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
+  const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
+  const float to_image = pixels_per_tangent(view) * rect.scale;
+
+  target.level_framebuffer.bind();
+  target.level_framebuffer.attach_color_level(target.blurred, 0);
+  glViewport(0, 0, rect.width, rect.height);
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  target.filled.bind(0);
+  program_.use();
+  program_.set("u_image", 0);
+  program_.set("u_image_size", IVec2(rect.width, rect.height));
+  program_.set("u_texture_size",
+               Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
+  program_.set("u_ndc_from_image", ndc_from_image(rect, view));
+  program_.set("u_tangents", view.tangents);
+  program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program_.set("u_plane_normal", normal);
+  program_.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
+  program_.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
+  program_.set("u_blur_level", std::log2(std::max(0.25f * taps.median * to_image, 1.0f)));
+  program_.set("u_pixels_per_tangent", to_image);
+  program_.set("u_taps[0]", std::span<const Vec4>(packed));
+  program_.set("u_tap_count", count);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  ++stats.draws;
+}
+
+}  // namespace oriel

@@ -1,0 +1,26 @@
+// M * K (Bastos et al. 1999, section 8.2.1), with a footprint that follows the distance of what is reflected.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_options.h"
+#include "player/passes/targets.h"
+#include "player/scene/gpu_scene.h"
+
+namespace oriel {
+
+// Where the reflected image lies in the frame, and how fine it must be for this kernel. screen: what the reflector covers.
+ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View& view, int texture_limit);
+
+class ConvolvePass {
+ public:
+  static Result<ConvolvePass> create(gpu::Dialect dialect);
+  // target.filled, all levels, to target.blurred.
+  void draw(const GpuReflector& reflector, const KernelTaps& taps, const View& view, const ImageRect& rect,
+            const ImageTarget& target, float scene_radius, FrameStats& stats) const;
+
+ private:
+  gpu::Program program_;
+  gpu::VertexArray no_vertices_;
+};
+
+}  // namespace oriel

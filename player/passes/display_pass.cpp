@@ -1,0 +1,63 @@
+#include "player/passes/display_pass.h"
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kBlock = 16;  // pixels a side that one fragment of the meter adds up
+
+}  // namespace
+
+float white_of_exposure(float ev100) { return 1.2f * std::exp2(ev100); }
+
+Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
+  DisplayPass pass;
+  ORIEL_TRY(pass.luminance_, gpu::Program::create("luminance", dialect));
+  ORIEL_TRY(pass.tonemap_, gpu::Program::create("tonemap", dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
+  return pass;
+}
+
+Result<std::optional<float>> DisplayPass::meter(const FrameTarget& frame) {
+  const int width = (frame.light.width() + kBlock - 1) / kBlock, height = (frame.light.height() + kBlock - 1) / kBlock;
+  if (!sums_ || sums_.width() != width || sums_.height() != height) {
+    sums_ = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
+    ORIEL_TRY(sums_framebuffer_, gpu::Framebuffer::create("exposure meter", &sums_, nullptr));
+  }
+  sums_framebuffer_.bind();
+  glViewport(0, 0, width, height);
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  frame.light.bind(0);
+  luminance_.use();
+  luminance_.set("u_frame", 0);
+  luminance_.set("u_frame_size", IVec2(frame.light.width(), frame.light.height()));
+  luminance_.set("u_block", kBlock);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<Vec4> sums(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, sums.data());
+  double sum = 0, count = 0;
+  for (const Vec4& s : sums) {
+    sum += s.x;
+    count += s.y;
+  }
+  if (!(count > 0) || !std::isfinite(sum)) return std::optional<float>();
+  return std::optional<float>(static_cast<float>(sum / count - std::log2(1.2 * 0.18)));
+}
+
+void DisplayPass::draw(const FrameTarget& frame, float ev100, ToneCurve curve) const {
+  glViewport(0, 0, frame.light.width(), frame.light.height());
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  frame.light.bind(0);
+  tonemap_.use();
+  tonemap_.set("u_frame", 0);
+  tonemap_.set("u_frame_size", IVec2(frame.light.width(), frame.light.height()));
+  tonemap_.set("u_exposure", 1 / white_of_exposure(ev100));
+  tonemap_.set("u_curve", curve == ToneCurve::kAces ? 1 : 0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace oriel

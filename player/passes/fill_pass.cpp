@@ -1,0 +1,65 @@
+#include "player/passes/fill_pass.h"
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+// Only that level can be read: drawing into another one of the same texture is defined then.
+void bind_level(const gpu::Texture& texture, int unit, int level) {
+  texture.bind(unit);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level);
+}
+
+void bind_all_levels(const gpu::Texture& texture, int unit, int levels) {
+  texture.bind(unit);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+}
+
+}  // namespace
+
+Result<FillPass> FillPass::create(gpu::Dialect dialect) {
+  FillPass pass;
+  ORIEL_TRY(pass.pull_, gpu::Program::create("pull", dialect));
+  ORIEL_TRY(pass.push_, gpu::Program::create("push", dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
+  return pass;
+}
+
+void FillPass::draw(const ImageRect& rect, const ImageTarget& target, FrameStats& stats) const {
+  const int levels = gpu::mip_levels(rect.width, rect.height);
+  const auto size_at = [&](int level) { return IVec2(gpu::level_size(rect.width, level), gpu::level_size(rect.height, level)); };
+  const auto draw_level = [&](const gpu::Texture& texture, int level) {
+    target.level_framebuffer.attach_color_level(texture, level);
+    glViewport(0, 0, size_at(level).x, size_at(level).y);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++stats.draws;
+  };
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  target.level_framebuffer.bind();
+  pull_.use();
+  pull_.set("u_source", 0);
+  for (int level = 1; level < levels; ++level) {
+    bind_level(target.sharp, 0, level - 1);
+    pull_.set("u_source_size", size_at(level - 1));
+    draw_level(target.sharp, level);
+  }
+  push_.use();
+  push_.set("u_fine", 0);
+  push_.set("u_coarse", 1);
+  for (int level = levels - 1; level >= 0; --level) {
+    const bool top = level == levels - 1;
+    bind_level(target.sharp, 0, level);
+    bind_level(target.filled, 1, top ? level : level + 1);
+    if (top) glBindTexture(GL_TEXTURE_2D, 0);
+    push_.set("u_coarse_size", top ? IVec2(0) : size_at(level + 1));
+    draw_level(target.filled, level);
+  }
+  bind_all_levels(target.sharp, 0, levels);
+  bind_all_levels(target.filled, 1, levels);
+}
+
+}  // namespace oriel

@@ -1,0 +1,168 @@
+#include "player/passes/frame.h"
+
+
+#include <algorithm>
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+// Nearer to the plane than this share of the reflector's size, an eye sees nothing in it but its edge.
+constexpr float kEdgeOn = 1e-5f;
+
+bool shows_reflectors(Show show) { return show != Show::kD; }
+bool shows_scene(Show show) { return show == Show::kAll || show == Show::kD; }
+
+SceneWeights weights_of(Show show) { return show == Show::kD ? SceneWeights{1, 0, 0} : SceneWeights{1, 1, 1}; }
+
+template <class T>
+std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
+  std::vector<T> rgb;
+  rgb.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
+      rgb.insert(rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
+    }
+  }
+  return rgb;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
+  std::unique_ptr<Renderer> renderer(new Renderer);
+  renderer->device_ = device;
+  ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
+  ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
+  ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
+  ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
+  ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
+  ORIEL_TRY(renderer->display_, DisplayPass::create(device.dialect));
+  ORIEL_TRY_VOID(gpu::check_gl("compiling shaders"));
+  return renderer;
+}
+
+Status Renderer::ensure_frame(int width, int height) {
+  if (frame_ && frame_->light.width() == width && frame_->light.height() == height) return {};
+  if (width < 1 || height < 1 || width > device_.texture_size || height > device_.texture_size) {
+    return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height, device_.texture_size,
+                device_.texture_size, device_.renderer);
+  }
+  frame_.reset();
+  ORIEL_TRY(FrameTarget frame, make_frame_target(width, height));
+  frame_ = std::move(frame);
+  return {};
+}
+
+std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
+                                                      FrameStats& stats) {
+  std::vector<Candidate> candidates;
+  if (!shows_reflectors(options.show) || options.maps_per_element <= 0) return candidates;
+  GLint next = 1;
+  for (const GpuReflector& reflector : scene.reflectors()) {
+    if (reflector.elements.empty() || reflector.index_count == 0) continue;
+    const Vec4 eye = eye_in_reflector(reflector, view);
+    if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
+    Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
+    if (candidate.screen.empty) continue;
+    const bool see_through = scene.is_transparent(reflector.material);
+    if (!see_through && next > static_cast<GLint>(kReflectorBits)) continue;  // more than the stencil counts
+    if (!see_through) candidate.value = next++;
+    if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
+    reflector_pass_.draw_mask(scene, reflector, view, see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
+                              see_through ? kSeeThroughBit : kReflectorBits, queries_[candidate.query], stats);
+    candidates.push_back(candidate);
+  }
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    GLuint any = 0;
+    glGetQueryObjectuiv(queries_[candidate.query].name(), GL_QUERY_RESULT, &any);
+    return any == 0;
+  });
+  return candidates;
+}
+
+Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
+                                 FrameStats& stats) {
+  const GpuReflector& reflector = *candidate.reflector;
+  const KernelTaps& taps = scene.kernel_taps(scene.pack().materials[reflector.material].kernel);
+  const ImageRect rect = choose_image(candidate.screen, taps, view, device_.texture_size);
+  ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
+  reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  fill_pass_.draw(rect, *image_, stats);
+  const bool blurs = taps.taps.size() > 1 && options.show != Show::kM;
+  if (blurs) convolve_pass_.draw(reflector, taps, view, rect, *image_, scene.bounds().radius(), stats);
+  frame_->framebuffer.bind();
+  glViewport(0, 0, view.width, view.height);
+  reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value, options,
+                             stats);
+  ++stats.reflectors;
+  return {};
+}
+
+Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
+  if (options.white > 0 || !needs_white(scene)) return options.white;
+  ORIEL_TRY(const std::optional<float> ev100, meter());
+  frame_->framebuffer.bind();
+  glViewport(0, 0, frame_->light.width(), frame_->light.height());
+  return white_of_exposure(ev100.value_or(0.0f));
+}
+
+Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
+  ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
+  FrameStats stats;
+  frame_->framebuffer.bind();
+  glViewport(0, 0, view.width, view.height);
+  gpu::RasterState all;
+  all.depth_write = true;
+  all.stencil_write = 0xff;
+  gpu::apply(all);
+  const Vec3 sky = options.show == Show::kAll ? scene.pack().sky : Vec3(0);
+  glClearColor(sky.x, sky.y, sky.z, 1);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+
+  scene_pass_.draw_depth(scene, view, stats);
+  const std::vector<Candidate> candidates = draw_masks(scene, view, options, stats);
+  std::set<std::uint32_t> reflective;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.value == 0) continue;
+    ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
+    reflective.insert(candidate.reflector->material);
+  }
+  if (shows_scene(options.show)) {
+    scene_pass_.draw_opaque(scene, view, weights_of(options.show), reflective, stats);
+    ORIEL_TRY(const float white, white_for(scene, options));
+    scene_pass_.draw_transparent(scene, view, weights_of(options.show), white, stats);
+  }
+  for (const Candidate& candidate : candidates) {
+    if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
+  }
+  ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
+  return stats;
+}
+
+std::vector<float> Renderer::read_light() const {
+  const int width = frame_->light.width(), height = frame_->light.height();
+  std::vector<float> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  frame_->framebuffer.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+  return flipped(rgba, width, height);
+}
+
+Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {
+  const int width = frame_->light.width(), height = frame_->light.height();
+  const gpu::Texture color(gpu::kRgba8, width, height, nullptr);
+  ORIEL_TRY(const gpu::Framebuffer framebuffer, gpu::Framebuffer::create("picture", &color, nullptr));
+  framebuffer.bind();
+  display_.draw(*frame_, ev100, curve);
+  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  ORIEL_TRY_VOID(gpu::check_gl("reading the picture"));
+  return flipped(rgba, width, height);
+}
+
+}  // namespace oriel

@@ -1,0 +1,60 @@
+// The order of the passes: Bastos et al. 1999, section 6.
+#pragma once
+
+#include <memory>
+#include <set>
+
+#include "player/passes/convolve_pass.h"
+#include "player/passes/display_pass.h"
+#include "player/passes/fill_pass.h"
+#include "player/passes/reflector_pass.h"
+#include "player/passes/reproject_pass.h"
+#include "player/passes/scene_pass.h"
+
+namespace oriel {
+
+class Renderer {
+ public:
+  // Compiles all shaders. Error kRuntime holds what the driver said.
+  static Result<std::unique_ptr<Renderer>> create(const gpu::Device& device);
+
+  // Draws a frame into the renderer's own picture, of the view's size. Errors: kUsage where that exceeds the device,
+  // kRuntime where the driver fails.
+  Result<FrameStats> render(GpuScene& scene, const View& view, const FrameOptions& options);
+  // Of the last frame: see DisplayPass.
+  Result<std::optional<float>> meter() { return display_.meter(*frame_); }
+  void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
+  // Light of the last frame, RGB in cd/m², row 0 at the top.
+  std::vector<float> read_light() const;
+  // The last frame as display() shows it, RGB, row 0 at the top. Leaves its own framebuffer bound.
+  Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
+
+ private:
+  // A reflector whose mask was drawn.
+  struct Candidate {
+    const GpuReflector* reflector = nullptr;
+    NdcRect screen;
+    GLint value = 0;  // in the stencil; 0: see-through
+    std::size_t query = 0;
+  };
+
+  Renderer() = default;
+  Status ensure_frame(int width, int height);
+  std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options, FrameStats& stats);
+  Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
+                         FrameStats& stats);
+  Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
+
+  gpu::Device device_;
+  ScenePass scene_pass_;
+  ReflectorPass reflector_pass_;
+  ReprojectPass reproject_pass_;
+  FillPass fill_pass_;
+  ConvolvePass convolve_pass_;
+  DisplayPass display_;
+  std::optional<FrameTarget> frame_;
+  std::optional<ImageTarget> image_;
+  std::vector<gpu::Query> queries_;
+};
+
+}  // namespace oriel

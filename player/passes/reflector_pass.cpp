@@ -1,0 +1,85 @@
+#include "player/passes/reflector_pass.h"
+
+#include "player/gpu/raster_state.h"
+#include "player/passes/scene_pass.h"
+
+namespace oriel {
+namespace {
+
+void draw_reflector(const GpuReflector& reflector, FrameStats& stats) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(reflector.index_count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::uintptr_t{reflector.first_index} * sizeof(std::uint32_t)));
+  ++stats.draws;
+  stats.triangles += reflector.index_count / 3;
+}
+
+}  // namespace
+
+Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
+  ReflectorPass pass;
+  ORIEL_TRY(pass.mask_, gpu::Program::create("mask", dialect));
+  ORIEL_TRY(pass.compose_, gpu::Program::create("compose", dialect));
+  return pass;
+}
+
+void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
+                              const gpu::Query& query, FrameStats& stats) const {
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.color_write = false;
+  state.cull = gpu::Cull::kBack;
+  state.stencil_ref = value;
+  state.stencil_write = bits;
+  gpu::apply(state);
+  mask_.use();
+  mask_.set("u_clip_from_pack", view.clip_from_pack);
+  scene.bind_geometry();
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
+  draw_reflector(reflector, stats);
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+}
+
+void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                               const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const {
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.cull = gpu::Cull::kBack;
+  if (value != 0) {
+    state.stencil_func = GL_EQUAL;
+    state.stencil_ref = value;
+    state.stencil_read = kReflectorBits;
+  } else {
+    state.blend = gpu::Blend::kAdd;
+    state.alpha_write = false;
+  }
+  gpu::apply(state);
+  const Material& material = scene.pack().materials[reflector.material];
+  const auto row = material.fresnel_map;
+  const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
+  const bool sphere = options.reflectance == Reflectance::kSphereMap && fresnel != nullptr && fresnel->sphere_size > 1;
+  const gpu::Texture& reflectance =
+      sphere ? scene.sphere_map(static_cast<std::uint32_t>(row)) : scene.reflectance_tables();
+  image.bind(0);
+  reflectance.bind(1);
+  compose_.use();
+  compose_.set("u_clip_from_pack", view.clip_from_pack);
+  compose_.set("u_image", 0);
+  compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
+  compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
+  compose_.set("u_origin", rect.origin);
+  compose_.set("u_scale", rect.scale);
+  compose_.set("u_missing", reflector.mean_radiance);
+  compose_.set("u_eye", view.eye);
+  compose_.set("u_normal", Vec3(reflector.pack_from_reflector[2]));
+  compose_.set("u_reflectance", 1);
+  compose_.set("u_reflectance_row", row);
+  compose_.set("u_reflectance_count", fresnel == nullptr ? 1
+                                      : sphere           ? static_cast<int>(fresnel->sphere_size)
+                                                         : static_cast<int>(fresnel->table.size()));
+  compose_.set("u_sphere_map", sphere ? 1 : 0);
+  compose_.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
+  scene.bind_geometry();
+  draw_reflector(reflector, stats);
+}
+
+}  // namespace oriel

@@ -1,0 +1,28 @@
+// A reflector's place in the frame: its region in the stencil, and (M * K) R drawn there.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_options.h"
+#include "player/passes/targets.h"
+#include "player/scene/gpu_scene.h"
+
+namespace oriel {
+
+class ReflectorPass {
+ public:
+  static Result<ReflectorPass> create(gpu::Dialect dialect);
+
+  // Marks the pixels of the reflector that the frame's depth leaves visible: `value` in the bits `bits` of the stencil. The
+  // query counts whether there are any.
+  void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
+                 const gpu::Query& query, FrameStats& stats) const;
+  // The image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
+  // 0: adds to the frame wherever the depth leaves the reflector visible.
+  void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                  const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
+
+ private:
+  gpu::Program mask_, compose_;
+};
+
+}  // namespace oriel

@@ -1,0 +1,95 @@
+#include "player/passes/reproject_pass.h"
+
+#include <algorithm>
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+// Every step-th pixel of a map suffices where its pixels fall closer together than the image's (Step of eq. (3)).
+int pixel_step(const RadianceMap& map, const Vec4& eye, float pixels_per_tangent, bool orthographic) {
+  if (orthographic) return 1;
+  const Vec2 size = map.upper - map.lower;
+  const float per_tangent = -map.eye.z * std::min(static_cast<float>(map.width) / size.x, static_cast<float>(map.height) / size.y);
+  const Vec3 center(0.5f * (map.lower + map.upper), 0);
+  const float nearer = std::min(1.0f, glm::length(Vec3(eye) - center) / std::max(glm::length(map.eye - center), 1e-30f));
+  const float step = 0.6f * nearer * per_tangent / pixels_per_tangent;
+  return step >= 4 ? 4 : step >= 2 ? 2 : 1;
+}
+
+}  // namespace
+
+Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view) { return reflector.reflector_from_pack * view.eye; }
+
+Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
+  ReprojectPass pass;
+  ORIEL_TRY(pass.program_, gpu::Program::create("reproject", device.dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
+  pass.point_max_ = device.point_size_max;
+  return pass;
+}
+
+void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                         const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
+  target.sharp_framebuffer.bind();
+  target.sharp_framebuffer.attach_color_level(target.sharp, 0);
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
+  gpu::apply(state);
+  glViewport(0, 0, rect.width, rect.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, rect.width, rect.height);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+
+  Vec4 mirrored_eye = eye_in_reflector(reflector, view);
+  mirrored_eye.z = -mirrored_eye.z;
+  Mat4 mirror(1);
+  mirror[2][2] = -1;
+  const Mat4 image_from_reflector = image_from_clip(rect, view) * view.clip_from_pack * reflector.pack_from_reflector;
+  const Mat4 view_from_mirrored = view.view_from_pack * reflector.pack_from_reflector * mirror;
+  program_.use();
+  program_.set("u_clip_from_mirrored", image_from_reflector * mirror);
+  program_.set("u_mirrored_eye", mirrored_eye);
+  program_.set("u_viewport", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
+  program_.set("u_point_max", point_max_);
+  program_.set("u_bias_scale", view.orthographic ? scene.bounds().radius() : 1.0f);
+  program_.set("u_closest", 1e-15f);
+  program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program_.set("u_depth_row", -glm::transpose(view_from_mirrored)[2]);
+  program_.set("u_map", 0);
+  glBindVertexArray(no_vertices_.name());
+  for (const ReflectorElement& element : reflector.elements) {
+    const Vec2 lower = element.lower, upper = element.upper;
+    const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0), Vec3(lower.x, upper.y, 0)};
+    if (project_polygon(image_from_reflector, corners).empty) continue;
+    for (const std::uint32_t map :
+         select_maps(element, scene.pack().radiance_maps, mirrored_eye, options.maps_per_element, options.selection)) {
+      draw_map(scene, map, reflector, view, rect, stats);
+    }
+  }
+}
+
+void ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuReflector& reflector, const View& view,
+                             const ImageRect& rect, FrameStats& stats) const {
+  const RadianceMap& map = scene.pack().radiance_maps[index];
+  const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y * rect.scale;
+  const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);
+  const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
+  const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
+  scene.radiance_map(index).bind(0);
+  program_.set("u_map_size", IVec2(width, height));
+  program_.set("u_step", step);
+  program_.set("u_columns", columns);
+  program_.set("u_map_eye", map.eye);
+  program_.set("u_lower", map.lower);
+  program_.set("u_upper", map.upper);
+  glDrawArrays(GL_POINTS, 0, columns * rows);
+  ++stats.draws;
+  ++stats.maps;
+  stats.points += static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+}
+
+}  // namespace oriel

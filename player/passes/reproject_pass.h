@@ -1,0 +1,31 @@
+// M: the mirrored world from a reflector's radiance maps, as points (Bastos et al. 1999, section 8.1.3).
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_options.h"
+#include "player/passes/targets.h"
+#include "player/scene/gpu_scene.h"
+
+namespace oriel {
+
+class ReprojectPass {
+ public:
+  static Result<ReprojectPass> create(const gpu::Device& device);
+
+  // Clears the image and draws the chosen maps of all elements that it shows. The reflector's front faces the eye.
+  // Holes keep a = 0.
+  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect, const ImageTarget& target,
+            const FrameOptions& options, FrameStats& stats) const;
+
+ private:
+  void draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                FrameStats& stats) const;
+  gpu::Program program_;
+  gpu::VertexArray no_vertices_;
+  float point_max_ = 1;
+};
+
+// The eye of a view in a reflector's space: a point (w = 1), or the direction to it (w = 0).
+Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view);
+
+}  // namespace oriel

@@ -1,0 +1,167 @@
+#include "player/passes/scene_pass.h"
+
+#include <algorithm>
+
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+enum Unit { kBaseUnit = 0, kLightmapUnit = 1, kReflectanceUnit = 2 };
+
+gpu::Cull cull_of(const Material& material) { return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack; }
+
+void draw_indices(std::uint32_t first, std::uint32_t count, FrameStats& stats) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::uintptr_t{first} * sizeof(std::uint32_t)));
+  ++stats.draws;
+  stats.triangles += count / 3;
+}
+
+// Visible ranges, neighbours of the same material and page joined.
+std::vector<DrawRange> visible_ranges(const std::vector<DrawRange>& ranges, const Frustum& frustum) {
+  std::vector<DrawRange> out;
+  for (const DrawRange& range : ranges) {
+    if (!may_be_visible(frustum, range.bounds)) continue;
+    if (!out.empty()) {
+      DrawRange& last = out.back();
+      if (last.material == range.material && last.lightmap_page == range.lightmap_page &&
+          last.first_index + last.index_count == range.first_index) {
+        last.index_count += range.index_count;
+        continue;
+      }
+    }
+    out.push_back(range);
+  }
+  return out;
+}
+
+float cutoff_of(const Material& material) {
+  return material.alpha_mode == AlphaMode::kMask ? std::max(material.alpha_cutoff, 0.0f) : -1.0f;
+}
+
+void set_frame(const gpu::Program& program, const GpuScene& scene, const View& view) {
+  program.use();
+  program.set("u_clip_from_pack", view.clip_from_pack);
+  program.set("u_eye", view.eye);
+  program.set("u_base_texture", kBaseUnit);
+  program.set("u_lightmap", kLightmapUnit);
+  program.set("u_reflectance", kReflectanceUnit);
+  program.set("u_reflectance_count", scene.reflectance_tables().width());
+  scene.reflectance_tables().bind(kReflectanceUnit);
+  scene.bind_geometry();
+}
+
+void set_material(const gpu::Program& program, const GpuScene& scene, const DrawRange& range) {
+  const Material& m = scene.pack().materials[range.material];
+  const Vec3 base = glm::clamp(m.base_color, Vec3(0), Vec3(1));
+  program.set("u_base_color", Vec4(base, m.alpha));
+  program.set("u_alpha_cutoff", cutoff_of(m));
+  program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
+  program.set("u_diffuse_share", (1 - m.metallic) * (1 - m.transmission));
+  program.set("u_transmission", m.transmission);
+  program.set("u_emission", m.emission);
+  program.set("u_unlit", m.unlit ? 1 : 0);
+  program.set("u_reflectance_row", m.fresnel_map);
+  if (m.fresnel_map >= 0) {
+    const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(m.fresnel_map)].table;
+    program.set("u_reflectance_count", static_cast<int>(table.size()));
+  }
+  scene.albedo(m.base_color_texture).bind(kBaseUnit);
+  const LightmapTexture& lightmap = scene.lightmap(range.lightmap_page);
+  lightmap.texture.bind(kLightmapUnit);
+  program.set("u_lightmap_scale", lightmap.scale);
+}
+
+}  // namespace
+
+Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
+  ScenePass pass;
+  ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
+  ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
+  ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
+  return pass;
+}
+
+void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const {
+  depth_.use();
+  depth_.set("u_clip_from_pack", view.clip_from_pack);
+  depth_.set("u_base_texture", kBaseUnit);
+  scene.bind_geometry();
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
+  state.color_write = false;
+  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
+    const Material& m = scene.pack().materials[range.material];
+    state.cull = cull_of(m);
+    gpu::apply(state);
+    depth_.set("u_alpha", m.alpha);
+    depth_.set("u_alpha_cutoff", cutoff_of(m));
+    scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    draw_indices(range.first_index, range.index_count, stats);
+  }
+}
+
+void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
+                            const std::set<std::uint32_t>& reflective, FrameStats& stats) const {
+  set_frame(opaque_, scene, view);
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.stencil_read = kReflectorBits;
+  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
+    const bool twice = reflective.contains(range.material);
+    state.cull = cull_of(scene.pack().materials[range.material]);
+    state.blend = gpu::Blend::kNone;
+    state.stencil_func = twice ? GL_EQUAL : GL_ALWAYS;
+    gpu::apply(state);
+    set_material(opaque_, scene, range);
+    opaque_.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
+    draw_indices(range.first_index, range.index_count, stats);
+    if (!twice) continue;
+    state.blend = gpu::Blend::kAdd;
+    state.stencil_func = GL_NOTEQUAL;
+    gpu::apply(state);
+    opaque_.set("u_weights", Vec3(weights.diffuse, 0, weights.emission));
+    draw_indices(range.first_index, range.index_count, stats);
+  }
+}
+
+void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                                 FrameStats& stats) const {
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  std::vector<std::pair<float, const DrawRange*>> sorted;
+  for (const DrawRange& range : scene.transparent()) {
+    if (!may_be_visible(frustum, range.bounds)) continue;
+    sorted.emplace_back((view.view_from_pack * Vec4(range.bounds.center(), 1)).z, &range);
+  }
+  if (sorted.empty()) return;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  set_frame(transparent_, scene, view);
+  transparent_.set("u_unlit_scale", white);
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.alpha_write = false;
+  state.stencil_read = kSeeThroughBit;
+  for (const auto& [depth, range] : sorted) {
+    state.cull = cull_of(scene.pack().materials[range->material]);
+    set_material(transparent_, scene, *range);
+    const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
+      state.blend = blend;
+      state.stencil_func = func;
+      gpu::apply(state);
+      transparent_.set("u_dimming", dimming ? 1 : 0);
+      transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
+      draw_indices(range->first_index, range->index_count, stats);
+    };
+    draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
+    draw(gpu::Blend::kAdd, false, GL_EQUAL, weights.undirected);
+    draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
+  }
+}
+
+bool needs_white(const GpuScene& scene) {
+  return std::any_of(scene.transparent().begin(), scene.transparent().end(),
+                     [&](const DrawRange& range) { return scene.pack().materials[range.material].unlit; });
+}
+
+}  // namespace oriel

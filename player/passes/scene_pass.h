@@ -1,0 +1,45 @@
+// The scene itself: depth first, then the light of opaque surfaces, then see-through ones from far to near.
+#pragma once
+
+#include <set>
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_options.h"
+#include "player/scene/gpu_scene.h"
+#include "player/scene/view.h"
+
+namespace oriel {
+
+// Weights of the parts of the shading equation.
+struct SceneWeights {
+  float diffuse = 1;
+  float undirected = 1;  // R E / pi on surfaces that no reflector's image covers
+  float emission = 1;
+};
+
+// Bits of the stencil: the number of the opaque reflector that a pixel shows, and whether a see-through one lies before it.
+inline constexpr GLuint kReflectorBits = 0x7f;
+inline constexpr GLuint kSeeThroughBit = 0x80;
+
+class ScenePass {
+ public:
+  static Result<ScenePass> create(gpu::Dialect dialect);
+
+  // Depth of the opaque scene into the bound framebuffer.
+  void draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const;
+  // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
+  // added to, without the undirected part. reflective: materials with such pixels.
+  void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
+                   const std::set<std::uint32_t>& reflective, FrameStats& stats) const;
+  // See-through surfaces, blended; the undirected part only where the see-through bit is clear. white: as FrameOptions.
+  void draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                        FrameStats& stats) const;
+
+ private:
+  gpu::Program depth_, opaque_, transparent_;
+};
+
+// Whether a see-through surface is unlit, so that the frame's white must be known to draw it.
+bool needs_white(const GpuScene& scene);
+
+}  // namespace oriel

@@ -1,0 +1,196 @@
+// formats/core: small floats, colour, bytes, hashes, files, results.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "formats/core/bytes.h"
+#include "formats/core/check.h"
+#include "formats/core/color.h"
+#include "formats/core/file.h"
+#include "formats/core/half.h"
+#include "formats/core/hash.h"
+#include "formats/core/result.h"
+#include "tests/support/temporary_folder.h"
+
+namespace oriel {
+namespace {
+
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kInf = std::numeric_limits<float>::infinity();
+const float kTiny = std::numeric_limits<float>::denorm_min();
+
+TEST(Half, EveryFiniteCodeComesBack) {
+  for (std::uint32_t code = 0; code < 0x10000; ++code) {
+    if ((code & 0x7c00) == 0x7c00) continue;
+    const float value = float_from_half(static_cast<std::uint16_t>(code));
+    ASSERT_TRUE(std::isfinite(value));
+    ASSERT_EQ(half_from_float(value), code);
+  }
+}
+
+TEST(Half, ExtremesStayFinite) {
+  EXPECT_EQ(half_from_float(kNan), 0);
+  EXPECT_EQ(float_from_half(half_from_float(kInf)), kHalfMax);
+  EXPECT_EQ(float_from_half(half_from_float(-kInf)), -kHalfMax);
+  EXPECT_EQ(float_from_half(half_from_float(65519.0f)), kHalfMax);
+  EXPECT_EQ(float_from_half(half_from_float(65520.0f)), kHalfMax);
+  EXPECT_EQ(float_from_half(half_from_float(kTiny)), 0.0f);
+  EXPECT_EQ(float_from_half(half_from_float(0x1p-24f)), 0x1p-24f);
+}
+
+TEST(Half, RelativeErrorBound) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> mantissa(1, 2);
+  std::uniform_int_distribution<int> exponent(-14, 14);
+  double worst = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const float x = std::ldexp(mantissa(random), exponent(random));
+    worst = std::max(worst, std::abs(double{float_from_half(half_from_float(x))} - x) / x);
+  }
+  EXPECT_LE(worst, 0x1p-11);
+  EXPECT_GT(worst, 0x1p-12) << "the bound says nothing if nothing comes near it";
+}
+
+TEST(Rgb9e5, ExtremesStayFinite) {
+  EXPECT_EQ(rgb9e5_from_rgb({kNan, -1, -kInf}), 0u);
+  EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb({kInf, 0, 0})), Vec3(kRgb9e5Max, 0, 0));
+  EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb(Vec3(std::numeric_limits<float>::max()))), Vec3(kRgb9e5Max));
+  EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb(Vec3(kTiny))), Vec3(0));
+  EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb(Vec3(0x1p-24f))), Vec3(0x1p-24f));
+  EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb({1, 0.5f, 0.25f})), Vec3(1, 0.5f, 0.25f));
+  EXPECT_EQ(rgb_from_rgb9e5(0xffffffffu), Vec3(kRgb9e5Max)) << "every code is a finite colour";
+}
+
+TEST(Rgb9e5, ErrorBoundAndStability) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::uniform_int_distribution<int> exponent(-14, 15);
+  for (int i = 0; i < 200000; ++i) {
+    const float scale = std::ldexp(1.99f, exponent(random));
+    const Vec3 rgb(unit(random) * scale, unit(random) * scale, unit(random) * scale);
+    const std::uint32_t code = rgb9e5_from_rgb(rgb);
+    const Vec3 decoded = rgb_from_rgb9e5(code);
+    const float bound = std::max(max_component(rgb) * 0x1p-9f, 0x1p-25f);
+    for (int c = 0; c < 3; ++c) ASSERT_LE(std::abs(decoded[c] - std::min(rgb[c], kRgb9e5Max)), bound);
+    ASSERT_EQ(rgb9e5_from_rgb(decoded), code);
+  }
+}
+
+TEST(Srgb, EveryCodeComesBack) {
+  for (int code = 0; code < 256; ++code) {
+    const float linear = linear_from_srgb8(static_cast<std::uint8_t>(code));
+    EXPECT_EQ(std::lround(srgb_from_linear(linear) * 255), code);
+  }
+  EXPECT_EQ(linear_from_srgb8(0), 0.0f);
+  EXPECT_EQ(linear_from_srgb8(255), 1.0f);
+  EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404114f, 1e-6f);
+  EXPECT_EQ(srgb_from_linear(-1.0f), 0.0f);
+  EXPECT_EQ(srgb_from_linear(kNan), 0.0f);
+  EXPECT_NEAR(luminance({1, 1, 1}), 1, 1e-6);
+}
+
+TEST(Bytes, ReadsWhatWasWritten) {
+  ByteWriter out;
+  out.put(std::uint8_t{7});
+  out.put(std::uint32_t{0x01020304});
+  out.put(-2.5);
+  out.put_string("h\xc3\xa9");
+  const std::vector<std::uint16_t> values = {1, 2, 65535};
+  out.put_array(std::span<const std::uint16_t>(values));
+  const Bytes bytes = out.take();
+  EXPECT_EQ(bytes[1], std::byte{4}) << "little-endian";
+  ByteReader in(bytes);
+  EXPECT_EQ(in.get<std::uint8_t>(), 7);
+  EXPECT_EQ(in.get<std::uint32_t>(), 0x01020304u);
+  EXPECT_EQ(in.get<double>(), -2.5);
+  EXPECT_EQ(in.get_string(), "h\xc3\xa9");
+  EXPECT_EQ(in.get_array<std::uint16_t>(3), values);
+  EXPECT_TRUE(in.ok());
+  EXPECT_EQ(in.remaining(), 0u);
+}
+
+TEST(Bytes, ReadsPastTheEndFailForGood) {
+  const Bytes bytes(6);
+  ByteReader in(bytes);
+  EXPECT_EQ(in.get<std::uint64_t>(), 0u);
+  EXPECT_FALSE(in.ok());
+  EXPECT_EQ(in.remaining(), 0u);
+  EXPECT_EQ(in.get<std::uint8_t>(), 0) << "later reads fail too, although bytes are left";
+  EXPECT_TRUE(in.get_array<std::uint8_t>(1).empty());
+  for (const std::uint64_t count : {std::uint64_t{2}, std::uint64_t{1} << 62, ~std::uint64_t{0}}) {
+    ByteReader other(bytes);
+    EXPECT_TRUE(other.get_array<std::uint32_t>(count).empty());
+    EXPECT_FALSE(other.ok());
+  }
+}
+
+TEST(Hash, KnownValues) {
+  // XXH3 of no bytes, as its specification gives it.
+  EXPECT_EQ(hash64({}), 0x2d06800538d394c2ull);
+  EXPECT_EQ(hash128_hex({}), "99aa06d3014798d86001c324468d497f");
+  Bytes bytes(100);
+  const auto before = hash64(bytes);
+  bytes[50] = std::byte{1};
+  EXPECT_NE(hash64(bytes), before);
+}
+
+TEST(Files, WholeOrNot) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  const Bytes first(1000, std::byte{1}), second(10, std::byte{2});
+  ASSERT_TRUE(write_file_atomically(path, first));
+  EXPECT_EQ(*read_file(path), first);
+  ASSERT_TRUE(write_file_atomically(path, second));
+  EXPECT_EQ(*read_file(path), second);
+  EXPECT_EQ(read_file(path, 9).error().code, ErrorCode::kIo) << "larger than accepted";
+  EXPECT_EQ(read_file(folder.path()).error().code, ErrorCode::kIo);
+  EXPECT_EQ(read_file(folder.path() / "none").error().code, ErrorCode::kIo);
+  EXPECT_EQ(write_file_atomically(folder.path() / "no" / "folder", first).error().code, ErrorCode::kIo);
+  ASSERT_TRUE(write_file_atomically(path, {}));
+  EXPECT_TRUE(read_file(path)->empty());
+}
+
+TEST(Results, TextAndTry) {
+  const auto half = [](int x) -> Result<int> {
+    if (x % 2 != 0) return invalid("number", "found {}, expected an even one", x);
+    return x / 2;
+  };
+  const auto quarter = [&](int x) -> Result<int> {
+    ORIEL_TRY(const int h, half(x));
+    ORIEL_TRY(const int q, half(h));
+    return q;
+  };
+  EXPECT_EQ(*quarter(12), 3);
+  EXPECT_EQ(quarter(6).error().text(), "number: found 3, expected an even one");
+  EXPECT_EQ(quarter(6).error().code, ErrorCode::kInvalid);
+}
+
+TEST(ChecksDeathTest, PrintBothValues) {
+  EXPECT_DEATH(ORIEL_CHECK_EQ(2 + 2, 5), "2 \\+ 2 == 5 \\(found 4 and 5\\)");
+}
+
+TEST(Vectors, DirectionsOfExtremeVectors) {
+  EXPECT_EQ(normalize_or({0, 0, 0}, {0, 1, 0}), Vec3(0, 1, 0));
+  EXPECT_EQ(normalize_or({kNan, 0, 0}, {0, 1, 0}), Vec3(0, 1, 0));
+  EXPECT_EQ(normalize_or({kInf, 0, 0}, {0, 1, 0}), Vec3(0, 1, 0));
+  EXPECT_EQ(normalize_or({1e-30f, 0, 0}, {0, 1, 0}), Vec3(1, 0, 0));
+  EXPECT_EQ(normalize_or({0, 0, 3e38f}, {0, 1, 0}), Vec3(0, 0, 1));
+}
+
+TEST(Vectors, FramesAreOrthonormal) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 n = i == 0 ? Vec3(0, 0, -1) : normalize_or({normal(random), normal(random), normal(random)}, {0, 0, 1});
+    const Mat3 frame = frame_from_normal(n);
+    EXPECT_EQ(frame[2], n);
+    EXPECT_NEAR(glm::dot(frame[0], frame[1]), 0, 1e-6);
+    EXPECT_NEAR(glm::dot(frame[0], n), 0, 1e-6);
+    EXPECT_NEAR(glm::length(frame[0]), 1, 1e-6);
+    EXPECT_NEAR(glm::determinant(frame), 1, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

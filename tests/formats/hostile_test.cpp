@@ -1,0 +1,290 @@
+// Damaged and forged packs: refused with a place and a reason, never a crash and never a number that is not finite.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "formats/pack/reader.h"
+#include "formats/pack/validate.h"
+#include "formats/pack/writer.h"
+#include "tests/formats/forge.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+
+using testing::Forge;
+
+Bytes tiny_file() {
+  auto bytes = encode_pack(testing::tiny_pack());
+  EXPECT_TRUE(bytes);
+  return *bytes;
+}
+
+std::string refusal(const Bytes& file) {
+  const auto pack = decode_pack(file);
+  if (pack) return "accepted";
+  EXPECT_EQ(pack.error().code, ErrorCode::kInvalid);
+  EXPECT_FALSE(pack.error().where.empty());
+  return pack.error().text();
+}
+
+void expect_refusal(const Bytes& file, const std::string& text) {
+  const std::string found = refusal(file);
+  EXPECT_NE(found.find(text), std::string::npos) << "found: " << found << "\nexpected: " << text;
+}
+
+// A file in whose table one field of one record was changed, and sealed again.
+template <class Change>
+Bytes with_record(std::uint32_t kind, const Change& change) {
+  Bytes file = tiny_file();
+  FileHeader header;
+  std::memcpy(&header, file.data(), sizeof(header));
+  for (std::uint32_t i = 0; i < header.section_count; ++i) {
+    SectionRecord record;
+    auto* place = file.data() + sizeof(FileHeader) + i * sizeof(SectionRecord);
+    std::memcpy(&record, place, sizeof(record));
+    if (record.kind != kind) continue;
+    change(record);
+    std::memcpy(place, &record, sizeof(record));
+    break;
+  }
+  Forge::seal(file);
+  return file;
+}
+
+template <class Change>
+Bytes with_header(const Change& change) {
+  Bytes file = tiny_file();
+  FileHeader header;
+  std::memcpy(&header, file.data(), sizeof(header));
+  change(header);
+  std::memcpy(file.data(), &header, sizeof(header));
+  return file;
+}
+
+// Writes value over the raw bytes of a section at offset.
+template <class T>
+Bytes with_raw(std::uint32_t kind, std::size_t offset, T value) {
+  Forge forge = Forge::from(tiny_file());
+  auto& section = forge.find(kind);
+  Bytes raw = Forge::raw(section);
+  std::memcpy(raw.data() + offset, &value, sizeof(value));
+  Forge::set_raw(section, raw);
+  return forge.file();
+}
+
+TEST(Hostile, ForgeItselfChangesNothing) {
+  const Bytes file = tiny_file();
+  EXPECT_EQ(Forge::from(file).file(), file);
+}
+
+TEST(Hostile, EveryPrefixIsRefused) {
+  const Bytes file = tiny_file();
+  for (std::size_t n = 0; n < file.size(); ++n) {
+    const auto pack = decode_pack(std::span(file).first(n));
+    ASSERT_FALSE(pack) << n << " of " << file.size();
+    ASSERT_EQ(pack.error().code, ErrorCode::kInvalid);
+    ASSERT_FALSE(pack.error().where.empty());
+  }
+}
+
+TEST(Hostile, TruncationNamesTheSection) {
+  const Bytes file = tiny_file();
+  const auto index = *read_index(file);
+  for (const auto& section : index.sections) {
+    Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(section.offset + section.stored_bytes - 1));
+    expect_refusal(cut, section.label + ": the file is truncated");
+  }
+}
+
+TEST(Hostile, ExtraBytesAreRefused) {
+  Bytes file = tiny_file();
+  file.push_back(std::byte{0});
+  expect_refusal(file, "found 1 bytes after the last section");
+}
+
+TEST(Hostile, EveryBitFlipIsRefused) {
+  Bytes file = tiny_file();
+  for (std::size_t i = 0; i < file.size(); ++i)
+    for (int bit = 0; bit < 8; ++bit) {
+      file[i] ^= std::byte{1} << bit;
+      ASSERT_FALSE(decode_pack(file)) << "byte " << i << " bit " << bit;
+      file[i] ^= std::byte{1} << bit;
+    }
+  EXPECT_TRUE(decode_pack(file)) << "the flips were taken back";
+}
+
+TEST(Hostile, HeaderFields) {
+  expect_refusal({}, "is not an .oriel pack");
+  expect_refusal(Bytes(100), "is not an .oriel pack");
+  expect_refusal(with_header([](FileHeader& h) { h.version = 2; }),
+                 "found format version 2, this program reads version 1");
+  expect_refusal(with_header([](FileHeader& h) { h.flags = 4; }), "found flags 0x4");
+  expect_refusal(with_header([](FileHeader& h) { h.section_count = 0xffffffffu; }), "found 4294967295 sections");
+  expect_refusal(with_header([](FileHeader& h) { h.section_count = 1000; }), "inside the table of 1000 sections");
+  expect_refusal(with_header([](FileHeader& h) { h.table_offset = 128; }), "found the table at byte 128");
+  expect_refusal(with_header([](FileHeader& h) { h.record_bytes = 32; }), "found 32 bytes a table record");
+  expect_refusal(with_header([](FileHeader& h) { h.reserved[1] = 1; }), "reserved");
+  expect_refusal(with_header([](FileHeader& h) { h.checksum ^= 1; }), "section table: header and table have checksum");
+  Bytes longer = with_header([](FileHeader& h) { h.file_bytes += 1; });
+  Forge::seal(longer);
+  expect_refusal(longer, "found a file length of");
+}
+
+TEST(Hostile, RecordFields) {
+  const std::string mesh = "section MESH (mesh): ";
+  using R = SectionRecord;
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.codec = 9; }), mesh + "found codec 9");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.flags = 1; }), mesh + "found it marked as optional");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.flags = 2; }), mesh + "found reserved bits");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.reserved1 = 1; }), mesh + "found reserved bits");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.offset += 64; }), mesh + "found it at byte");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.offset = ~0ull - 8; }), mesh + "found it at byte");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.stored_bytes = ~0ull; }), mesh + "the file is truncated");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.raw_bytes = ~0ull; }),
+                 mesh + "found 18446744073709551615 raw bytes");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.raw_bytes += 1; }), mesh + "its zstd frame holds");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.count = 2; }), mesh + "found 2 elements");
+  expect_refusal(with_record(kLightmapSection, [](R& r) { r.count = 0; }), "(lightmap page): found 0 elements");
+  expect_refusal(with_record(kMeshSection, [](R& r) { r.kind = fourcc("MESX"); }),
+                 "section MESX (unknown): is of a kind");
+  expect_refusal(with_record(kMaterialSection, [](R& r) { r.kind = kMeshSection; }), mesh + "is there more than once");
+  expect_refusal(with_record(kMaterialSection, [](R& r) { r.count = 1u << 30; }), "(materials): its counts need more");
+  expect_refusal(with_record(kMaterialSection, [](R& r) { r.count = 1; }), "(materials): holds");
+  expect_refusal(with_record(kMaterialSection, [](R& r) { r.count = ~0ull; }), "(materials): its counts need more");
+}
+
+TEST(Hostile, MissingAndUnknownSections) {
+  Forge without_mesh = Forge::from(tiny_file());
+  std::erase_if(without_mesh.sections, [](const auto& s) { return s.record.kind == kMeshSection; });
+  expect_refusal(without_mesh.file(), "has no section MESH (mesh)");
+  Forge required = Forge::from(tiny_file());
+  required.find(fourcc("XTRA")).record.flags = 0;
+  expect_refusal(required.file(), "section XTRA (unknown): is of a kind that this program does not know");
+}
+
+TEST(Hostile, ZstdFrames) {
+  Forge trailing = Forge::from(tiny_file());
+  trailing.find(kMeshSection).stored.push_back(std::byte{0});
+  expect_refusal(trailing.file(), "is not exactly one zstd frame");
+  Forge garbage = Forge::from(tiny_file());
+  for (auto& b : garbage.find(kMeshSection).stored) b = std::byte{0x55};
+  expect_refusal(garbage.file(), "is not a zstd frame");
+  // A frame of zeros that expands more than the limit allows.
+  Forge bomb = Forge::from(tiny_file());
+  auto& mesh = bomb.find(kMeshSection);
+  Forge::set_compressed(mesh, Bytes(1 << 22));
+  mesh.record.raw_bytes = std::uint64_t{1} << 33;
+  expect_refusal(bomb.file(), "raw bytes for");
+}
+
+TEST(Hostile, CountsInsideSections) {
+  // Mesh: counts of vertices, indices and parts follow the origin.
+  expect_refusal(with_raw(kMeshSection, 24, ~0u), "section MESH (mesh): its counts need more");
+  expect_refusal(with_raw(kMeshSection, 28, ~0u), "section MESH (mesh): its counts need more");
+  expect_refusal(with_raw(kMeshSection, 32, ~0u), "section MESH (mesh): its counts need more");
+  expect_refusal(with_raw(kMeshSection, 36, 2u), "found mesh flags 0x2");
+  expect_refusal(with_raw(kMaterialSection, 0, ~0u), "section MATL (materials): its counts need more");
+  expect_refusal(with_raw(kLightmapSection, 0, ~0u), "found 4294967295 x 4 texels");
+  expect_refusal(with_raw(kLightmapSection, 0, 0u), "found 0 x 4 texels");
+  expect_refusal(with_raw(kLightmapSection, 0, 32768u), "section LMAP 0 (lightmap page): its counts need more");
+  expect_refusal(with_raw(kLightmapSection, 8, 113), "found scale exponent 113");
+  expect_refusal(with_raw(kRadianceMapSection, 48, 31), "found disparity shift 31");
+  expect_refusal(with_raw(kKernelSection, 0, std::uint8_t{2}), "element 0: found kernel model 2");
+  expect_refusal(with_raw(kKernelSection, 20, ~0u), "section KERN (kernels): its counts need more");
+  expect_refusal(with_raw(kFresnelSection, 8, ~0u), "section FRES (Fresnel maps): its counts need more");
+}
+
+TEST(Hostile, HalvesThatAreNotFinite) {
+  Forge forge = Forge::from(tiny_file());
+  auto& section = forge.find(kLightmapSection);
+  Bytes raw = Forge::raw(section);
+  raw[12 + 32] = std::byte{0x7c};  // the first byte of red's high plane: infinity or NaN
+  Forge::set_raw(section, raw);
+  expect_refusal(forge.file(), "section LMAP 0 (lightmap page): element 0: found irradiance half 0x7c");
+}
+
+bool all_finite(const Pack& pack) {
+  const auto finite = [](const std::vector<Vec3>& values) {
+    for (const Vec3& v : values)
+      if (!is_finite(v)) return false;
+    return true;
+  };
+  for (const auto& page : pack.lightmaps)
+    if (!finite(page.irradiance) || !finite(page.standard_error)) return false;
+  for (const auto& map : pack.radiance_maps)
+    if (!finite(map.radiance)) return false;
+  return finite(pack.mesh.positions) && finite(pack.mesh.normals);
+}
+
+bool has_errors(const Pack& pack) {
+  for (const auto& issue : validate(pack))
+    if (issue.severity == Severity::kError) return true;
+  return false;
+}
+
+// Deterministic fuzzing of the decoders: raw bytes of a section are changed, cut or lengthened, and everything around
+// is made right again. What is accepted must be safe, and must survive another round.
+TEST(Hostile, MutationsBehindTheChecksums) {
+  const Bytes file = tiny_file();
+  const Forge whole = Forge::from(file);
+  std::mt19937 random(2024);
+  int accepted = 0, refused = 0, meaningless = 0;
+  for (int round = 0; round < 6000; ++round) {
+    Forge forge = whole;
+    auto& section = forge.sections[random() % forge.sections.size()];
+    if (section.record.kind == fourcc("XTRA")) continue;
+    Bytes raw = Forge::raw(section);
+    const int changes = 1 + static_cast<int>(random() % 4);
+    for (int i = 0; i < changes && !raw.empty(); ++i) {
+      const std::size_t at = random() % raw.size();
+      static constexpr unsigned char kTelling[] = {0, 1, 0x7f, 0x80, 0xff};
+      raw[at] = static_cast<std::byte>(random() % 2 == 0 ? kTelling[random() % 5] : random());
+    }
+    if (random() % 8 == 0) raw.resize(random() % (raw.size() + 1));
+    if (random() % 16 == 0) raw.resize(raw.size() + random() % 64);
+    if (round % 2 == 0)
+      Forge::set_raw(section, raw);
+    else
+      Forge::set_compressed(section, raw);
+    const auto pack = decode_pack(forge.file());
+    if (!pack) {
+      ++refused;
+      ASSERT_EQ(pack.error().code, ErrorCode::kInvalid);
+      continue;
+    }
+    if (has_errors(*pack)) {
+      ++meaningless;
+      continue;
+    }
+    ++accepted;
+    ASSERT_TRUE(all_finite(*pack));
+    const auto again = encode_pack(*pack);
+    ASSERT_TRUE(again) << again.error().text();
+    const auto back = decode_pack(*again);
+    ASSERT_TRUE(back) << back.error().text();
+    const auto third = encode_pack(*back);
+    ASSERT_TRUE(third && *third == *again) << "round " << round;
+  }
+  // All three ends are reached, or this test proves nothing.
+  EXPECT_GT(accepted, 300);
+  EXPECT_GT(refused, 300);
+  EXPECT_GT(meaningless, 300);
+}
+
+// The compressed bytes themselves are changed: zstd's decoder meets them.
+TEST(Hostile, MutationsOfFrames) {
+  const Forge whole = Forge::from(tiny_file());
+  std::mt19937 random(7);
+  for (int round = 0; round < 3000; ++round) {
+    Forge forge = whole;
+    auto& section = forge.sections[random() % forge.sections.size()];
+    if (section.stored.empty()) continue;
+    section.stored[random() % section.stored.size()] = static_cast<std::byte>(random());
+    const auto pack = decode_pack(forge.file());
+    if (pack) validate(*pack);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,103 @@
+// EXR and PNG files.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "formats/core/file.h"
+#include "formats/image/exr.h"
+#include "formats/image/png.h"
+#include "tests/support/temporary_folder.h"
+
+namespace oriel {
+namespace {
+
+using testing::TemporaryFolder;
+
+FloatImage picture(std::uint32_t channels) {
+  FloatImage image{5, 3, channels, {}};
+  for (std::uint32_t i = 0; i < 15 * channels; ++i) image.pixels.push_back(static_cast<float>(i) * 1.7e5f + 0.1f);
+  image.pixels[0] = std::numeric_limits<float>::denorm_min();
+  image.pixels[1] = std::numeric_limits<float>::max();
+  return image;
+}
+
+TEST(Exr, FloatsComeBackExactly) {
+  const TemporaryFolder folder;
+  for (const std::uint32_t channels : {1u, 3u, 4u}) {
+    const auto path = folder.path() / "a.exr";
+    const FloatImage image = picture(channels);
+    const auto status = write_exr(path, image, {{"oriel:unit", "lux"}});
+    ASSERT_TRUE(status) << status.error().text();
+    const auto read = read_exr(path);
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_EQ(read->width, 5u);
+    EXPECT_EQ(read->height, 3u);
+    EXPECT_EQ(read->channels, channels);
+    EXPECT_EQ(read->pixels, image.pixels);
+  }
+}
+
+TEST(Exr, SameImageSameBytes) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_exr(folder.path() / "a.exr", picture(3)));
+  ASSERT_TRUE(write_exr(folder.path() / "b.exr", picture(3)));
+  EXPECT_EQ(*read_file(folder.path() / "a.exr"), *read_file(folder.path() / "b.exr"));
+}
+
+TEST(Exr, BadShapesAndAttributes) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.exr";
+  EXPECT_FALSE(write_exr(path, {0, 3, 3, {}}));
+  EXPECT_FALSE(write_exr(path, {2, 2, 2, std::vector<float>(8)}));
+  EXPECT_FALSE(write_exr(path, {2, 2, 3, std::vector<float>(11)}));
+  EXPECT_FALSE(write_exr(path, picture(3), {{"channels", "not a string in OpenEXR"}}));
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Exr, EveryPrefixIsRefused) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.exr";
+  ASSERT_TRUE(write_exr(path, picture(3)));
+  const Bytes bytes = *read_file(path);
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    ASSERT_TRUE(write_file_atomically(path, std::span(bytes).first(n)));
+    const auto read = read_exr(path);
+    ASSERT_FALSE(read) << n << " of " << bytes.size();
+    EXPECT_EQ(read.error().code, ErrorCode::kInvalid);
+  }
+}
+
+TEST(Png, BytesComeBack) {
+  const TemporaryFolder folder;
+  for (const std::uint32_t channels : {1u, 3u, 4u}) {
+    ByteImage image{4, 3, channels, {}};
+    for (std::uint32_t i = 0; i < 12 * channels; ++i) image.pixels.push_back(static_cast<std::uint8_t>(i * 31));
+    const auto path = folder.path() / "a.png";
+    ASSERT_TRUE(write_png(path, image));
+    const auto read = read_png(path);
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_EQ(read->channels, channels);
+    EXPECT_EQ(read->width, 4u);
+    EXPECT_EQ(read->pixels, image.pixels);
+  }
+}
+
+TEST(Png, BadShapesAndFiles) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.png";
+  EXPECT_FALSE(write_png(path, {2, 2, 2, std::vector<std::uint8_t>(8)}));
+  EXPECT_FALSE(write_png(path, {2, 2, 3, std::vector<std::uint8_t>(11)}));
+  EXPECT_FALSE(write_png(path, {0, 2, 3, {}}));
+  EXPECT_EQ(read_png(path).error().code, ErrorCode::kIo);
+  ASSERT_TRUE(write_png(path, {2, 2, 3, std::vector<std::uint8_t>(12)}));
+  const Bytes bytes = *read_file(path);
+  for (std::size_t n = 0; n < 40; ++n) {
+    ASSERT_TRUE(write_file_atomically(path, std::span(bytes).first(n)));
+    const auto read = read_png(path);
+    ASSERT_FALSE(read) << n;
+    EXPECT_EQ(read.error().code, ErrorCode::kInvalid);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

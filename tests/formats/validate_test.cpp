@@ -1,0 +1,127 @@
+// Every rule of validate() is broken once, on a pack that is right otherwise: each check can fail, under its own
+// number.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "formats/pack/validate.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kInf = std::numeric_limits<float>::infinity();
+
+struct Break {
+  int number;
+  const char* section;
+  std::function<void(Pack&)> change;
+};
+
+const Break kBreaks[] = {
+    {101, "MESH", [](Pack& p) { p.mesh.uvs.pop_back(); }},
+    {101, "MESH", [](Pack& p) { p.mesh.colors.pop_back(); }},
+    {103, "MESH", [](Pack& p) { p.mesh.origin.y = kNan; }},
+    {103, "MESH", [](Pack& p) { p.mesh.positions[3].z = kInf; }},
+    {104, "MESH", [](Pack& p) { p.mesh.normals[0] *= 1.01f; }},
+    {104, "MESH", [](Pack& p) { p.mesh.normals[0].x = kNan; }},
+    {105, "MESH", [](Pack& p) { p.mesh.uvs[0].x = kNan; }},
+    {105, "MESH", [](Pack& p) { p.mesh.lightmap_uvs[0].x = 1.01f; }},
+    {106, "MESH", [](Pack& p) { p.mesh.indices[2] = 8; }},
+    {107, "MESH", [](Pack& p) { p.mesh.parts[0].index_count = 5; }},
+    {108, "MESH", [](Pack& p) { p.mesh.parts[1].index_count = 0xfffffffcu; }},
+    {109, "MESH", [](Pack& p) { p.mesh.parts[1].material = 2; }},
+    {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = 1; }},
+    {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = -2; }},
+    {201, "MATL", [](Pack& p) { p.materials[0].base_color.g = -0.1f; }},
+    {201, "MATL", [](Pack& p) { p.materials[0].roughness = kNan; }},
+    {202, "MATL", [](Pack& p) { p.materials[0].emission.b = kInf; }},
+    {203, "MATL", [](Pack& p) { p.materials[1].base_color_texture = 1; }},
+    {204, "MATL", [](Pack& p) { p.materials[0].kernel = 2; }},
+    {205, "MATL", [](Pack& p) { p.materials[0].fresnel_map = -7; }},
+    {211, "TEXR 0", [](Pack& p) { p.textures[0].texels.pop_back(); }},
+    {301, "LMAP 0", [](Pack& p) { p.lightmaps[0].state.pop_back(); }},
+    {301, "LMAP 0", [](Pack& p) { p.lightmaps[0].width = 0; }},
+    {302, "LMAP 0", [](Pack& p) { p.lightmaps[0].irradiance[4].r = -1; }},
+    {302, "LMAP 0", [](Pack& p) { p.lightmaps[0].irradiance[4].b = kInf; }},
+    {303, "LMAP 0", [](Pack& p) { p.lightmaps[0].standard_error[4].b = kNan; }},
+    {401, "RFLT", [](Pack& p) { p.reflectors[0].material = 9; }},
+    {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[0] *= 1.1f; }},
+    {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[1] *= -1.0f; }},
+    {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[3].x = kNan; }},
+    {403, "RFLT", [](Pack& p) { p.reflectors[0].upper.x = -3; }},
+    {404, "RFLT", [](Pack& p) { p.reflectors[0].area_m2 = -1; }},
+    {405, "RFLT", [](Pack& p) { p.reflectors[0].indices[0] = 8; }},
+    {406, "RFLT", [](Pack& p) { p.reflectors[0].map_count = 3; }},
+    {407, "RFLT", [](Pack& p) { p.reflectors[0].elements_x = 0; }},
+    {411, "RMAP 1", [](Pack& p) { p.radiance_maps[1].disparity.pop_back(); }},
+    {412, "RMAP 1", [](Pack& p) { p.radiance_maps[1].reflector = 1; }},
+    {412, "RMAP 1", [](Pack& p) { p.reflectors[0].map_count = 1; }},
+    {413, "RMAP 0", [](Pack& p) { p.radiance_maps[0].eye.z = 0; }},
+    {414, "RMAP 0", [](Pack& p) { p.radiance_maps[0].upper.x = 2.1f; }},
+    {414, "RMAP 0", [](Pack& p) { p.radiance_maps[0].upper.y = p.radiance_maps[0].lower.y; }},
+    {415, "RMAP 0", [](Pack& p) { p.radiance_maps[0].radiance[1].r = kNan; }},
+    {416, "RMAP 0", [](Pack& p) { p.radiance_maps[0].disparity[1] = 1.1f; }},
+    {417, "RMAP 0", [](Pack& p) { p.radiance_maps[0].valid[1] = 3; }},
+    {501, "KERN", [](Pack& p) { p.kernels[1].alpha = kNan; }},
+    {502, "KERN", [](Pack& p) { p.kernels[1].size = 4; }},
+    {503, "KERN", [](Pack& p) { p.kernels[1].weights[0] = -0.01f; }},
+    {504, "KERN", [](Pack& p) { p.kernels[1].weights[0] += 2e-4f; }},
+    {601, "FRES", [](Pack& p) { p.fresnel_maps[0].alpha = 2; }},
+    {602, "FRES", [](Pack& p) { p.fresnel_maps[0].table.resize(1); }},
+    {602, "FRES", [](Pack& p) { p.fresnel_maps[0].sphere.pop_back(); }},
+    {603, "FRES", [](Pack& p) { p.fresnel_maps[0].sphere[1].r = 1.01f; }},
+    {603, "FRES", [](Pack& p) { p.fresnel_maps[0].table[1].r = kNan; }},
+    {701, "CAMS", [](Pack& p) { p.cameras[0].eye.x = kNan; }},
+    {702, "CAMS", [](Pack& p) { p.cameras[0].up = p.cameras[0].forward; }},
+    {703, "CAMS", [](Pack& p) { p.cameras[0].vertical_fov_rad = 3.2f; }},
+    {703, "CAMS", [](Pack& p) { p.cameras[1].half_height = 0; }},
+    {711, "PATH", [](Pack& p) { p.paths[0].vertical_fov_rad = 0; }},
+    {712, "PATH", [](Pack& p) { p.paths[0].keys[0].forward = Vec3(0); }},
+    {713, "PATH", [](Pack& p) { p.paths[0].keys[0].time_s = 3; }},
+    {801, "PROV", [](Pack& p) { p.provenance = "{\"a\":"; }},
+    {802, "PROV", [](Pack& p) { p.provenance.clear(); }},
+    {803, "PLAN", [](Pack& p) { p.plan = "[1]"; }},
+    {804, "SCNE", [](Pack& p) { p.sky.r = kNan; }},
+    {901, "MESH", [](Pack& p) { p.unknown[0].kind = 'M' | 'E' << 8 | 'S' << 16 | 'H' << 24; }},
+    {902, "XTRA", [](Pack& p) { p.unknown[0].raw_bytes = ~0ull; }},
+};
+
+TEST(Validate, EveryRuleCanFail) {
+  for (const auto& rule : kBreaks) {
+    Pack pack = testing::tiny_pack();
+    rule.change(pack);
+    bool found = false;
+    std::string all;
+    for (const auto& issue : validate(pack)) {
+      all += std::to_string(issue.number) + " " + issue.section + ": " + issue.message + "\n";
+      found = found || (issue.number == rule.number &&
+                        issue.section.find(std::string("section ") + rule.section) == 0 && !issue.message.empty());
+    }
+    EXPECT_TRUE(found) << rule.number << " in " << rule.section << ", found:\n" << all;
+  }
+}
+
+TEST(Validate, CountsAndNamesTheFirst) {
+  Pack pack = testing::tiny_pack();
+  pack.mesh.positions[2].x = kNan;
+  pack.mesh.positions[5].y = kInf;
+  const auto issues = validate(pack);
+  ASSERT_EQ(issues.size(), 1u);
+  EXPECT_EQ(issues[0].message, "2 of 8 positions: the first is number 2, found (nan, 0, -2), expected finite numbers");
+}
+
+TEST(Validate, EmptyPackHasWarningsOnly) {
+  for (const auto& issue : validate(Pack{})) EXPECT_EQ(issue.severity, Severity::kWarning) << issue.message;
+}
+
+TEST(Validate, DeepJsonIsNoStackOverflow) {
+  Pack pack = testing::tiny_pack();
+  pack.provenance = "{\"a\":" + std::string(1000000, '[');
+  EXPECT_FALSE(validate(pack).empty());
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "player/walk/controller.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+
+Camera start() {
+  return look_at(Vec3(1, 1.6f, 2), Vec3(1, 1.1f, 1), 1);
+}  // to -z and down
+
+MoveInput holding(bool MoveInput::*key) {
+  MoveInput input;
+  input.*key = true;
+  return input;
+}
+
+TEST(Controller, WalkingKeepsTheEyesHeight) {
+  MoveState state;
+  const Camera next = move_camera(start(), state, holding(&MoveInput::forward), 0.1f);
+  EXPECT_FLOAT_EQ(next.eye.y, 1.6f);
+  EXPECT_NEAR(next.eye.z, 2 - 0.14f, 1e-6f);
+  EXPECT_EQ(next.forward, start().forward);
+  EXPECT_NEAR(move_camera(start(), state, holding(&MoveInput::right), 0.1f).eye.x, 1.14f, 1e-6f);
+  EXPECT_NEAR(move_camera(start(), state, holding(&MoveInput::left), 0.1f).eye.x, 0.86f, 1e-6f);
+  EXPECT_EQ(move_camera(start(), state, holding(&MoveInput::up), 0.1f).eye, start().eye);
+}
+
+TEST(Controller, FlyingFollowsTheGaze) {
+  MoveState state;
+  state.fly = true;
+  const Camera next = move_camera(start(), state, holding(&MoveInput::forward), 0.1f);
+  EXPECT_LT(glm::length(next.eye - (start().eye + 0.14f * start().forward)), 1e-6f);
+  EXPECT_NEAR(move_camera(start(), state, holding(&MoveInput::up), 0.1f).eye.y, 1.74f, 1e-6f);
+  EXPECT_NEAR(move_camera(start(), state, holding(&MoveInput::down), 0.1f).eye.y, 1.46f, 1e-6f);
+}
+
+TEST(Controller, DiagonalsAreNotFasterAndOppositesCancel) {
+  MoveState state;
+  MoveInput input = holding(&MoveInput::forward);
+  input.right = true;
+  EXPECT_NEAR(glm::distance(move_camera(start(), state, input, 0.1f).eye, start().eye), 0.14f, 1e-6f);
+  input = holding(&MoveInput::forward);
+  input.back = true;
+  EXPECT_EQ(move_camera(start(), state, input, 0.1f).eye, start().eye);
+}
+
+TEST(Controller, SpeedFollowsKeyAndWheelWithinItsLimits) {
+  MoveState state;
+  MoveInput input = holding(&MoveInput::forward);
+  input.fast = true;
+  EXPECT_NEAR(glm::distance(move_camera(start(), state, input, 0.1f).eye, start().eye), 0.56f, 1e-5f);
+  input = {};
+  input.wheel = 2;
+  move_camera(start(), state, input, 0.1f);
+  EXPECT_NEAR(state.speed_m_s, 1.4f * 1.44f, 1e-5f);
+  input.wheel = -1e30f;
+  move_camera(start(), state, input, 0.1f);
+  EXPECT_FLOAT_EQ(state.speed_m_s, MoveOptions{}.min_speed_m_s);
+  input.wheel = 1e30f;
+  for (int i = 0; i < 3; ++i) move_camera(start(), state, input, 0.1f);
+  EXPECT_FLOAT_EQ(state.speed_m_s, MoveOptions{}.max_speed_m_s);
+}
+
+TEST(Controller, TheMouseTurnsAndPitchStopsShortOfVertical) {
+  MoveState state;
+  MoveInput input;
+  input.mouse_x_px = 100;
+  const Camera right = move_camera(look_at(Vec3(0), Vec3(0, 0, -1), 1), state, input, 0.01f);
+  EXPECT_NEAR(yaw_of(right), -0.25f, 1e-5f);
+  EXPECT_GT(right.forward.x, 0);
+  input = {};
+  input.mouse_y_px = -1e6f;
+  const Camera up = move_camera(start(), state, input, 0.01f);
+  EXPECT_NEAR(pitch_of(up), MoveOptions{}.max_pitch_rad, 1e-3f);
+  EXPECT_NEAR(yaw_of(up), yaw_of(start()), 1e-3f);
+  // And back down again: the heading survived.
+  input.mouse_y_px = 1e6f;
+  EXPECT_NEAR(yaw_of(move_camera(up, state, input, 0.01f)), yaw_of(start()), 1e-2f);
+}
+
+TEST(Controller, ARolledCameraStaysRolledUntilItTurns) {
+  MoveState state;
+  Camera camera = start();
+  camera.up = glm::normalize(Vec3(1, 1, 0));
+  EXPECT_EQ(move_camera(camera, state, holding(&MoveInput::forward), 0.1f).up, camera.up);
+  MoveInput input;
+  input.mouse_x_px = 1;
+  EXPECT_EQ(move_camera(camera, state, input, 0.1f).up, Vec3(0, 1, 0));
+}
+
+TEST(Controller, NothingStrangeGetsThrough) {
+  for (const float strange : {0.0f, -1.0f, kNan, kInf, -kInf, 1e30f, 1e-40f}) {
+    for (const bool fly : {false, true}) {
+      MoveState state;
+      state.fly = fly;
+      MoveInput input = holding(&MoveInput::forward);
+      input.up = true;
+      input.mouse_x_px = input.mouse_y_px = input.wheel = strange;
+      const Camera next = move_camera(start(), state, input, strange);
+      EXPECT_TRUE(is_finite(next.eye)) << strange;
+      EXPECT_TRUE(is_finite(next.forward)) << strange;
+      EXPECT_NEAR(glm::length(next.forward), 1, 1e-5f) << strange;
+      EXPECT_TRUE(std::isfinite(state.speed_m_s)) << strange;
+      EXPECT_LE(glm::distance(next.eye, start().eye), 0.1f * MoveOptions{}.max_speed_m_s * 1.001f);
+    }
+  }
+  MoveState state;
+  EXPECT_EQ(move_camera(start(), state, holding(&MoveInput::forward), 0).eye, start().eye);
+  EXPECT_EQ(move_camera(start(), state, holding(&MoveInput::forward), -5).eye, start().eye);
+  state.speed_m_s = kNan;
+  EXPECT_TRUE(is_finite(move_camera(start(), state, holding(&MoveInput::forward), 0.1f).eye));
+}
+
+}  // namespace
+}  // namespace oriel
