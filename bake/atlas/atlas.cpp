@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::uint32_t kMaxPages = 4096;
 constexpr int kMaxSide = 16384;
-constexpr double kSnapTexels = 1e-3;   // a chart so little longer than whole texels is fitted into them
-constexpr double kLeastTexels = 0.25;  // a chart is drawn at least so long: thinner, float coordinates would lose its shape
+constexpr double kSnapTexels = 1e-3;  // a chart so little longer than whole texels is fitted into them
+constexpr double kLeastTexels =
+    0.25;  // a chart is drawn at least so long: thinner, float coordinates would lose its shape
 
 // How a chart's axis is drawn: texel = metres * scale + offset, within a row of `size` texels.
 struct Axis {
@@ -24,9 +25,9 @@ struct Axis {
   double scale = 0, offset = 0;
 };
 
-// A chart lies in the middle of the whole texels that hold it, so that a border texel is covered for more than half of its
-// width, and a wall whose sides are whole texels covers exactly these. `inset` keeps float rounding of page coordinates
-// from reaching into the next texel.
+// A chart lies in the middle of the whole texels that hold it, so that a border texel is covered for more than half of
+// its width, and a wall whose sides are whole texels covers exactly these. `inset` keeps float rounding of page
+// coordinates from reaching into the next texel.
 Axis fit_axis(double metres, double texel_m, double inset) {
   Axis axis;
   const double texels = metres / texel_m;
@@ -71,7 +72,9 @@ struct Packing {
   std::vector<PackedPage> pages;
 };
 
-std::uint32_t round_up_4(std::uint32_t n) { return (n + 3) / 4 * 4; }
+std::uint32_t round_up_4(std::uint32_t n) {
+  return (n + 3) / 4 * 4;
+}
 
 Result<Packing> pack_at_texel(const Layout& layout, double texel_m, std::uint32_t padding) {
   Packing out{texel_m, layout.rects(texel_m), {}};
@@ -82,8 +85,8 @@ Result<Packing> pack_at_texel(const Layout& layout, double texel_m, std::uint32_
     double fits = texel_m * 1.1;
     for (int i = 0; i < 400 && padded_area(layout.rects(fits), padding) > 0.8 * room; ++i) fits *= 1.1;
     return fail(ErrorCode::kRuntime, "atlas",
-                "a texel of {:.4g} m needs more than {} pages of {}x{} texels; a texel of {:.3g} m fits", texel_m, kMaxPages,
-                side, side, fits);
+                "a texel of {:.4g} m needs more than {} pages of {}x{} texels; a texel of {:.3g} m fits", texel_m,
+                kMaxPages, side, side, fits);
   }
   for (PackedPage& page : out.pages) page = {round_up_4(page.width), round_up_4(page.height)};
   return out;
@@ -105,7 +108,8 @@ Result<Packing> pack_one_page(const Layout& layout, std::uint32_t padding, const
   Packing best = attempt(std::max(longest, too_fine));
   if (best.pages.empty()) {
     const double least = std::sqrt(static_cast<double>(layout.sizes.size())) * (1 + padding);
-    return fail(ErrorCode::kRuntime, "atlas", "{} charts do not fit into one page of {}x{} texels; about {:.0f}x{:.0f} are needed",
+    return fail(ErrorCode::kRuntime, "atlas",
+                "{} charts do not fit into one page of {}x{} texels; about {:.0f}x{:.0f} are needed",
                 layout.sizes.size(), side, side, std::ceil(least * 1.05), std::ceil(least * 1.05));
   }
   while (best.texel_m > too_fine * 1.005 && !context.stopped()) {
@@ -131,8 +135,9 @@ void warn_coarsened(const Layout& layout, double texel_m, Context& context) {
     worst = std::max(worst, texel);
   }
   if (count > 0)
-    context.warning(fmt::format("atlas: {} of {} charts are longer than a page of {} texels at {:.4g} m a texel; theirs are up to {:.4g} m",
-                                count, layout.sizes.size(), layout.side, texel_m, worst));
+    context.warning(fmt::format(
+        "atlas: {} of {} charts are longer than a page of {} texels at {:.4g} m a texel; theirs are up to {:.4g} m",
+        count, layout.sizes.size(), layout.side, texel_m, worst));
 }
 
 // Writes page, chart and uv of the layout's triangles; pages are appended to the atlas.
@@ -197,7 +202,8 @@ Status check_options(const AtlasOptions& o) {
     return usage("the resolution", 0, "the side of the page that TEXCOORD_1 covers, 1 to 16384 texels");
   if (o.max_page < 16 || o.max_page > kMaxSide) return usage("the largest page", o.max_page, "16 to 16384 texels");
   if (o.padding < 1 || o.padding > 64) return usage("the padding", o.padding, "1 to 64 texels");
-  if (!(o.flat_angle_deg >= 0 && o.flat_angle_deg <= 10)) return usage("the flat angle", o.flat_angle_deg, "0 to 10 degrees");
+  if (!(o.flat_angle_deg >= 0 && o.flat_angle_deg <= 10))
+    return usage("the flat angle", o.flat_angle_deg, "0 to 10 degrees");
   if (!(o.curved_angle_deg >= 0 && o.curved_angle_deg <= 75))
     return usage("the curved angle", o.curved_angle_deg, "0 to 75 degrees");
   return {};
@@ -226,7 +232,8 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
     for (const Chart& chart : set.charts) layout.sizes.push_back(chart.size);
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   const auto padding = static_cast<std::uint32_t>(options.padding);
-  ORIEL_TRY(const Packing packing, one_page ? pack_one_page(layout, padding, context) : pack_at_texel(layout, texel_m, padding));
+  ORIEL_TRY(const Packing packing,
+            one_page ? pack_one_page(layout, padding, context) : pack_at_texel(layout, texel_m, padding));
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   warn_coarsened(layout, packing.texel_m, context);
   atlas.texel_m = static_cast<float>(packing.texel_m);

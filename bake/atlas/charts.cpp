@@ -9,14 +9,20 @@
 namespace oriel {
 namespace {
 
-constexpr double kFlatTexels = 64;     // a flat region of less area (texels²) may join its neighbours
-constexpr double kSmoothFactor = 4;    // a neighbour within so many flat angles continues a surface smoothly
+constexpr double kFlatTexels = 64;   // a flat region of less area (texels²) may join its neighbours
+constexpr double kSmoothFactor = 4;  // a neighbour within so many flat angles continues a surface smoothly
+constexpr int kRegrowths = 4;        // of a curved chart, around the mean normal found so far, while it helps
 constexpr std::uint32_t kFree = 0, kTried = 1, kDone = 2;  // a face: free; no seed of a flat region; in a chart
 
 class Grower {
  public:
-  Grower(const Scene& scene, const Surface& surface, const AtlasOptions& options, double texel_m, const Context& context)
-      : scene_(scene), context_(context), first_(surface.first_triangle), texel_m_(texel_m), mesh_(build_surface_mesh(scene, surface)) {
+  Grower(const Scene& scene, const Surface& surface, const AtlasOptions& options, double texel_m,
+         const Context& context)
+      : scene_(scene),
+        context_(context),
+        first_(surface.first_triangle),
+        texel_m_(texel_m),
+        mesh_(build_surface_mesh(scene, surface)) {
     flat_rad_ = glm::radians(static_cast<double>(options.flat_angle_deg));
     curved_cos_ = std::cos(glm::radians(static_cast<double>(options.curved_angle_deg)));
     frame_.reserve(surface.triangle_count);
@@ -24,6 +30,7 @@ class Grower {
     state_.assign(surface.triangle_count, kFree);
     visit_.assign(surface.triangle_count, 0);
     member_.assign(surface.triangle_count, false);
+    edge_index_.resize(mesh_.n_halfedges());
     seeds_.resize(surface.triangle_count);
     std::iota(seeds_.begin(), seeds_.end(), 0u);
     std::stable_sort(seeds_.begin(), seeds_.end(),
@@ -68,6 +75,8 @@ class Grower {
     return faces;
   }
 
+  bool is_member(int face) const { return face >= 0 && member_[static_cast<std::size_t>(face)]; }
+
   DVec3 corner(std::uint32_t face, int k) const { return DVec3(scene_.positions[scene_.triangles[first_ + face][k]]); }
 
   void try_flat(std::uint32_t seed) {
@@ -85,7 +94,8 @@ class Grower {
       }
       if (off > flat_tan * (far + reach)) return false;
       if (glm::dot(frame_[to].normal, normal) >= flat_cos) return true;
-      // The normal of a sliver tells little: rounding of its corners turns it. Its corners lie in the plane all the same.
+      // The normal of a sliver tells little: rounding of its corners turns it. Its corners lie in the plane all the
+      // same.
       return off <= 1e-6 * (far + reach) && glm::dot(frame_[to].normal, normal) >= curved_cos_;
     });
     double area = 0;
@@ -130,10 +140,13 @@ class Grower {
   void grow_curved(std::uint32_t seed) {
     if (frame_[seed].area == 0) return finish({seed});
     Faces faces = grow_within(seed, frame_[seed].normal);
-    const DVec3 axis = mean_normal(faces);
-    if (faces.size() > 1 && glm::dot(axis, frame_[seed].normal) >= curved_cos_) {
+    for (int pass = 0; pass < kRegrowths && faces.size() > 1; ++pass) {
+      const DVec3 axis = mean_normal(faces);
+      if (glm::dot(axis, frame_[seed].normal) < curved_cos_) break;
       Faces better = grow_within(seed, axis);
+      const bool enough = better.size() <= faces.size() + faces.size() / 8;
       if (better.size() >= faces.size()) faces = std::move(better);
+      if (enough) break;
     }
     finish(faces);
   }
@@ -169,28 +182,26 @@ class Grower {
     for (const Triangle2& t : points)
       if (signed_area(t) < 0) return false;
     for (const std::uint32_t t : sorted) member_[t - first_] = true;
+    std::vector<SurfaceMesh::HalfedgeHandle> outline;
     std::vector<OutlineEdge> edges;
-    std::vector<std::pair<int, std::uint32_t>> from, to;  // vertex of the mesh, edge
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       for_neighbours(sorted[i] - first_, [&](int neighbour, SurfaceMesh::HalfedgeHandle edge) {
-        if (neighbour >= 0 && member_[static_cast<std::size_t>(neighbour)]) return;
+        if (is_member(neighbour)) return;
         const SurfaceMesh::Point& start = mesh_.point(mesh_.from_vertex_handle(edge));
         std::size_t k = 0;
         while (k < 2 && corner(sorted[i] - first_, static_cast<int>(k)) != DVec3(start[0], start[1], start[2])) ++k;
-        const auto index = static_cast<std::uint32_t>(edges.size());
-        from.emplace_back(mesh_.from_vertex_handle(edge).idx(), index);
-        to.emplace_back(mesh_.to_vertex_handle(edge).idx(), index);
+        edge_index_[static_cast<std::size_t>(edge.idx())] = static_cast<std::uint32_t>(edges.size());
+        outline.push_back(edge);
         edges.push_back({points[i][k], points[i][(k + 1) % 3], 0});
       });
     }
-    for (const std::uint32_t t : sorted) member_[t - first_] = false;
-    std::sort(from.begin(), from.end());
-    std::sort(to.begin(), to.end());
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const bool touches = i > 0 && from[i].first == from[i - 1].first;
-      if (touches || from[i].first != to[i].first) return false;
-      edges[to[i].second].next = from[i].second;
+      auto next = mesh_.next_halfedge_handle(outline[i]);  // turn around its end until the outline goes on
+      while (is_member(mesh_.opposite_face_handle(next).idx()))
+        next = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(next));
+      edges[i].next = edge_index_[static_cast<std::size_t>(next.idx())];
     }
+    for (const std::uint32_t t : sorted) member_[t - first_] = false;
     return is_simple_outline(edges);
   }
 
@@ -229,7 +240,8 @@ class Grower {
   std::vector<std::uint32_t> seeds_, state_;  // state_: by face
   std::vector<std::uint32_t> visit_;          // by face: the last growth that took it
   std::uint32_t round_ = 0;
-  std::vector<bool> member_;                  // by face: of the set at hand (all false between uses)
+  std::vector<bool> member_;               // by face: of the set at hand (all false between uses)
+  std::vector<std::uint32_t> edge_index_;  // by halfedge, of the outline at hand
   ChartSet out_;
 };
 

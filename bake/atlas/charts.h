@@ -21,11 +21,13 @@ struct ChartSet {
 
 // Charts of every triangle of a surface, front sides only: a lightmap serves both sides of a double-sided one.
 //  1. Flat regions of at least 64 texels² are charts of their own, exactly to scale. A patch whose surroundings go on
-//     smoothly (within four times the flat angle along most of its outline) is a part of something curved and is left to 2.
+//     smoothly (within four times the flat angle along most of its outline) is a part of something curved and is left
+//     to 2.
 //  2. The rest is grown outwards from its largest triangle, to all whose normals lie within the curved angle of the
-//     mean normal that a first growth found, and across no sharper edge; it is projected along that normal.
+//     mean normal that the growths before it found, and across no sharper edge; it is projected along its mean normal.
 //  3. A chart that overlaps itself when flat is halved in the order of its growth, down to single triangles if need be.
-// Deterministic: depends on the scene and the options only; incomplete once context.stopped(). texel_m: metres, the scale of 1 and of what overlap matters.
+// Deterministic: depends on the scene and the options only; incomplete once context.stopped(). texel_m: metres, the
+// scale of 1 and of what overlap matters.
 ChartSet grow_charts(const Scene& scene, const Surface& surface, const AtlasOptions& options, double texel_m,
                      const Context& context);
 

@@ -24,7 +24,8 @@ std::vector<DVec2> convex_hull(std::vector<DVec2> points) {
   if (points.size() < 3) return points;
   std::vector<DVec2> hull;
   const auto extend = [&](const DVec2& p, std::size_t keep) {
-    while (hull.size() >= keep + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+    while (hull.size() >= keep + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+      hull.pop_back();
     hull.push_back(p);
   };
   for (const DVec2& p : points) extend(p, 0);
@@ -35,7 +36,9 @@ std::vector<DVec2> convex_hull(std::vector<DVec2> points) {
 }
 
 // x and y of p along the direction d (unit) and its left normal.
-DVec2 rotated(const DVec2& p, const DVec2& d) { return {glm::dot(p, d), cross2(d, p)}; }
+DVec2 rotated(const DVec2& p, const DVec2& d) {
+  return {glm::dot(p, d), cross2(d, p)};
+}
 
 struct Box {
   DVec2 lower{0}, size{0};

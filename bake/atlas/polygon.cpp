@@ -8,10 +8,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kCrowd = 2048;        // triangles in a cell beyond which comparing all pairs takes too long
-constexpr std::size_t kCrowdReach = 256;    // and how many each is then compared with
+constexpr std::size_t kCrowd = 2048;      // triangles in a cell beyond which comparing all pairs takes too long
+constexpr std::size_t kCrowdReach = 256;  // and how many each is then compared with
 
-// Cells about as large as the mean triangle's share of the bounds.
+constexpr double kCellsAround = 16;  // that the mean triangle's sides may cross
+
+// Cells about as large as the mean triangle's share of the bounds, or larger for slivers.
 struct Grid {
   DVec2 lower{0};
   DVec2 cells_per_unit{0};
@@ -25,15 +27,19 @@ struct Grid {
 Grid make_grid(std::span<const Triangle2> triangles) {
   constexpr double kMax = std::numeric_limits<double>::max();
   DVec2 lower(kMax), upper(-kMax);
-  for (const Triangle2& t : triangles)
+  double sides = 0;
+  for (const Triangle2& t : triangles) {
     for (const DVec2& p : t) lower = glm::min(lower, p), upper = glm::max(upper, p);
+    sides += glm::length(t[1] - t[0]) + glm::length(t[2] - t[1]) + glm::length(t[0] - t[2]);
+  }
   Grid grid;
   grid.lower = lower;
   const DVec2 size = upper - lower;
   const auto n = static_cast<double>(triangles.size());
   const double longest = std::max(size.x, size.y);
   if (!(longest > 0)) return grid;
-  const double cell = std::max(std::sqrt(size.x * size.y / n), longest / std::min(n, 4096.0));
+  const double cell =
+      std::max({std::sqrt(size.x * size.y / n), longest / std::min(n, 4096.0), sides / n / kCellsAround});
   grid.nx = static_cast<int>(std::clamp(size.x / cell, 1.0, 4096.0));
   grid.ny = static_cast<int>(std::clamp(size.y / cell, 1.0, 4096.0));
   grid.cells_per_unit = {size.x > 0 ? grid.nx / size.x : 0, size.y > 0 ? grid.ny / size.y : 0};
@@ -55,13 +61,13 @@ class Cells {
   explicit Cells(std::span<const Triangle2> triangles) {
     const Grid grid = make_grid(triangles);
     first_.assign(static_cast<std::size_t>(grid.nx) * grid.ny + 1, 0);
-    for (const Triangle2& t : triangles)
-      for_each_cell(grid, t, [&](std::size_t cell) { ++first_[cell + 1]; });
+    for (const Triangle2& t : triangles) for_each_cell(grid, t, [&](std::size_t cell) { ++first_[cell + 1]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     members_.resize(first_.back());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t i = 0; i < triangles.size(); ++i)
-      for_each_cell(grid, triangles[i], [&](std::size_t cell) { members_[next[cell]++] = static_cast<std::uint32_t>(i); });
+      for_each_cell(grid, triangles[i],
+                    [&](std::size_t cell) { members_[next[cell]++] = static_cast<std::uint32_t>(i); });
   }
 
   // Calls test(i, j), i < j, for pairs that share a cell (some more than once) until it returns true.
@@ -82,7 +88,9 @@ class Cells {
   std::vector<std::uint32_t> members_;
 };
 
-Triangle2 counter_clockwise(const Triangle2& t) { return signed_area(t) >= 0 ? t : Triangle2{t[0], t[2], t[1]}; }
+Triangle2 counter_clockwise(const Triangle2& t) {
+  return signed_area(t) >= 0 ? t : Triangle2{t[0], t[2], t[1]};
+}
 
 // True where an edge of a has all of b outside it, or inside by no more than the thickness. Both counter-clockwise.
 bool separated(const Triangle2& a, const Triangle2& b, double thickness) {
@@ -144,7 +152,8 @@ std::optional<Overlap> overlap_of(const Triangle2& a, const Triangle2& b, const 
     if (a_hi <= b_lo || b_hi <= a_lo) return std::nullopt;
   }
   const Triangle2 first = counter_clockwise(a), second = counter_clockwise(b);
-  if (separated(first, second, tolerance.thickness) || separated(second, first, tolerance.thickness)) return std::nullopt;
+  if (separated(first, second, tolerance.thickness) || separated(second, first, tolerance.thickness))
+    return std::nullopt;
   ConvexPolygon common(first);
   for (std::size_t i = 0; i < 3 && common.count > 0; ++i) common = clip_line(common, second[i], second[(i + 1) % 3]);
   const double common_area = area(common);

@@ -28,9 +28,13 @@ struct ConvexPolygon {
   const DVec2& at(int i) const { return p[static_cast<std::size_t>(i)]; }
 };
 
-inline double cross2(const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; }
+inline double cross2(const DVec2& a, const DVec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
 // Positive for counter-clockwise in (x, y).
-inline double signed_area(const Triangle2& t) { return 0.5 * cross2(t[1] - t[0], t[2] - t[0]); }
+inline double signed_area(const Triangle2& t) {
+  return 0.5 * cross2(t[1] - t[0], t[2] - t[0]);
+}
 double area(const ConvexPolygon& polygon);  // >= 0
 
 // The part where p[axis] >= limit (sign = +1) or <= limit (sign = -1). New vertices lie on the limit exactly.
@@ -39,8 +43,8 @@ ConvexPolygon clip_axis(const ConvexPolygon& polygon, int axis, double limit, do
 // The part inside the unit square whose lowest corner is (x, y).
 ConvexPolygon clip_to_cell(const Triangle2& triangle, double x, double y);
 
-// The unit cells from first to last (inclusive) that an interval with lo <= hi touches by more than a point; an interval
-// of no length touches one. Clamped to [0, count).
+// The unit cells from first to last (inclusive) that an interval with lo <= hi touches by more than a point; an
+// interval of no length touches one. Clamped to [0, count).
 struct CellRange {
   int first = 0, last = 0;
 };
@@ -55,8 +59,8 @@ struct Interval {
 };
 Interval extent(const ConvexPolygon& polygon, int axis);
 
-// Calls visit(row, part) for each unit row of [0, rows), and of `window`, that the triangle touches, with the part of it in
-// that row. Every row between the triangle's lowest and highest point is visited, however thin the triangle.
+// Calls visit(row, part) for each unit row of [0, rows), and of `window`, that the triangle touches, with the part of
+// it in that row. Every row between the triangle's lowest and highest point is visited, however thin the triangle.
 template <class Visit>
 void for_each_row_between(const Triangle2& triangle, int rows, const CellRange& window, Visit&& visit) {
   const ConvexPolygon whole(triangle);
@@ -85,8 +89,8 @@ struct Overlap {
 };
 
 // Some pair of triangles with a common part, the same one in every run; none where there is no such pair. Winding
-// does not matter. Triangles thinner than the thickness overlap nothing. Where more than 2048 triangles meet in one cell
-// of the search grid (the tip of a cone), each is compared with the next 256 there.
+// does not matter. Triangles thinner than the thickness overlap nothing. Where more than 2048 triangles meet in one
+// cell of the search grid (the tip of a cone), each is compared with the next 256 there.
 std::optional<Overlap> find_overlap(std::span<const Triangle2> triangles, const OverlapTolerance& tolerance);
 
 // A directed edge of a closed outline.
@@ -97,7 +101,8 @@ struct OutlineEdge {
 
 // True where no two edges meet except each with its next, and exactly one loop runs counter-clockwise: the outline then
 // winds once around what it encloses. So a chart without turned-over triangles does not overlap itself: the
-// triangles over a point are as many as its outline winds around the point. False may also mean that it only touches itself.
+// triangles over a point are as many as its outline winds around the point. False may also mean that it only touches
+// itself.
 bool is_simple_outline(std::span<const OutlineEdge> edges);
 
 }  // namespace oriel

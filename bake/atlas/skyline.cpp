@@ -33,7 +33,8 @@ class Skyline {
   }
 
  private:
-  // The height at which a rectangle of width w comes to rest with its left side at step i; `enough` or more may be cut short.
+  // The height at which a rectangle of width w comes to rest with its left side at step i; `enough` or more may be cut
+  // short.
   std::uint32_t rest_height(std::size_t i, std::uint32_t w, std::uint32_t enough) const {
     std::uint32_t top = 0, covered = 0;
     for (; covered < w && top < enough; ++i) {

@@ -8,8 +8,8 @@
 namespace oriel {
 
 struct PackRect {
-  std::uint32_t width = 0, height = 0;           // texels, >= 1
-  std::uint32_t x = 0, y = 0, page = 0;          // the result
+  std::uint32_t width = 0, height = 0;   // texels, >= 1
+  std::uint32_t x = 0, y = 0, page = 0;  // the result
 };
 struct PackedPage {
   std::uint32_t width = 0, height = 0;  // the part in use

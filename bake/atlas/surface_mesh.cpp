@@ -13,9 +13,9 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kMaxFan = 512;    // corners at a vertex: OpenMesh's work at a vertex grows with their square
-constexpr double kFoldCos = -0.9;         // between normals: below it a surface folds back onto itself
-constexpr std::size_t kMaxUses = 64;      // of an edge; beyond it none of its triangles are joined
+constexpr std::uint32_t kMaxFan = 512;  // corners at a vertex: OpenMesh's work at a vertex grows with their square
+constexpr double kFoldCos = -0.9;       // between normals: below it a surface folds back onto itself
+constexpr std::size_t kMaxUses = 64;    // of an edge; beyond it none of its triangles are joined
 
 struct EdgeUse {
   std::uint32_t low, high;  // welded vertices
@@ -40,12 +40,16 @@ std::vector<std::uint32_t> weld(const Scene& scene, const Surface& surface) {
   return welded;
 }
 
-std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+std::uint32_t next_corner(std::uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 // Corners that will share a vertex: a forest with the size of each set, at most kMaxFan.
 class CornerSets {
  public:
-  explicit CornerSets(std::size_t count) : parent_(count), size_(count, 1) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit CornerSets(std::size_t count) : parent_(count), size_(count, 1) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -70,7 +74,9 @@ void join_edge(CornerSets& sets, const EdgeUse& a, const EdgeUse& b) {
 // Joins triangles across one edge, given all its uses: two by two, the most alike first.
 void pair_uses(std::span<const DVec3> normals, std::span<const EdgeUse> uses, CornerSets& sets) {
   if (uses.size() < 2 || uses.size() > kMaxUses) return;
-  const auto alike = [&](const EdgeUse& a, const EdgeUse& b) { return glm::dot(normals[a.corner / 3], normals[b.corner / 3]); };
+  const auto alike = [&](const EdgeUse& a, const EdgeUse& b) {
+    return glm::dot(normals[a.corner / 3], normals[b.corner / 3]);
+  };
   if (uses.size() == 2) {  // as nearly everywhere
     if (uses[0].forward != uses[1].forward && alike(uses[0], uses[1]) > kFoldCos) join_edge(sets, uses[0], uses[1]);
     return;

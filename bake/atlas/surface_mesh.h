@@ -17,10 +17,10 @@ struct SurfaceMeshTraits : OpenMesh::DefaultTraits {
 using SurfaceMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceMeshTraits>;
 
 // Vertices at the same position become one, so that triangles split only by their normals or texture coordinates are
-// neighbours. Any triangle soup gives a manifold: triangles of consistent winding are joined two by two at an edge, those
-// with the most alike normals first, and never where the surface folds back onto itself, so that the front and back of a
-// modelled sheet come apart; a vertex where several fans touch is split. A triangle with two corners in one place has no
-// neighbours.
+// neighbours. Any triangle soup gives a manifold: triangles of consistent winding are joined two by two at an edge,
+// those with the most alike normals first, and never where the surface folds back onto itself, so that the front and
+// back of a modelled sheet come apart; a vertex where several fans touch is split. A triangle with two corners in one
+// place has no neighbours.
 SurfaceMesh build_surface_mesh(const Scene& scene, const Surface& surface);
 
 // The unit normal (front side) and area of a triangle in double; the zero vector where it has no area.

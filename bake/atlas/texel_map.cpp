@@ -62,9 +62,10 @@ void fill_band(const Atlas& atlas, Band& band) {
   for (const std::uint32_t t : band.triangles) {
     const Triangle2 triangle = texel_triangle(atlas, t);
     const int first = static_cast<int>(band.first_row), end = static_cast<int>(band.end_row);
-    for_each_row_between(triangle, static_cast<int>(page.height), {first, end - 1}, [&](int row, const ConvexPolygon& part) {
-      add_row(t, row, part, static_cast<int>(page.width), band.rows[static_cast<std::size_t>(row - first)]);
-    });
+    for_each_row_between(
+        triangle, static_cast<int>(page.height), {first, end - 1}, [&](int row, const ConvexPolygon& part) {
+          add_row(t, row, part, static_cast<int>(page.width), band.rows[static_cast<std::size_t>(row - first)]);
+        });
   }
   for (auto& row : band.rows) {
     std::stable_sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.x < b.x; });
@@ -85,7 +86,8 @@ std::vector<Band> make_bands(const Atlas& atlas) {
     const auto p = static_cast<std::size_t>(atlas.page[t]);
     const Interval y = extent(ConvexPolygon(texel_triangle(atlas, t)), 1);
     const CellRange rows = touched_cells(y.lo, y.hi, static_cast<int>(atlas.pages[p].height));
-    for (std::size_t b = rows.first / kBandRows; b <= rows.last / kBandRows; ++b) bands[first_band[p] + b].triangles.push_back(t);
+    for (std::size_t b = rows.first / kBandRows; b <= rows.last / kBandRows; ++b)
+      bands[first_band[p] + b].triangles.push_back(t);
   }
   return bands;
 }
@@ -166,7 +168,7 @@ DVec2 sample_line(const Triangle2& t, const DVec2& cell, const DVec2& u) {
     lo = std::max(lo, std::min(s0, s1)), hi = std::min(hi, std::max(s0, s1));
   }
   if (lo > hi) lo = hi = std::clamp(0.5 * (lo + hi), 0.0, 1.0);
-  const double s = lo + (hi - lo) * u.x;                                         // along the longest side
+  const double s = lo + (hi - lo) * u.x;                                              // along the longest side
   const double corner = std::clamp(glm::dot(t[c] - t[a], side) / longest, 0.0, 1.0);  // where the third corner stands
   const double height = s < corner ? s / corner : (corner < 1 ? (1 - s) / (1 - corner) : 1);
   DVec3 weight(0);
@@ -205,7 +207,8 @@ Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& c
   std::vector<Band> bands = make_bands(atlas);
   ORIEL_TRY_VOID(parallel_for(context, "texels", bands.size(), [&](std::size_t b) { fill_band(atlas, bands[b]); }));
   std::vector<TexelMapPage> pages(atlas.pages.size());
-  for (std::size_t p = 0; p < pages.size(); ++p) pages[p].width = atlas.pages[p].width, pages[p].height = atlas.pages[p].height;
+  for (std::size_t p = 0; p < pages.size(); ++p)
+    pages[p].width = atlas.pages[p].width, pages[p].height = atlas.pages[p].height;
   for (Band& band : bands) append_band(band, pages[band.page]);
   for (TexelMapPage& page : pages) page.first.push_back(static_cast<std::uint32_t>(page.fragments.size()));
   return pages;
@@ -215,7 +218,9 @@ TexelPoint sample_texel(const Atlas& atlas, const TexelMapPage& page, std::size_
   const std::uint32_t begin = page.first[i], count = page.first[i + 1] - begin;
   double pick_u = u.z;
   std::size_t chosen = 0;
-  if (count > 1) chosen = pick(count, [&](std::size_t k) { return static_cast<double>(page.fragments[begin + k].area); }, pick_u);
+  if (count > 1)
+    chosen = pick(
+        count, [&](std::size_t k) { return static_cast<double>(page.fragments[begin + k].area); }, pick_u);
   const TexelFragment& fragment = page.fragments[begin + chosen];
   const DVec2 cell(page.texel[i] % page.width, page.texel[i] / page.width);
   const DVec2 w = sample_fragment(texel_triangle(atlas, fragment.triangle), cell, fragment.area == 1, DVec2(u), pick_u);

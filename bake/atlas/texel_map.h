@@ -14,8 +14,8 @@ struct TexelFragment {
 // The covered texels of one page, in order of (y, x).
 struct TexelMapPage {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint32_t> texel;         // y * width + x of each covered texel
-  std::vector<std::uint32_t> first;         // texel.size() + 1 entries: its fragments are [first[i], first[i+1])
+  std::vector<std::uint32_t> texel;  // y * width + x of each covered texel
+  std::vector<std::uint32_t> first;  // texel.size() + 1 entries: its fragments are [first[i], first[i+1])
   std::vector<TexelFragment> fragments;
 };
 

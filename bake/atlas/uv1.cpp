@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr float kSlack = 1e-6f;
-constexpr double kThinTexels = 1e-3;      // what rounding of float coordinates may do between neighbours
+constexpr double kThinTexels = 1e-3;  // what rounding of float coordinates may do between neighbours
 constexpr double kOverlapTexels2 = 1e-4;
 constexpr double kNegligibleShare = 1e-6;  // of a surface's area may lie in triangles without area on the page
 constexpr double kFlatRatio = 1e-9;        // twice the area over the longest side squared: a line
@@ -28,16 +28,17 @@ Status check_range(const Scene& scene, const Surface& surface) {
       const Vec2& uv = scene.uv1[scene.triangles[t][k]];
       const bool inside = uv.x >= -kSlack && uv.x <= 1 + kSlack && uv.y >= -kSlack && uv.y <= 1 + kSlack;
       if (!inside)
-        return invalid(name_of(surface), "TEXCOORD_1 ({}, {}) found at triangle {}; expected lightmap coordinates in [0, 1]",
-                       uv.x, uv.y, t - surface.first_triangle);
+        return invalid(name_of(surface),
+                       "TEXCOORD_1 ({}, {}) found at triangle {}; expected lightmap coordinates in [0, 1]", uv.x, uv.y,
+                       t - surface.first_triangle);
     }
   }
   return {};
 }
 
 bool has_area(const Triangle2& t) {
-  const double longest =
-      std::max({glm::dot(t[1] - t[0], t[1] - t[0]), glm::dot(t[2] - t[1], t[2] - t[1]), glm::dot(t[0] - t[2], t[0] - t[2])});
+  const double longest = std::max(
+      {glm::dot(t[1] - t[0], t[1] - t[0]), glm::dot(t[2] - t[1], t[2] - t[1]), glm::dot(t[0] - t[2], t[0] - t[2])});
   return 2 * std::abs(signed_area(t)) > kFlatRatio * longest;
 }
 
@@ -60,8 +61,8 @@ Status check_area(const Scene& scene, const Surface& surface, const Atlas& atlas
   if (count == 0) return {};
   if (lost > kNegligibleShare * total)
     return invalid(name_of(surface),
-                   "{} of {} triangles ({:.3g} m²) have no area in TEXCOORD_1; expected a place of its own for each", count,
-                   surface.triangle_count, lost);
+                   "{} of {} triangles ({:.3g} m²) have no area in TEXCOORD_1; expected a place of its own for each",
+                   count, surface.triangle_count, lost);
   context.warning(fmt::format("{}: {} slivers ({:.3g} m²) have no area in TEXCOORD_1; they show the nearest texel",
                               name_of(surface), count, lost));
   return {};
@@ -83,7 +84,8 @@ Status check_overlap(const Scene& scene, const std::vector<std::uint32_t>& surfa
   if (!found) return {};
   const Surface &a = scene.surfaces[owner[found->a]], &b = scene.surfaces[owner[found->b]];
   const DVec2 uv = found->where / DVec2(atlas.pages[0].width, atlas.pages[0].height);
-  const std::string place = fmt::format("at uv ({:.5f}, {:.5f}), {:.3g} texels² of one pair of triangles", uv.x, uv.y, found->area);
+  const std::string place =
+      fmt::format("at uv ({:.5f}, {:.5f}), {:.3g} texels² of one pair of triangles", uv.x, uv.y, found->area);
   constexpr const char* kExpected = "expected every triangle to own its texels";
   if (&a == &b) return invalid(name_of(a), "TEXCOORD_1 overlaps itself {}; {}", place, kExpected);
   std::string hint;

@@ -3,11 +3,60 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
+
 namespace oriel {
 namespace {
 
 bool starts_with(std::span<const std::byte> bytes, std::string_view magic, std::size_t at = 0) {
   return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+}
+
+std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint32_t>(bytes[at + i]);
+  return value;
+}
+
+// ISO 3309, as PNG's chunks carry it.
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+  static const auto table = [] {
+    std::array<std::uint32_t, 256> t{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      t[i] = i;
+      for (int k = 0; k < 8; ++k) t[i] = t[i] & 1 ? 0xEDB88320u ^ t[i] >> 1 : t[i] >> 1;
+    }
+    return t;
+  }();
+  std::uint32_t crc = ~0u;
+  for (const std::byte b : bytes) crc = table[(crc ^ static_cast<std::uint32_t>(b)) & 0xFF] ^ crc >> 8;
+  return ~crc;
+}
+
+// The PNG with the chunks that make its pixels and no others: glTF ignores colour profiles and gamma, and libpng would
+// print what it thinks of them, and of damage, to stderr. Damage is found here.
+Result<Bytes> essential_png(std::span<const std::byte> bytes, const std::string& name) {
+  Bytes out(bytes.begin(), bytes.begin() + 8);
+  for (std::size_t at = 8; at < bytes.size();) {
+    if (bytes.size() - at < 12)
+      return invalid(name, "found {} bytes at {} of a PNG, expected a chunk of at least 12", bytes.size() - at, at);
+    const std::uint64_t size = big_endian(bytes, at);
+    if (size > bytes.size() - at - 12)
+      return invalid(name, "found a PNG chunk of {} bytes at {}, expected at most {}", size, at,
+                     bytes.size() - at - 12);
+    const auto chunk = bytes.subspan(at + 4, size + 4);
+    if (crc32(chunk) != big_endian(bytes, at + 8 + size))
+      return invalid(name, "found a damaged PNG chunk at byte {}, expected its checksum to hold", at);
+    const bool header = starts_with(chunk, "IHDR"), end = starts_with(chunk, "IEND");
+    if (header != (at == 8) || (header && size != 13))
+      return invalid(name, "found a PNG that does not start with one IHDR chunk of 13 bytes, expected it to");
+    if (header || end || starts_with(chunk, "PLTE") || starts_with(chunk, "tRNS") || starts_with(chunk, "IDAT"))
+      out.insert(out.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + size + 12));
+    if (end) return out;
+    at += size + 12;
+  }
+  return invalid(name, "found a PNG without IEND, expected one");
 }
 
 // What else artists put there.
@@ -34,7 +83,8 @@ void spread(std::vector<std::uint8_t>& texels, std::size_t count, int channels) 
 
 // An open reader and what it reads from.
 struct Reader {
-  explicit Reader(std::span<const std::byte> bytes) : memory(const_cast<std::byte*>(bytes.data()), bytes.size()) {}
+  explicit Reader(Bytes&& source) : bytes(std::move(source)), memory(bytes.data(), bytes.size()) {}
+  Bytes bytes;
   OIIO::Filesystem::IOMemReader memory;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
@@ -44,7 +94,13 @@ Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std
   const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n");
   if (!png && !starts_with(bytes, "\xFF\xD8\xFF"))
     return invalid(name, "found {}, expected PNG or JPEG", bytes.empty() ? "no data" : foreign_format(bytes));
-  auto reader = std::make_unique<Reader>(bytes);
+  Bytes source;
+  if (png) {
+    ORIEL_TRY(source, essential_png(bytes, name));
+  } else {
+    source.assign(bytes.begin(), bytes.end());
+  }
+  auto reader = std::make_unique<Reader>(std::move(source));
   OIIO::ImageSpec config;
   OIIO::Filesystem::IOProxy* proxy = &reader->memory;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);

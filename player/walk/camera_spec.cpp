@@ -1,5 +1,6 @@
 #include "player/walk/camera_spec.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -79,7 +80,9 @@ Result<Camera> parse_camera(std::string_view text, const CameraChoices& choices)
   if (const std::size_t split = text.rfind('@'); split != std::string_view::npos) {
     const auto time = number(text.substr(split + 1));
     for (const CameraPath& path : choices.paths) {
-      if (time && path.name == text.substr(0, split)) return camera_on_path(path, static_cast<float>(*time));
+      if (time && path.name == text.substr(0, split)) {
+        return camera_on_path(path, static_cast<float>(std::clamp(*time, -1e9, 1e9)));
+      }
     }
     return unknown(text, choices);
   }

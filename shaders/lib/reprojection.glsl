@@ -17,5 +17,10 @@ vec2 screen_step(vec4 clip, vec4 clip_step, vec2 viewport) {
   return 0.5 * viewport * (clip_step.xy * clip.w - clip.xy * clip_step.w) / (clip.w * clip.w);
 }
 
+// The same for the depth in the depth buffer, [0,1].
+float depth_step(vec4 clip, vec4 clip_step) {
+  return 0.5 * (clip_step.z * clip.w - clip.z * clip_step.w) / (clip.w * clip.w);
+}
+
 // Side of the smallest axis-aligned square whose copies at the lattice of a and b leave no gap.
 float covering_size(vec2 a, vec2 b) { return max(abs(a.x) + abs(b.x), abs(a.y) + abs(b.y)); }

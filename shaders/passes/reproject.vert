@@ -17,10 +17,28 @@ uniform float u_closest;  // 1 / distance is never stored smaller: marks the sky
 uniform float u_ortho;    // 1: distances run along the view direction
 uniform vec4 u_depth_row; // view-space -z of a mirrored point = dot(row, point)
 flat out vec4 v_light;
+flat out vec4 v_cell;  // offsets on the screen, as shares of the point's size, to the map's lattice: columns
+flat out vec3 v_depth;   // of the point, and its change along the lattice
+flat out vec2 v_margin;  // half a cell and a little, so that neighbours leave no cracks
 
 const float kConnected = 0.2;  // neighbours whose disparities differ by less, relatively, lie on one surface
 const float kStretch = 3.0;    // a surface seen steeply by the map is magnified by at most this over eq. (3)
+const float kOverlap = 0.4;  // pixels
 const float kBias = 0.03;      // a point seen by its map from one radian off loses against points 3 % farther away
+
+// Change of the disparity over one pixel along an axis of the map (x), from the next pixel or the one before, if that lies
+// on the same surface (y: 1).
+vec2 slope(ivec2 pixel, ivec2 axis, float disparity) {
+  for (int side = 1; side >= -1; side -= 2) {
+    ivec2 at = pixel + side * axis;
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, u_map_size))) continue;
+    float next = texelFetch(u_map, at, 0).a;
+    if (next >= 0.0 && abs(next - disparity) < kConnected * max(next, disparity)) {
+      return vec2(float(side) * (next - disparity), 1.0);
+    }
+  }
+  return vec2(0.0);
+}
 
 void main() {
   ivec2 cell = ivec2(gl_VertexID % u_columns, gl_VertexID / u_columns);
@@ -29,6 +47,9 @@ void main() {
   gl_Position = vec4(0.0, 0.0, 2.0, 1.0);  // outside
   gl_PointSize = 1.0;
   v_light = vec4(0.0);
+  v_cell = vec4(0.0);
+  v_margin = vec2(0.0);
+  v_depth = vec3(1.0, 0.0, 0.0);
   if (texel.a < 0.0) return;
 
   vec2 pixel_size = (u_upper - u_lower) / vec2(u_map_size);
@@ -42,27 +63,39 @@ void main() {
   vec4 clip = u_clip_from_mirrored * vec4(point.xyz + bias * u_bias_scale * from_eye, point.w);
   if (clip.w <= 0.0) return;
 
-  // Eq. (3) is the pixel's step at the point's own depth; where the next pixels lie on the same surface, their depths give
-  // the step along it.
-  float next_x = texelFetch(u_map, ivec2(min(pixel.x + 1, u_map_size.x - 1), pixel.y), 0).a;
-  float next_y = texelFetch(u_map, ivec2(pixel.x, min(pixel.y + 1, u_map_size.y - 1)), 0).a;
+  // Eq. (3) is the pixel's step at the point's own depth; where neighbours lie on the same surface, their depths give the
+  // step along it.
   vec4 flat_clip = u_clip_from_mirrored * point;
   vec4 step_x = u_clip_from_mirrored * map_point_step(u_map_eye, vec2(pixel_size.x, 0.0), 0.0);
   vec4 step_y = u_clip_from_mirrored * map_point_step(u_map_eye, vec2(0.0, pixel_size.y), 0.0);
   float size = covering_size(screen_step(flat_clip, step_x, u_viewport), screen_step(flat_clip, step_y, u_viewport));
-  bool same_x = next_x >= 0.0 && abs(next_x - texel.a) < kConnected * max(texel.a, next_x);
-  bool same_y = next_y >= 0.0 && abs(next_y - texel.a) < kConnected * max(texel.a, next_y);
-  if (same_x) step_x += u_clip_from_mirrored * vec4(u_map_eye, 1.0) * (next_x - texel.a);
-  if (same_y) step_y += u_clip_from_mirrored * vec4(u_map_eye, 1.0) * (next_y - texel.a);
+  vec2 slope_x = slope(pixel, ivec2(1, 0), texel.a);
+  vec2 slope_y = slope(pixel, ivec2(0, 1), texel.a);
+  vec4 along_ray = u_clip_from_mirrored * vec4(u_map_eye, 1.0);
+  step_x += along_ray * slope_x.x;
+  step_y += along_ray * slope_y.x;
   vec2 dx = screen_step(flat_clip, step_x, u_viewport);
   vec2 dy = screen_step(flat_clip, step_y, u_viewport);
+  float area = dx.x * dy.y - dx.y * dy.x;
   // A surface that its map saw from the front and the eye would see from behind is not there for the eye.
-  if (same_x && same_y && dx.x * dy.y - dx.y * dy.x < -0.05 * size * size) return;
-  size = clamp(covering_size(dx, dy), size, kStretch * size) * float(u_step);
+  if (slope_x.y * slope_y.y > 0.0 && area < -0.05 * size * size) return;
+  // The cell of the lattice that this point stands for, no longer than kStretch.
+  float longest = float(u_step) * min(1.0, kStretch * size / max(max(length(dx), length(dy)), 1e-30));
+  v_depth.y = longest * depth_step(flat_clip, step_x);
+  v_depth.z = longest * depth_step(flat_clip, step_y);
+  dx *= longest;
+  dy *= longest;
+  area = dx.x * dy.y - dx.y * dy.x;
+  float least = 1e-3 * length(dx) * length(dy) + 1e-12;
+  area = abs(area) < least ? (area < 0.0 ? -least : least) : area;
+  vec4 to_cell = vec4(dy.y, -dx.y, -dy.x, dx.x) / area;
+  v_margin = 0.5 + kOverlap * vec2(abs(to_cell.x) + abs(to_cell.z), abs(to_cell.y) + abs(to_cell.w));
+  gl_PointSize = clamp(covering_size(dx, dy) + 2.0 * kOverlap, 1.0, u_point_max);
+  v_cell = to_cell * gl_PointSize;
 
   clip.z = min(clip.z, clip.w * 0.9999999);  // the sky is never beyond the far plane
   gl_Position = clip;
-  gl_PointSize = clamp(size + 0.5, 1.0, u_point_max);
+  v_depth.x = 0.5 + 0.5 * clip.z / clip.w;
   float distance_inverse = point.w / max(away, 1e-30);
   if (u_ortho > 0.5) distance_inverse = point.w / max(dot(u_depth_row, point), 1e-30);
   v_light = vec4(texel.rgb, clamp(distance_inverse, u_closest, 1e18));

@@ -1,7 +1,7 @@
 // Packs in memory and in files: what goes in comes out, within the errors that docs/format.md states.
 #include <gtest/gtest.h>
 
-#include <cfenv>
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -215,6 +215,30 @@ TEST(PackFile, ReadsWhatItWrote) {
   const auto read = read_pack(path);
   ASSERT_TRUE(read) << read.error().text();
   EXPECT_EQ(read->lightmaps.size(), 1u);
+}
+
+// A file of format version 1 that was written when the version was made. It must stay readable for ever; if this test
+// fails, the format has changed and needs a new version. Compressed bytes may differ between versions of zstd, so the
+// sections are compared as they are after decompression.
+TEST(PackFile, VersionOneStaysReadable) {
+  const auto file = read_file(std::filesystem::path(ORIEL_SOURCE_DIR) / "tests/formats/golden/tiny-v1.oriel");
+  ASSERT_TRUE(file) << file.error().text();
+  const auto pack = decode_pack(*file);
+  ASSERT_TRUE(pack) << pack.error().text();
+  EXPECT_TRUE(validate(*pack).empty());
+  for (const auto& source : {*pack, tiny_pack()}) {
+    const auto bytes = encode_pack(source);
+    ASSERT_TRUE(bytes) << bytes.error().text();
+    const auto golden = *read_index(*file), now = *read_index(*bytes);
+    ASSERT_EQ(golden.sections.size(), now.sections.size());
+    for (std::size_t i = 0; i < now.sections.size(); ++i) {
+      EXPECT_EQ(golden.sections[i].kind, now.sections[i].kind);
+      if (!find_section_kind(now.sections[i].kind)) continue;
+      const auto a = section_bytes(*file, golden.sections[i]), b = section_bytes(*bytes, now.sections[i]);
+      ASSERT_TRUE(a && b);
+      EXPECT_TRUE(std::ranges::equal(a->span(), b->span())) << now.sections[i].label;
+    }
+  }
 }
 
 TEST(PackFile, FailedWriteLeavesTheOldFile) {

@@ -31,7 +31,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/inspect"] = plus(assets, {"formats/pack", "formats/image"});
   m["bake/jobs"] = core;
   m["bake/scene"] = plus(assets, {"bake/jobs"});
-  m["bake/trace"] = plus(m["bake/scene"], {"bake/scene"});
+  m["bake/scene/gltf"] = plus(assets, {"bake/jobs", "bake/scene"});  // the file format apart from the scene
+  m["bake/scene"].insert("bake/scene/gltf");
+  m["bake/trace"] = plus(assets, {"bake/jobs", "bake/scene"});
   m["bake/atlas"] = m["bake/trace"];
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"}) m[name] = stage;
@@ -43,7 +45,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/scene"] = plus(assets, {"formats/pack", "player/gpu"});
   m["player/passes"] = plus(m["player/scene"], {"player/scene"});
   m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
-  m["scenes"] = core;
+  m["scenes/kit"] = core;
+  m["scenes"] = plus(core, {"scenes/kit"});
   return m;
 }();
 

@@ -65,7 +65,8 @@ inline std::size_t texel_count(const std::vector<TexelMapPage>& map) {
   return sum;
 }
 
-// Every lit triangle has a place, finite coordinates and at least one texel; no two charts share one; order is kept.
+// Every lit triangle has a place, finite coordinates and at least one texel; no two charts share one and no chart
+// covers one twice; order is kept.
 inline void expect_sound(const Scene& scene, const Built& built) {
   const Atlas& atlas = built.atlas;
   ASSERT_EQ(atlas.page.size(), scene.triangles.size());
@@ -81,6 +82,7 @@ inline void expect_sound(const Scene& scene, const Built& built) {
         ASSERT_LT(page.texel[i - 1], page.texel[i]);
       }
       ASSERT_LT(page.first[i], page.first[i + 1]);
+      double covered = 0;
       for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) {
         const TexelFragment& fragment = page.fragments[f];
         if (f > page.first[i]) {
@@ -90,7 +92,9 @@ inline void expect_sound(const Scene& scene, const Built& built) {
         ASSERT_LE(fragment.area, 1.0f);
         ASSERT_EQ(atlas.page[fragment.triangle], static_cast<int>(p));
         seen[fragment.triangle] = true;
+        covered += static_cast<double>(fragment.area);
       }
+      ASSERT_LT(covered, 1.01) << "texel " << page.texel[i] << " of page " << p << " is covered twice";
     }
   }
   std::set<std::uint32_t> charts;

@@ -23,12 +23,14 @@ TEST(Polygon, CellsTouched) {
 
 TEST(Polygon, OverlapOfKnownArea) {
   const OverlapTolerance tolerance{1e-4, 1e-3};
-  const std::vector<Triangle2> crossing{{DVec2(0, 0), DVec2(4, 0), DVec2(0, 4)}, {DVec2(1, 1), DVec2(1, -9), DVec2(-9, 1)}};
+  const std::vector<Triangle2> crossing{{DVec2(0, 0), DVec2(4, 0), DVec2(0, 4)},
+                                        {DVec2(1, 1), DVec2(1, -9), DVec2(-9, 1)}};
   const auto found = find_overlap(crossing, tolerance);
   ASSERT_TRUE(found.has_value());
   EXPECT_NEAR(found->area, 1.0, 1e-12);
   EXPECT_NEAR(found->where.x, 0.5, 0.3);
-  const std::vector<Triangle2> adjacent{{DVec2(0, 0), DVec2(4, 0), DVec2(0, 4)}, {DVec2(4, 0), DVec2(4, 4), DVec2(0, 4)}};
+  const std::vector<Triangle2> adjacent{{DVec2(0, 0), DVec2(4, 0), DVec2(0, 4)},
+                                        {DVec2(4, 0), DVec2(4, 4), DVec2(0, 4)}};
   EXPECT_FALSE(find_overlap(adjacent, tolerance).has_value());
   const std::vector<Triangle2> same{adjacent[0], adjacent[0]};
   EXPECT_TRUE(find_overlap(same, tolerance).has_value());
@@ -56,10 +58,38 @@ TEST(Polygon, OverlapAmongMany) {
   EXPECT_EQ(found->a, 2u * (20 * 60 + 33) + 1);
 }
 
+std::vector<OutlineEdge> loops(const std::vector<std::vector<DVec2>>& corners) {
+  std::vector<OutlineEdge> edges;
+  for (const auto& loop : corners) {
+    const auto base = static_cast<std::uint32_t>(edges.size()), n = static_cast<std::uint32_t>(loop.size());
+    for (std::uint32_t i = 0; i < n; ++i) edges.push_back({loop[i], loop[(i + 1) % n], base + (i + 1) % n});
+  }
+  return edges;
+}
+
+std::vector<DVec2> square(double x, double y, double side) {
+  return {DVec2(x, y), DVec2(x + side, y), DVec2(x + side, y + side), DVec2(x, y + side)};
+}
+
+TEST(Polygon, SimpleOutlines) {
+  const auto reversed = [](std::vector<DVec2> v) { return std::vector<DVec2>(v.rbegin(), v.rend()); };
+  EXPECT_TRUE(is_simple_outline(loops({square(0, 0, 4)})));
+  EXPECT_TRUE(is_simple_outline(loops({square(0, 0, 4), reversed(square(1, 1, 1))})));             // a hole
+  EXPECT_FALSE(is_simple_outline(loops({square(0, 0, 4), square(1, 1, 1)})));                      // two sheets
+  EXPECT_FALSE(is_simple_outline(loops({square(0, 0, 4), reversed(square(3, 3, 3))})));            // crossing
+  EXPECT_FALSE(is_simple_outline(loops({reversed(square(0, 0, 4))})));                             // the back
+  EXPECT_FALSE(is_simple_outline(loops({{DVec2(0, 0), DVec2(4, 4), DVec2(4, 0), DVec2(0, 3)}})));  // a figure of eight
+  // Twice around: the inner turn lies within the outer one.
+  EXPECT_FALSE(is_simple_outline(loops(
+      {{DVec2(0, 0), DVec2(9, 0), DVec2(9, 9), DVec2(1, 9), DVec2(1, 1), DVec2(8, 1), DVec2(8, 8), DVec2(0, 8)}})));
+}
+
 TEST(Skyline, NothingOverlapsAndPaddingHolds) {
   std::vector<PackRect> rects;
   std::uint32_t state = 99;
-  const auto random = [&](std::uint32_t n) { return (state = state * 1664525u + 1013904223u) % 65536u * n / 65536u + 1; };
+  const auto random = [&](std::uint32_t n) {
+    return (state = state * 1664525u + 1013904223u) % 65536u * n / 65536u + 1;
+  };
   for (int i = 0; i < 500; ++i) rects.push_back({random(40), random(25), 0, 0, 0});
   const auto pages = pack_rects(rects, {128, 100, 2, 1000});
   ASSERT_GT(pages.size(), 1u);
@@ -69,8 +99,8 @@ TEST(Skyline, NothingOverlapsAndPaddingHolds) {
     ASSERT_LE(a.y + a.height, pages[a.page].height);
     for (std::size_t j = 0; j < i; ++j) {
       const PackRect& b = rects[j];
-      ASSERT_TRUE(a.page != b.page || a.x + a.width + 2 <= b.x || b.x + b.width + 2 <= a.x || a.y + a.height + 2 <= b.y ||
-                  b.y + b.height + 2 <= a.y);
+      ASSERT_TRUE(a.page != b.page || a.x + a.width + 2 <= b.x || b.x + b.width + 2 <= a.x ||
+                  a.y + a.height + 2 <= b.y || b.y + b.height + 2 <= a.y);
     }
   }
   for (const PackedPage& page : pages) EXPECT_TRUE(page.width <= 128 && page.height <= 100);

@@ -79,11 +79,11 @@ inline Surface& add_box(Scene& scene, const std::string& name, const Vec3& lower
 
 inline Surface& add_icosphere(Scene& scene, const std::string& name, float radius, int subdivisions) {
   const float g = (1 + std::sqrt(5.0f)) / 2;
-  std::vector<Vec3> p{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  std::vector<UVec3> t{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                       {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Vec3> p{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<UVec3> t{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int s = 0; s < subdivisions; ++s) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
     const auto mid = [&](std::uint32_t a, std::uint32_t b) {
@@ -110,7 +110,8 @@ inline Surface& add_cylinder(Scene& scene, const std::string& name, float radius
   for (std::uint32_t r = 0; r <= rings; ++r)
     for (std::uint32_t i = 0; i < sides; ++i) {
       const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(sides);
-      p.push_back({radius * std::cos(a), height * static_cast<float>(r) / static_cast<float>(rings), -radius * std::sin(a)});
+      p.push_back(
+          {radius * std::cos(a), height * static_cast<float>(r) / static_cast<float>(rings), -radius * std::sin(a)});
     }
   for (std::uint32_t r = 0; r < rings; ++r)
     for (std::uint32_t i = 0; i < sides; ++i) {
@@ -122,7 +123,8 @@ inline Surface& add_cylinder(Scene& scene, const std::string& name, float radius
 }
 
 // A ramp that winds upwards `turns` times: each turn lies above the one before.
-inline Surface& add_spiral(Scene& scene, const std::string& name, float inner, float outer, int turns, int steps_a_turn) {
+inline Surface& add_spiral(Scene& scene, const std::string& name, float inner, float outer, int turns,
+                           int steps_a_turn) {
   std::vector<Vec3> p;
   std::vector<UVec3> t;
   for (int i = 0; i <= turns * steps_a_turn; ++i) {

@@ -11,7 +11,9 @@ namespace {
 
 class Random {
  public:
-  float next() { return static_cast<float>((state_ = state_ * 6364136223846793005u + 1442695040888963407u) >> 40) * 0x1p-24f; }
+  float next() {
+    return static_cast<float>((state_ = state_ * 6364136223846793005u + 1442695040888963407u) >> 40) * 0x1p-24f;
+  }
   Vec3 next3() {
     const float x = next(), y = next(), z = next();
     return {x, y, z};
@@ -28,7 +30,8 @@ Atlas hand_made(std::uint32_t n, const std::vector<Triangle2>& triangles) {
   for (const Triangle2& t : triangles) {
     atlas.page.push_back(0);
     atlas.chart.push_back(0);
-    atlas.uv.push_back({Vec2(t[0] / static_cast<double>(n)), Vec2(t[1] / static_cast<double>(n)), Vec2(t[2] / static_cast<double>(n))});
+    atlas.uv.push_back({Vec2(t[0] / static_cast<double>(n)), Vec2(t[1] / static_cast<double>(n)),
+                        Vec2(t[2] / static_cast<double>(n))});
   }
   atlas.chart_count = 1;
   return atlas;
@@ -68,7 +71,8 @@ TEST(TexelMap, NoTouchedTexelIsMissed) {
     Triangle2 t;
     const DVec2 middle = DVec2(random.next(), random.next()) * 16.0;
     for (DVec2& p : t)
-      p = glm::clamp(middle + DVec2(random.next() - 0.5, random.next() - 0.5) * std::pow(10.0, 1 - n % 5), DVec2(0), DVec2(16));
+      p = glm::clamp(middle + DVec2(random.next() - 0.5, random.next() - 0.5) * std::pow(10.0, 1 - n % 5), DVec2(0),
+                     DVec2(16));
     const Atlas atlas = hand_made(16, {t});
     const auto map = map_of(atlas);
     const std::set<std::uint32_t> covered(map[0].texel.begin(), map[0].texel.end());
@@ -80,7 +84,8 @@ TEST(TexelMap, NoTouchedTexelIsMissed) {
 }
 
 TEST(TexelMap, TouchingABorderCoversNothingBeyond) {
-  const auto map = map_of(hand_made(8, {{DVec2(2, 2), DVec2(4, 2), DVec2(4, 4)}, {DVec2(2, 2), DVec2(4, 4), DVec2(2, 4)}}));
+  const auto map =
+      map_of(hand_made(8, {{DVec2(2, 2), DVec2(4, 2), DVec2(4, 4)}, {DVec2(2, 2), DVec2(4, 4), DVec2(2, 4)}}));
   EXPECT_EQ(map[0].texel, (std::vector<std::uint32_t>{18, 19, 26, 27}));
 }
 
@@ -117,7 +122,8 @@ Moments moments(const ConvexPolygon& polygon) {
 
 TEST(TexelSample, UniformOverAllFragmentsOfATexel) {
   // Three triangles of different shape share texel (2, 2) with a gap between them.
-  const Atlas atlas = hand_made(8, {{DVec2(2, 2), DVec2(2.7, 2), DVec2(2, 2.9)}, {DVec2(2.1, 3), DVec2(3, 2.2), DVec2(5, 5)},
+  const Atlas atlas = hand_made(8, {{DVec2(2, 2), DVec2(2.7, 2), DVec2(2, 2.9)},
+                                    {DVec2(2.1, 3), DVec2(3, 2.2), DVec2(5, 5)},
                                     {DVec2(2.75, 2.02), DVec2(2.98, 2.05), DVec2(2.9, 2.15)}});
   const auto map = map_of(atlas);
   const auto it = std::find(map[0].texel.begin(), map[0].texel.end(), 18u);
@@ -142,7 +148,8 @@ TEST(TexelSample, UniformOverAllFragmentsOfATexel) {
     const TexelPoint point = sample_texel(atlas, map[0], texel, random.next3());
     const DVec2 p = on_page(atlas, point);
     ASSERT_TRUE(p.x > 2 - 1e-6 && p.x < 3 + 1e-6 && p.y > 2 - 1e-6 && p.y < 3 + 1e-6);
-    ASSERT_TRUE(point.barycentric.x >= 0 && point.barycentric.y >= 0 && point.barycentric.x + point.barycentric.y <= 1.000001f);
+    ASSERT_TRUE(point.barycentric.x >= 0 && point.barycentric.y >= 0 &&
+                point.barycentric.x + point.barycentric.y <= 1.000001f);
     mean += p / static_cast<double>(kCount);
     counted[point.triangle] += 1.0 / kCount;
     bins[(p.x > 2.5) + 2 * (p.y > 2.5)] += 1.0 / kCount;
@@ -169,7 +176,8 @@ TEST(TexelSample, WholeTexelOfAWall) {
   for (std::size_t i = 0; i < built.map[0].texel.size(); i += 7) {
     const DVec2 cell(built.map[0].texel[i] % built.map[0].width, built.map[0].texel[i] / built.map[0].width);
     DVec2 mean(0);
-    for (int n = 0; n < 4000; ++n) mean += on_page(built.atlas, sample_texel(built.atlas, built.map[0], i, random.next3())) / 4000.0;
+    for (int n = 0; n < 4000; ++n)
+      mean += on_page(built.atlas, sample_texel(built.atlas, built.map[0], i, random.next3())) / 4000.0;
     EXPECT_NEAR(mean.x - cell.x, 0.5, 0.03);
     EXPECT_NEAR(mean.y - cell.y, 0.5, 0.03);
   }

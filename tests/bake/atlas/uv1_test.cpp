@@ -109,12 +109,13 @@ TEST(Uv1, OutsideThePage) {
 
 TEST(Uv1, WithoutArea) {
   Scene scene = shapes::empty_scene();
-  add(scene, "flat", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {{0, 0}, {0, 0}, {0, 0}, {0.5f, 0.5f}});
+  add(scene, "flat", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}},
+      {{0, 0}, {0, 0}, {0, 0}, {0.5f, 0.5f}});
   EXPECT_THAT(build_error(scene, uv1_options()).text(), AllOf(HasSubstr("'flat'"), HasSubstr("2 of 2 triangles")));
 
   Scene slivers = shapes::empty_scene();
-  add(slivers, "wall", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 1e-8f, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}},
-      {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5f, 0}});
+  add(slivers, "wall", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 1e-8f, 0}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5f, 0}});
   const Built built = build(slivers, uv1_options());
   expect_sound(slivers, built);
   ASSERT_EQ(built.warnings.size(), 1u);

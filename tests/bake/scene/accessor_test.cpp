@@ -48,7 +48,7 @@ TEST(Accessor, BoundsAreCheckedWithoutOverflow) {
 
 TEST(Accessor, ZerosWithoutBytesAreBounded) {
   Gltf g;
-  g.doc["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1'000'000'000'000}});
+  g.doc["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 100'000'000}});
   g.add({{"attributes", {{"POSITION", 0}}}});
   expect_refused(g, "without a bufferView");
 }
@@ -94,7 +94,7 @@ TEST(Accessor, InterleavedNormalizedAndSparse) {
   g.doc["accessors"][0]["sparse"]["count"] = 4;
   expect_refused(g, "sparse");
   g.doc["accessors"][0]["sparse"]["count"] = 2;
-  expect_refused(g, "do not fit");  // overrun of one index byte
+  expect_refused(g, "inside of bufferView");  // overrun of one index byte
   g.doc["accessors"][0]["sparse"]["count"] = 1;
   g.buffer.back() = 3;  // index 3 of 3
   expect_refused(g, "sparse.indices");
@@ -104,7 +104,7 @@ TEST(Accessor, NotFiniteIsRefusedEvenWhereNobodyReads) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     Gltf g;
     g.add({{"attributes", {{"POSITION", g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, bad, 0})}}}});
-    expect_refused(g, "NaN or infinite");
+    expect_refused(g, "NaN or infinity");
     Gltf unread = triangle();
     unread.floats("VEC4", {0, 0, 0, bad});
     expect_refused(unread, "accessors[1]");
@@ -115,7 +115,7 @@ TEST(Accessor, IndicesAreChecked) {
   Gltf g;
   const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
   g.add({{"attributes", {{"POSITION", p}}}, {"indices", g.indices({0, 1, 3})}});
-  expect_refused(g, "index 2 is 3, expected one below 3");
+  expect_refused(g, "found 3 as index 2, expected one below 3");
   g.doc["meshes"][0]["primitives"][0]["indices"] = g.indices({0, 1, 65535});
   expect_refused(g, "restart");
   g.doc["meshes"][0]["primitives"][0]["indices"] = p;

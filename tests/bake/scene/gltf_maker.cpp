@@ -22,6 +22,7 @@ TempFolder::~TempFolder() {
 fs::path TempFolder::write(const std::string& name, const std::string& bytes) const {
   const fs::path file = path_ / name;
   fs::create_directories(file.parent_path());
+  fs::remove(file);  // rewriting in place makes some file systems flush: slow, a thousand times over
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
 }
@@ -128,7 +129,7 @@ Imported import_file(const fs::path& path, const ImportOptions& options) {
 }
 
 Imported import_bytes(const std::string& bytes, const ImportOptions& options) {
-  const TempFolder folder;
+  static const TempFolder folder;
   return import_file(folder.write("scene.gltf", bytes), options);
 }
 

@@ -104,7 +104,7 @@ TEST(Image, ABrokenOneLeavesTheFactorAndAWarning) {
 
 TEST(Image, OnlyUsedOnesAreLoaded) {
   Gltf g = textured(R"({"emissiveTexture":{"index":0}})");
-  g.doc["images"].insert(g.doc["images"].begin(), {{"uri", "unused-and-missing.png"}});
+  g.doc["images"] = {{{"uri", "unused-and-missing.png"}}, g.doc["images"][0]};
   g.doc["textures"][0]["source"] = 1;
   const Imported r = import(g);
   ASSERT_TRUE(r.ok()) << r.error();

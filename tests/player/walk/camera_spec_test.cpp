@@ -18,7 +18,7 @@ Choices some() {
   c.cameras[0].eye = Vec3(1, 0, 0);
   c.cameras[1].name = "room C, north";
   c.cameras[1].eye = Vec3(2, 0, 0);
-  c.cameras[2].name = "0";
+  c.cameras[2].name = std::string(1, '0');
   c.cameras[2].eye = Vec3(3, 0, 0);
   c.paths.push_back({"walk", 1, {{0, Vec3(0), Vec3(1, 0, 0)}, {10, Vec3(10, 0, 0), Vec3(1, 0, 0)}}});
   return c;
