@@ -1,5 +1,6 @@
 #include "bake/scene/import.h"
 
+#include <array>
 #include <set>
 
 #include "bake/jobs/parallel.h"

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "formats/core/half.h"
+#include "formats/pack/encoding/planes.h"
+#include "formats/pack/encoding/quantise.h"
 #include "formats/pack/fields.h"
-#include "formats/pack/planes.h"
-#include "formats/pack/quantise.h"
 #include "formats/pack/sections.h"
 
 namespace oriel {

@@ -1,7 +1,7 @@
 // Geometry, materials, reflectors, cameras.
+#include "formats/pack/encoding/planes.h"
+#include "formats/pack/encoding/quantise.h"
 #include "formats/pack/fields.h"
-#include "formats/pack/planes.h"
-#include "formats/pack/quantise.h"
 #include "formats/pack/sections.h"
 
 namespace oriel {

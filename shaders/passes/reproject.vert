@@ -21,23 +21,21 @@ flat out vec4 v_cell;  // offsets on the screen, as shares of the point's size, 
 flat out vec3 v_depth;   // of the point, and its change along the lattice
 flat out vec2 v_margin;  // half a cell and a little, so that neighbours leave no cracks
 
-const float kConnected = 0.2;  // neighbours whose disparities differ by less, relatively, lie on one surface
+const float kConnected = 0.2;  // neighbours whose disparities differ by more, relatively, lie on different surfaces
 const float kStretch = 3.0;    // a surface seen steeply by the map is magnified by at most this over eq. (3)
 const float kOverlap = 0.4;  // pixels
 const float kBias = 0.03;      // a point seen by its map from one radian off loses against points 3 % farther away
 
-// Change of the disparity over one pixel along an axis of the map (x), from the next pixel or the one before, if that lies
-// on the same surface (y: 1).
+// Change of the disparity over one pixel along an axis of the map (x). y: 1 if a neighbour lies on the same surface, 0 if
+// none does. Disparity is linear over a plane, so that both sides agree within one; at an edge the flatter side is this surface.
 vec2 slope(ivec2 pixel, ivec2 axis, float disparity) {
-  for (int side = 1; side >= -1; side -= 2) {
-    ivec2 at = pixel + side * axis;
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, u_map_size))) continue;
-    float next = texelFetch(u_map, at, 0).a;
-    if (next >= 0.0 && abs(next - disparity) < kConnected * max(next, disparity)) {
-      return vec2(float(side) * (next - disparity), 1.0);
-    }
-  }
-  return vec2(0.0);
+  ivec2 after = pixel + axis, before = pixel - axis;
+  float a = all(lessThan(after, u_map_size)) ? texelFetch(u_map, after, 0).a : -1.0;
+  float b = all(greaterThanEqual(before, ivec2(0))) ? texelFetch(u_map, before, 0).a : -1.0;
+  float rise = a < 0.0 ? 1e9 : a - disparity;
+  float fall = b < 0.0 ? 1e9 : disparity - b;
+  float flatter = abs(rise) < abs(fall) ? rise : fall;
+  return abs(flatter) < kConnected * disparity ? vec2(flatter, 1.0) : vec2(0.0);
 }
 
 void main() {
@@ -87,6 +85,8 @@ void main() {
   dy *= longest;
   area = dx.x * dy.y - dx.y * dy.x;
   float least = 1e-3 * length(dx) * length(dy) + 1e-12;
+  // Seen edge-on the cell's axes fall together, and where a pixel lies between them says nothing of its depth.
+  v_depth.yz *= smoothstep(0.02, 0.3, abs(area) / (length(dx) * length(dy) + 1e-12));
   area = abs(area) < least ? (area < 0.0 ? -least : least) : area;
   vec4 to_cell = vec4(dy.y, -dx.y, -dy.x, dx.x) / area;
   v_margin = 0.5 + kOverlap * vec2(abs(to_cell.x) + abs(to_cell.z), abs(to_cell.y) + abs(to_cell.w));

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "formats/core/half.h"
-#include "formats/pack/planes.h"
-#include "formats/pack/quantise.h"
+#include "formats/pack/encoding/planes.h"
+#include "formats/pack/encoding/quantise.h"
 
 namespace oriel {
 namespace {

@@ -114,6 +114,25 @@ TEST(Image, OnlyUsedOnesAreLoaded) {
   EXPECT_EQ(broken_promise(r.scene()), "");
 }
 
+TEST(Image, ThreadsDoNotMatter) {
+  Gltf g =
+      textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1}}})");
+  g.doc["images"].push_back({{"uri", png_uri(kGrey16)}});
+  g.doc["textures"][1]["source"] = 1;
+  const TempFolder folder;
+  const auto path = folder.write("s.gltf", g.text());
+  std::vector<std::vector<std::uint8_t>> texels[2];
+  for (int threads = 1; threads <= 2; ++threads) {
+    Context context;
+    context.threads = threads;
+    const auto r = import_gltf(path, {}, context);
+    ASSERT_TRUE(r) << r.error().text();
+    for (const Image& image : r->scene.images) texels[threads - 1].push_back(image.texels);
+  }
+  ASSERT_EQ(texels[0].size(), 2u);
+  EXPECT_EQ(texels[0], texels[1]);
+}
+
 TEST(Texture, NearestBilinearAndWraps) {
   Scene s;
   s.images.push_back({"", 2, 1, {0, 0, 0, 255, 255, 255, 255, 255}});

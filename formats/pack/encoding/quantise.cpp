@@ -1,4 +1,4 @@
-#include "formats/pack/quantise.h"
+#include "formats/pack/encoding/quantise.h"
 
 #include <algorithm>
 
