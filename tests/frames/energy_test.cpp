@@ -11,7 +11,8 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-// Closes the box's open front (+z in glTF space) with a black surface: it absorbs what would escape and changes nothing else.
+// Closes the box's open front (its smallest z, where the camera stands) with a black surface: it absorbs what would escape
+// and changes nothing else.
 void add_portal(Scene& scene) {
   const Vec3 lo = scene.lower, hi = scene.upper;
   SceneMaterial black;
@@ -27,9 +28,9 @@ void add_portal(Scene& scene) {
   surface.triangle_count = 2;
   surface.first_vertex = static_cast<std::uint32_t>(scene.positions.size());
   surface.vertex_count = 4;
-  for (const Vec3& p : {Vec3(lo.x, lo.y, hi.z), Vec3(lo.x, hi.y, hi.z), Vec3(hi.x, hi.y, hi.z), Vec3(hi.x, lo.y, hi.z)}) {
+  for (const Vec3& p : {lo, Vec3(hi.x, lo.y, lo.z), Vec3(hi.x, hi.y, lo.z), Vec3(lo.x, hi.y, lo.z)}) {
     scene.positions.push_back(p);
-    scene.normals.push_back({0, 0, -1});
+    scene.normals.push_back({0, 0, 1});
     scene.uv0.emplace_back();
     scene.uv1.emplace_back();
   }

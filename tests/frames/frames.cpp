@@ -14,6 +14,17 @@ int run(const std::filesystem::path& folder, const std::string& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+FloatImage shrink(const FloatImage& image, std::uint32_t n) {
+  FloatImage out{image.width / n, image.height / n, 3, {}};
+  out.pixels.resize(std::size_t{out.width} * out.height * 3);
+  for (std::uint32_t y = 0; y < out.height * n; ++y)
+    for (std::uint32_t x = 0; x < out.width * n; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        out.pixels[(std::size_t{y / n} * out.width + x / n) * 3 + c] +=
+            image.pixels[(std::size_t{y} * image.width + x) * image.channels + c] / static_cast<float>(n * n);
+  return out;
+}
+
 double FrameError::net() const { return std::sqrt(std::max(0.0, rel_rmse * rel_rmse - noise * noise)); }
 
 FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, const std::vector<Vec3>& noise) {

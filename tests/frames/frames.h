@@ -13,6 +13,9 @@ namespace oriel::test {
 // Runs a program of the build with arguments (shell syntax); its exit code. Output goes to `log` in the working folder.
 int run(const std::filesystem::path& folder, const std::string& command);
 
+// Means over n × n pixels of an RGB image.
+FloatImage shrink(const FloatImage& image, std::uint32_t n);
+
 // Root of the mean of |x - r|² / (r² + (0.01 mean r)²) over pixels and channels, and the same of the reference's own noise.
 struct FrameError {
   double rel_rmse = 0, noise = 0;

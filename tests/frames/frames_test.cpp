@@ -14,7 +14,8 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kWidth = 160, kHeight = 90;
+constexpr int kSupersampling = 4;  // player frames are rendered larger and averaged, as the reference's pixels are
 
 struct Reference {
   Scene scene;
@@ -40,13 +41,13 @@ class Frames : public testing::Test {
 
   FloatImage play(const std::string& scene, const std::string& camera, const std::string& show) {
     const std::string out = scene + "-" + show + ".exr";
-    EXPECT_EQ(test::run(folder_, "oriel-play " + scene + ".oriel --offscreen --size " + std::to_string(kWidth) + "x" + std::to_string(kHeight) +
+    EXPECT_EQ(test::run(folder_, "oriel-play " + scene + ".oriel --offscreen --size " + std::to_string(kSupersampling * kWidth) + "x" + std::to_string(kSupersampling * kHeight) +
                                      " --camera " + camera + " --show " + show + " -o " + out),
               0)
         << log();
     auto image = read_exr(folder_ / out);
     EXPECT_TRUE(image) << (image ? "" : image.error().text());
-    return image ? *image : FloatImage{};
+    return image ? test::shrink(*image, kSupersampling) : FloatImage{};
   }
 
   Reference reference(const std::string& scene_name, const std::string& camera_name, std::uint32_t samples) {
@@ -59,7 +60,7 @@ class Frames : public testing::Test {
     for (const Camera& c : r.scene.cameras)
       if (c.name == camera_name || camera_name == "0") camera = camera ? camera : &c;
     EXPECT_NE(camera, nullptr) << camera_name;
-    r.frame = *render_reference({accel, lights, {}}, *camera, {kWidth, kHeight, samples, false}, context);
+    r.frame = *render_reference({accel, lights, {}}, *camera, {kWidth, kHeight, samples}, context);
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const Hit hit = accel.intersect(camera_ray(*camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, kWidth, kHeight));
@@ -92,7 +93,7 @@ void report(const char* what, const test::FrameError& e) {
 
 TEST_F(Frames, CornellDiffuseAgreesWithTheReference) {
   bake("cornell", "--texel 1cm --samples 512");
-  const Reference r = reference("cornell", "0", 256);
+  const Reference r = reference("cornell", "0", 1024);
   const test::FrameError d = test::compare(play("cornell", "0", "D"), r.frame.diffuse, r.frame.diffuse_noise);
   report("cornell D", d);
   EXPECT_LE(d.net(), 0.05);
@@ -102,7 +103,7 @@ TEST_F(Frames, CornellDiffuseAgreesWithTheReference) {
 
 TEST_F(Frames, GalleryDiffuseAndMirrorAgreeWithTheReference) {
   bake("gallery", "--samples 256");
-  const Reference r = reference("gallery", "mirror", 128);
+  const Reference r = reference("gallery", "mirror", 1024);
   const test::FrameError d = test::compare(play("gallery", "mirror", "D"), r.frame.diffuse, r.frame.diffuse_noise);
   report("gallery D", d);
   EXPECT_LE(d.net(), 0.05);
