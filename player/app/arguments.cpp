@@ -83,6 +83,9 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(reflectances))
       ->type_name("table|sphere")
       ->default_str("table");
+  app.add_flag("!--no-mipmaps", out.frame.mipmaps,
+               "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "
+               "comparing frames");
 }
 
 void add_options(CLI::App& app, PlayArguments& out) {

@@ -1,18 +1,9 @@
 #include "player/gpu/program.h"
 
-#include <vector>
+#include <algorithm>
 
 namespace oriel::gpu {
 namespace {
-
-// Drivers name files by their number: "0:12(5): error" (Mesa), "0(12) : error" (NVIDIA). The legend keeps that readable.
-std::string with_legend(const std::string& log, const ShaderText& source) {
-  std::string legend;
-  for (std::size_t i = 0; i < source.files.size(); ++i) {
-    legend += fmt::format("{}{} = {}", i == 0 ? "" : ", ", i, source.files[i]);
-  }
-  return fmt::format("{} (files: {})", log, legend);
-}
 
 Result<Handle<ObjectKind::kShader>> compile(GLenum stage, const ShaderText& source) {
   Handle<ObjectKind::kShader> shader(glCreateShader(stage));
@@ -27,8 +18,8 @@ Result<Handle<ObjectKind::kShader>> compile(GLenum stage, const ShaderText& sour
   std::string log(static_cast<std::size_t>(std::max(log_length, 1)), '\0');
   glGetShaderInfoLog(shader.name(), log_length, &log_length, log.data());
   log.resize(static_cast<std::size_t>(std::max(log_length, 0)));
-  return fail(ErrorCode::kRuntime, source.files.empty() ? "shader" : source.files.front(), "does not compile: {}",
-              with_legend(log, source));
+  while (!log.empty() && log.back() == '\n') log.pop_back();
+  return fail(ErrorCode::kRuntime, source.name, "does not compile: {}", name_places(log, source));
 }
 
 }  // namespace

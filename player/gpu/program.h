@@ -17,18 +17,22 @@ namespace oriel::gpu {
 std::string_view shader_source(std::string_view name);
 
 // The whole text that the driver compiles: version line of the dialect, default precisions, then the file with each
-// `#include "lib/…"` replaced by that file (once). #line directives number the files in the order of `files`.
-// Error kRuntime names a missing file.
+// `#include "lib/…"` replaced by that file (once). origin[i] says where line i + 1 of the text comes from ("lib/color.glsl:7",
+// empty for lines of our own): drivers disagree about #line. Error kRuntime names a missing file.
 struct ShaderText {
+  std::string name;
   std::string text;
-  std::vector<std::string> files;
+  std::vector<std::string> origin;
 };
 Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect);
+
+// A driver's log with the places in it ("0:12(5)", "0(12)", "ERROR: 0:12") replaced by those of the files.
+std::string name_places(const std::string& log, const ShaderText& source);
 
 class Program {
  public:
   Program() = default;
-  // passes/<name>.vert with passes/<name>.frag. Error kRuntime holds the driver's log with file names in place of numbers.
+  // passes/<name>.vert with passes/<name>.frag. Error kRuntime holds the driver's log with files and lines.
   static Result<Program> create(std::string_view name, Dialect dialect);
   // For tests: a program of two texts as assemble_shader gives them.
   static Result<Program> create_from(std::string_view name, const ShaderText& vertex, const ShaderText& fragment);

@@ -111,6 +111,7 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
+  scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);

@@ -16,6 +16,7 @@ struct FrameOptions {
   int maps_per_element = 2;  // radiance maps drawn for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   Reflectance reflectance = Reflectance::kTable;
+  bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 

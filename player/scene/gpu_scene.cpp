@@ -126,6 +126,15 @@ void GpuScene::upload_images() {
   sphere_maps_.resize(pack_.fresnel_maps.size());
 }
 
+void GpuScene::use_mipmaps(bool on) {
+  if (on == mipmaps_) return;
+  mipmaps_ = on;
+  for (const gpu::Texture& texture : albedos_) {
+    texture.bind(0);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, on ? texture.levels() - 1 : 0);
+  }
+}
+
 const gpu::Texture& GpuScene::albedo(std::int32_t index) const {
   return index < 0 ? white_ : albedos_[static_cast<std::size_t>(index)];
 }

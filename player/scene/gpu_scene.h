@@ -47,6 +47,9 @@ class GpuScene {
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
   bool is_transparent(std::uint32_t material) const;
 
+  // Whether albedo textures are filtered by their mipmaps, from now on.
+  void use_mipmaps(bool on);
+
   void bind_geometry() const { glBindVertexArray(vertex_array_.name()); }
   // White where index is -1.
   const gpu::Texture& albedo(std::int32_t index) const;
@@ -76,6 +79,7 @@ class GpuScene {
   LightmapTexture no_lightmap_;
   std::vector<KernelTaps> kernel_taps_;
   KernelTaps mirror_;
+  bool mipmaps_ = true;
 };
 
 }  // namespace oriel

@@ -1,0 +1,224 @@
+// Contexts, shader texts and their errors, and the maths that stands both in C++ and in shaders/lib.
+#include "player/gpu/program.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bake/radiance/reproject.h"
+#include "formats/core/color.h"
+#include "player/gpu/framebuffer.h"
+#include "player/gpu/headless.h"
+#include "player/scene/map_point.h"
+#include "player/scene/textures.h"
+
+namespace oriel {
+namespace {
+using gpu::Dialect;
+
+constexpr const char* kPasses[] = {"depth",    "mask", "scene", "transparent", "reproject", "pull",
+                                   "push", "convolve", "compose", "luminance",   "tonemap"};
+
+TEST(Headless, OpensWithoutADisplay) {
+  const auto context = gpu::HeadlessContext::create();
+  ASSERT_TRUE(context) << context.error().text();
+  const auto device = gpu::open_device();
+  ASSERT_TRUE(device) << device.error().text();
+  EXPECT_EQ(device->dialect, Dialect::kDesktop330);
+  EXPECT_GE(device->texture_size, 4096);
+  EXPECT_GT(device->point_size_max, 1);
+  EXPECT_TRUE(gpu::check_gl("start"));
+}
+
+TEST(Headless, NoContextIsAnError) {
+  const auto device = gpu::open_device();
+  ASSERT_FALSE(device);
+  EXPECT_EQ(device.error().code, ErrorCode::kRuntime);
+}
+
+TEST(Headless, AnOpenGlErrorIsNamedOnce) {
+  const auto context = gpu::HeadlessContext::create();
+  ASSERT_TRUE(context);
+  glEnable(0x1234);
+  const Status status = gpu::check_gl("here");
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().text().find("here: found GL_INVALID_ENUM"), std::string::npos) << status.error().text();
+  EXPECT_TRUE(gpu::check_gl("here"));
+}
+
+// Every pass compiles as OpenGL 3.3 core and as OpenGL ES 3.0, in a context of that kind.
+TEST(Programs, CompileInBothDialects) {
+  for (const Dialect dialect : {Dialect::kDesktop330, Dialect::kEs300}) {
+    const auto context = gpu::HeadlessContext::create(dialect);
+    ASSERT_TRUE(context) << context.error().text();
+    const auto device = gpu::open_device();
+    ASSERT_TRUE(device) << device.error().text();
+    EXPECT_EQ(device->dialect, dialect);
+    for (const char* name : kPasses) {
+      const auto program = gpu::Program::create(name, dialect);
+      EXPECT_TRUE(program) << program.error().text();
+    }
+  }
+}
+
+TEST(Programs, ErrorsNameTheFileAndTheLine) {
+  const auto context = gpu::HeadlessContext::create();
+  ASSERT_TRUE(context);
+  auto vertex = gpu::assemble_shader("passes/tonemap.vert", Dialect::kDesktop330);
+  auto fragment = gpu::assemble_shader("passes/tonemap.frag", Dialect::kDesktop330);
+  ASSERT_TRUE(vertex && fragment);
+  // In the middle of an included file, and in the file itself after two inclusions.
+  const auto broken_at = [&](const char* before, const char* expected) {
+    gpu::ShaderText broken = *fragment;
+    broken.text.insert(broken.text.find(before), "nothing_of_the_kind ");
+    const auto program = gpu::Program::create_from("tonemap", *vertex, broken);
+    ASSERT_FALSE(program);
+    EXPECT_EQ(program.error().code, ErrorCode::kRuntime);
+    const std::string text = program.error().text();
+    EXPECT_NE(text.find("passes/tonemap.frag: does not compile"), std::string::npos) << text;
+    EXPECT_NE(text.find(expected), std::string::npos) << text;
+  };
+  broken_at("vec3 srgb_from_linear", "lib/color.glsl:6");
+  broken_at("void main()", "passes/tonemap.frag:10");
+  EXPECT_FALSE(gpu::Program::create("no_such_pass", Dialect::kDesktop330));
+}
+
+TEST(Framebuffers, AnImpossibleOneIsRefused) {
+  const auto context = gpu::HeadlessContext::create();
+  ASSERT_TRUE(context);
+  const gpu::Texture color(gpu::kRgba8, 4, 4, nullptr);
+  const auto wrong = gpu::Framebuffer::create("a test", nullptr, &color);  // colour as depth
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().text().find("a test: found framebuffer status"), std::string::npos) << wrong.error().text();
+  gpu::check_gl("").has_value();
+}
+
+// Runs `body`, which turns vec4 a, vec4 b of a row of inputs into o_value, on the GPU.
+std::vector<Vec4> run_shader(const std::string& library, const std::string& body, const std::vector<Vec4>& a,
+                             const std::vector<Vec4>& b) {
+  const gpu::ShaderText vertex = *gpu::assemble_shader("passes/tonemap.vert", Dialect::kDesktop330);
+  gpu::ShaderText fragment;
+  fragment.text = "#version 330 core\n";
+  EXPECT_FALSE(gpu::shader_source(library).empty()) << library;
+  fragment.text += gpu::shader_source(library);
+  fragment.text +=
+      "uniform sampler2D u_a;\nuniform sampler2D u_b;\nlayout(location = 0) out vec4 o_value;\nvoid main() {\n"
+      "  ivec2 at = ivec2(gl_FragCoord.xy);\n  vec4 a = texelFetch(u_a, at, 0), b = texelFetch(u_b, at, 0);\n" +
+      body + "}\n";
+  const auto program = gpu::Program::create_from("test", vertex, fragment);
+  EXPECT_TRUE(program) << (program ? "" : program.error().text());
+  if (!program) return {};
+  const int count = static_cast<int>(a.size());
+  const gpu::Texture in_a(gpu::kRgba32f, count, 1, a.data()), in_b(gpu::kRgba32f, count, 1, b.data());
+  const gpu::Texture out(gpu::kRgba32f, count, 1, nullptr);
+  const auto framebuffer = gpu::Framebuffer::create("test", &out, nullptr);
+  const gpu::VertexArray vertices = gpu::make_vertex_array();
+  glBindVertexArray(vertices.name());
+  framebuffer->bind();
+  glViewport(0, 0, count, 1);
+  in_a.bind(0);
+  in_b.bind(1);
+  program->use();
+  program->set("u_a", 0);
+  program->set("u_b", 1);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<Vec4> values(a.size());
+  glReadPixels(0, 0, count, 1, GL_RGBA, GL_FLOAT, values.data());
+  EXPECT_TRUE(gpu::check_gl("test"));
+  return values;
+}
+
+class SharedMaths : public testing::Test {
+ protected:
+  void SetUp() override {
+    context_ = std::move(*gpu::HeadlessContext::create());
+    ASSERT_TRUE(gpu::open_device());
+  }
+  float random(float low, float high) { return std::uniform_real_distribution<float>(low, high)(generator_); }
+  std::unique_ptr<gpu::HeadlessContext> context_;
+  std::mt19937 generator_{7};
+};
+
+void expect_same(const Vec4& gpu, const Vec4& cpu, float scale) {
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(gpu[c], cpu[c], 4e-6f * scale) << "component " << c;
+}
+
+TEST_F(SharedMaths, MapPoints) {
+  std::vector<Vec4> eyes, pixels;
+  for (int i = 0; i < 500; ++i) {
+    const float scale = std::exp2(random(-20, 20));
+    eyes.emplace_back(random(-1, 1) * scale, random(-1, 1) * scale, -random(1e-3f, 1) * scale, scale);
+    pixels.emplace_back(random(-1, 1) * scale, random(-1, 1) * scale, i % 10 == 0 ? 0.0f : random(0, 1), 0);
+  }
+  const auto found = run_shader("lib/reprojection.glsl", "o_value = map_point(a.xyz, b.xy, b.z);\n", eyes, pixels);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    expect_same(found[i], map_point(Vec3(eyes[i]), Vec2(pixels[i]), pixels[i].z), eyes[i].w);
+    // The baker's own reprojection agrees.
+    RadianceMap map;
+    map.eye = Vec3(eyes[i]);
+    map.lower = Vec2(pixels[i]) - 0.5f;
+    map.upper = Vec2(pixels[i]) + 0.5f;
+    map.width = map.height = 1;
+    if (eyes[i].w > 0.1f && eyes[i].w < 10) expect_same(unproject(map, {0.5f, 0.5f}, pixels[i].z), found[i], eyes[i].w);
+  }
+}
+
+TEST_F(SharedMaths, ScreenSteps) {
+  std::vector<Vec4> clips, steps;
+  for (int i = 0; i < 500; ++i) {
+    clips.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(0.1f, 2));
+    steps.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(-0.1f, 0.1f));
+  }
+  const auto found = run_shader("lib/reprojection.glsl",
+                                "vec2 s = screen_step(a, b, vec2(640.0, 480.0));\no_value = vec4(s, covering_size(s, b.xy), 0.0);\n",
+                                clips, steps);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec2 s = screen_step(clips[i], steps[i], {640, 480});
+    expect_same(found[i], Vec4(s, covering_size(s, Vec2(steps[i])), 0), 1e3f + glm::length(s));
+  }
+}
+
+TEST_F(SharedMaths, SrgbAndToneCurves) {
+  std::vector<Vec4> colors;
+  for (int i = 0; i <= 1000; ++i) colors.emplace_back(static_cast<float>(i) / 1000, 0.0031308f, std::exp2(random(-30, 0)), 0);
+  const auto found = run_shader("lib/color.glsl", "o_value = vec4(srgb_from_linear(a.rgb), luminance(a.rgb));\n", colors, colors);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec3 c(colors[i]);
+    expect_same(found[i], Vec4(srgb_from_linear(c), luminance(c)), 2);
+  }
+  std::vector<Vec4> light;
+  for (int i = -40; i <= 120; ++i) light.emplace_back(std::exp2(static_cast<float>(i)), 0, -1, 0);
+  const auto shown = run_shader("lib/tonemap.glsl", "o_value = vec4(tonemap_aces(a.rgb), tonemap_none(a.rgb).r);\n", light, light);
+  for (std::size_t i = 1; i < shown.size(); ++i) {
+    EXPECT_GE(shown[i].x, shown[i - 1].x);
+    EXPECT_LE(shown[i].x, 1);
+    EXPECT_EQ(shown[i].y, 0);
+    EXPECT_EQ(shown[i].z, 0);
+    EXPECT_EQ(shown[i].w, std::min(light[i].x, 1.0f));
+  }
+  EXPECT_NEAR(shown[40].x, 2.54f / 3.16f, 1e-5f);  // of 1
+}
+
+// R at random angles, against the definition of the table.
+TEST_F(SharedMaths, ReflectanceTable) {
+  FresnelMap map, other;
+  for (int i = 0; i < 17; ++i) map.table.emplace_back(random(0, 1), random(0, 1), random(0, 1));
+  other.table.assign(30, Vec3(0.5f));
+  const gpu::Texture table = upload_reflectance_tables({other, map});
+  std::vector<Vec4> angles;
+  for (int i = 0; i <= 300; ++i) angles.emplace_back(static_cast<float>(i) / 300, 0, 0, 0);
+  table.bind(2);
+  // The sampler of the table is u_b's unit in this one.
+  std::vector<Vec4> row(table.width());
+  for (int i = 0; i < table.width(); ++i) row[i] = i < 17 ? Vec4(map.table[i], 1) : Vec4(0);
+  row.resize(angles.size());
+  const auto found = run_shader("lib/reflectance.glsl", "o_value = vec4(reflectance_from_table(u_b, 0, 17, a.x), 1.0);\n", angles, row);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const float at = std::sqrt(angles[i].x) * 16;
+    const int low = std::min(static_cast<int>(at), 15);
+    expect_same(found[i], Vec4(glm::mix(map.table[low], map.table[low + 1], at - static_cast<float>(low)), 1), 5);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

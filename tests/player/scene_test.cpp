@@ -1,0 +1,176 @@
+// What the player decides without a GPU: views, culling, the choice of maps, taps of kernels.
+#include <gtest/gtest.h>
+
+#include "player/scene/culling.h"
+#include "player/scene/kernel_taps.h"
+#include "player/scene/map_point.h"
+#include "player/scene/view.h"
+
+namespace oriel {
+namespace {
+
+Bounds box(float low, float high) {
+  Bounds b;
+  b.extend(Vec3(low));
+  b.extend(Vec3(high));
+  return b;
+}
+
+Vec3 project(const Mat4& clip, const Vec3& p) {
+  const Vec4 c = clip * Vec4(p, 1);
+  return Vec3(c) / c.w;
+}
+
+TEST(MakeView, ProjectsTheFrustumsCorners) {
+  Camera camera;
+  camera.eye = {1, 2, 3};
+  camera.forward = {1, 0, 0};
+  camera.vertical_fov_rad = 2 * std::atan(0.5f);
+  const View view = make_view(camera, 200, 100, box(-10, 10));
+  const Vec3 corner = project(view.clip_from_pack, {3, 3, 5});
+  EXPECT_NEAR(corner.x, 1, 1e-5f);
+  EXPECT_NEAR(corner.y, 1, 1e-5f);
+  EXPECT_NEAR(view.tangents.x, 1, 1e-6f);
+}
+
+TEST(MakeView, KeepsTheSceneBetweenItsPlanes) {
+  for (const float scale : {1e-5f, 1.0f, 1e7f}) {
+    Camera camera;
+    camera.eye = Vec3(0, 0, 20) * scale;
+    const View view = make_view(camera, 4, 4, box(-10 * scale, 10 * scale));
+    EXPECT_GE(project(view.clip_from_pack, Vec3(0, 0, 10) * scale).z, -1) << scale;
+    EXPECT_LE(project(view.clip_from_pack, Vec3(0, 0, -10) * scale).z, 1) << scale;
+  }
+}
+
+TEST(MakeView, IsFiniteWhateverTheCamera) {
+  Camera camera;
+  for (const Vec3& forward : {Vec3(0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(1e-30f, 0, 0), Vec3(NAN, 0, 0)}) {
+    for (const float fov : {0.0f, 1e-9f, 3.2f, 100.0f}) {
+      for (const Bounds& bounds : {Bounds{}, box(0, 0), box(-1e18f, 1e18f)}) {
+        camera.forward = forward;
+        camera.vertical_fov_rad = fov;
+        const View view = make_view(camera, 1, 4096, bounds);
+        for (int c = 0; c < 4; ++c) {
+          for (int r = 0; r < 4; ++r) EXPECT_TRUE(std::isfinite(view.clip_from_pack[c][r])) << fov;
+        }
+      }
+    }
+  }
+}
+
+TEST(Culling, KeepsWhatMayBeSeen) {
+  Camera camera;  // at the origin, along -z
+  const View view = make_view(camera, 10, 10, box(-100, 100));
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  const auto seen = [&](const Vec3& at, float half) {
+    Bounds b;
+    b.extend(at - half);
+    b.extend(at + half);
+    return may_be_visible(frustum, b);
+  };
+  EXPECT_TRUE(seen({0, 0, -5}, 1));
+  EXPECT_TRUE(seen({0, 0, 0}, 1));      // around the eye
+  EXPECT_TRUE(seen({0, 0, -5}, 1000));  // around everything
+  EXPECT_FALSE(seen({0, 0, 5}, 1));
+  EXPECT_FALSE(seen({20, 0, -5}, 1));
+  EXPECT_FALSE(may_be_visible(frustum, Bounds{}));
+}
+
+TEST(Culling, PolygonsAreClippedToTheView) {
+  const View view = make_view(Camera{}, 10, 10, box(-100, 100));
+  const float t = std::tan(0.5f);
+  const auto rect = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return project_polygon(view.clip_from_pack, {a, b, c, d});
+  };
+  const NdcRect whole = rect({-1, -1, -4}, {1, -1, -4}, {1, 1, -4}, {-1, 1, -4});
+  EXPECT_NEAR(whole.lower.x, -0.25f / t, 1e-5f);
+  EXPECT_NEAR(whole.upper.y, 0.25f / t, 1e-5f);
+  EXPECT_TRUE(rect({-1, -1, 4}, {1, -1, 4}, {1, 1, 4}, {-1, 1, 4}).empty);
+  // A floor from behind the eye to the horizon covers the lower half.
+  const NdcRect floor = rect({-50, -1, 50}, {50, -1, 50}, {50, -1, -50}, {-50, -1, -50});
+  ASSERT_FALSE(floor.empty);
+  EXPECT_NEAR(floor.lower.x, -1, 1e-4f);
+  EXPECT_NEAR(floor.lower.y, -1, 1e-4f);
+  EXPECT_LT(floor.upper.y, 0);
+  EXPECT_GT(floor.upper.y, -0.1f);
+}
+
+std::vector<RadianceMap> maps_from(const std::vector<Vec3>& eyes) {
+  std::vector<RadianceMap> maps;
+  for (const Vec3& eye : eyes) {
+    RadianceMap map;
+    map.eye = eye;
+    map.lower = {-1, -1};
+    map.upper = {1, 1};
+    maps.push_back(map);
+  }
+  return maps;
+}
+
+TEST(SelectMaps, ByAngleAndByDistance) {
+  const auto maps = maps_from({{0, 0, -10}, {1, 0, -1}, {-1, 0, -1}, {0.9f, 0, -1}});
+  Reflector reflector;
+  reflector.map_count = 4;
+  const auto elements = group_by_element(reflector, maps);
+  ASSERT_EQ(elements.size(), 1u);
+  const Vec4 eye(0.1f, 0, -1, 1);
+  using Indices = std::vector<std::uint32_t>;
+  EXPECT_EQ(select_maps(elements[0], maps, eye, 2, Selection::kAngle), (Indices{0, 3}));
+  EXPECT_EQ(select_maps(elements[0], maps, eye, 2, Selection::kDistance), (Indices{3, 1}));
+  EXPECT_EQ(select_maps(elements[0], maps, Vec4(-1, 0, -1, 0), 1, Selection::kDistance), (Indices{2}));
+  EXPECT_EQ(select_maps(elements[0], maps, eye, 9, Selection::kAngle).size(), 4u);
+  EXPECT_TRUE(select_maps(elements[0], maps, eye, 0, Selection::kAngle).empty());
+}
+
+TEST(SelectMaps, ElementsAreTheMapsRectangles) {
+  auto maps = maps_from({{0, 0, -1}, {0, 0, -2}, {0, 0, -1}});
+  maps[2].lower = {1, -1};
+  maps[2].upper = {3, 1};
+  Reflector reflector;
+  reflector.first_map = 0;
+  reflector.map_count = 3;
+  const auto elements = group_by_element(reflector, maps);
+  ASSERT_EQ(elements.size(), 2u);
+  EXPECT_EQ(elements[0].maps.size(), 2u);
+  EXPECT_EQ(elements[1].maps, std::vector<std::uint32_t>{2});
+}
+
+TEST(KernelTaps, HaveTheKernelsMoments) {
+  BrdfKernel kernel;
+  kernel.size = 33;
+  kernel.half_extent = 0.5f;
+  double sum = 0, second = 0;
+  for (int y = 0; y < 33; ++y) {
+    for (int x = 0; x < 33; ++x) {
+      const double tx = ((x + 0.5) / 33 * 2 - 1) * 0.5, ty = ((y + 0.5) / 33 * 2 - 1) * 0.5;
+      kernel.weights.push_back(static_cast<float>(std::exp(-(tx * tx + ty * ty) / (2 * 0.01))));
+      sum += kernel.weights.back();
+      second += kernel.weights.back() * tx * tx;
+    }
+  }
+  for (float& w : kernel.weights) w = static_cast<float>(w / sum);
+  const KernelTaps taps = make_kernel_taps(kernel, 48);
+  ASSERT_EQ(taps.taps.size(), 48u);
+  Vec2 mean(0), variance(0);
+  for (const KernelTap& tap : taps.taps) {
+    mean += tap.tangent / 48.0f;
+    variance += tap.tangent * tap.tangent / 48.0f;
+    EXPECT_GT(tap.width, 0);
+  }
+  EXPECT_NEAR(mean.x, 0, 0.005f);
+  EXPECT_NEAR(mean.y, 0, 0.005f);
+  EXPECT_NEAR(variance.x, second / sum, 0.1 * second / sum);
+  EXPECT_NEAR(variance.y, second / sum, 0.1 * second / sum);
+  EXPECT_NEAR(taps.median, 0.1f * 1.177f, 0.02f);
+}
+
+TEST(KernelTaps, AMirrorIsOneTap) {
+  const KernelTaps taps = make_kernel_taps(BrdfKernel{}, 48);
+  ASSERT_EQ(taps.taps.size(), 1u);
+  EXPECT_EQ(taps.taps[0].tangent, Vec2(0));
+  EXPECT_EQ(taps.median, 0);
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,216 @@
+// The shading equation on flat surfaces under known light, read back as cd/m².
+#include "formats/core/color.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+// A quad that fills the view of facing_camera(), under E lux.
+Pack lit_quad(const Vec3& irradiance) {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].base_color = {0.5f, 0.25f, 1.0f};
+  pack.lightmaps.push_back(flat_page(irradiance));
+  add_quad(pack, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, 0);
+  return pack;
+}
+
+Camera facing_camera(float distance = 2) {
+  Camera camera;
+  camera.eye = {0, 0, distance};
+  return camera;
+}
+
+void expect_light(const Vec3& found, const Vec3& expected, float relative = 1e-6f) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], relative * std::fabs(expected[c]) + 1e-30f) << "channel " << c;
+}
+
+class Shading : public FrameTest {};
+
+TEST_F(Shading, DiffuseIsAlbedoOverPiTimesIrradiance) {
+  for (const float scale : {1e-6f, 1.0f, 1e3f, 1e9f}) {
+    const Vec3 e = Vec3(1, 0.5f, 0.25f) * scale;
+    const Picture p = draw(lit_quad(e), facing_camera(), 16, 9);
+    expect_light(p.at(8, 4), Vec3(0.5f, 0.25f, 1.0f) * e / kPi, 0x1p-11f);
+    expect_light(p.at(0, 0), p.at(15, 8));
+  }
+  // A power of two survives half floats exactly.
+  expect_light(draw(lit_quad(Vec3(256)), facing_camera(), 8, 8).at(3, 3), Vec3(128, 64, 256) / kPi);
+}
+
+TEST_F(Shading, ReflectanceTakesFromTheDiffusePartAndShowsUndirectedLight) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.fresnel_maps.push_back(flat_reflectance({0.25f, 0.5f, 0.125f}));
+  pack.materials[0].fresnel_map = 0;
+  pack.materials[0].metallic = 0.5f;
+  pack.materials[0].emission = {8, 16, 32};
+  const Vec3 d = Vec3(128, 64, 256) / kPi * 0.5f * 0.5f;
+  const Vec3 s = Vec3(64, 128, 32) / kPi;
+  expect_light(draw(pack, facing_camera(), 8, 8).at(3, 3), d + s + Vec3(8, 16, 32));
+  FrameOptions options;
+  options.show = Show::kD;
+  expect_light(draw(pack, facing_camera(), 8, 8, options).at(3, 3), d);
+  for (const Show show : {Show::kM, Show::kMK, Show::kMKR}) {
+    options.show = show;
+    expect_light(draw(pack, facing_camera(), 8, 8, options).at(3, 3), Vec3(0));
+  }
+}
+
+// The table is read at the cosine of the viewing angle, linearly in its square root.
+TEST_F(Shading, ReflectanceFollowsTheViewingAngle) {
+  Pack pack = lit_quad(Vec3(256));
+  FresnelMap map;
+  for (int i = 0; i < 5; ++i) map.table.emplace_back(1 - i / 4.0f);
+  pack.fresnel_maps.push_back(map);
+  pack.materials[0].fresnel_map = 0;
+  pack.materials[0].base_color = Vec3(0);
+  const int size = 33;
+  const Picture p = draw(pack, facing_camera(), size, size);
+  for (const int x : {0, 5, 16, 30}) {
+    const float ndc = (static_cast<float>(x) + 0.5f) / size * 2 - 1;
+    const float cos_theta = 1 / std::sqrt(1 + std::pow(ndc * std::tan(0.5f), 2.0f));
+    expect_light(p.at(x, 16), Vec3((1 - std::sqrt(cos_theta)) * 256 / kPi), x == 16 ? 1.0f : 2e-4f);
+  }
+}
+
+TEST_F(Shading, TexturesAreDecodedAndCutOut) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.materials[0].base_color = Vec3(1);
+  pack.materials[0].base_color_texture = 0;
+  pack.textures.push_back({"t", 1, 1, Wrap::kRepeat, Wrap::kRepeat, false, {128, 255, 0, 127}});
+  pack.sky = {7, 7, 7};
+  const Picture p = draw(pack, facing_camera(), 4, 4);
+  // Mesa's software rasteriser decodes sRGB by a polynomial that is off by up to 0.4 %.
+  expect_light(p.at(2, 2), Vec3(0.2158605f, 1, 0) * 256.0f / kPi, 5e-3f);
+  pack.materials[0].alpha_mode = AlphaMode::kMask;
+  pack.materials[0].alpha_cutoff = 0.5f;
+  expect_light(draw(pack, facing_camera(), 4, 4).at(2, 2), Vec3(7));
+  pack.materials[0].alpha_cutoff = 0.45f;
+  expect_light(draw(pack, facing_camera(), 4, 4).at(2, 2), p.at(2, 2));
+}
+
+TEST_F(Shading, SeeThroughSurfacesDimAndAdd) {
+  Pack pack;
+  pack.sky = {64, 64, 64};
+  pack.materials.resize(2);
+  pack.materials[0].alpha_mode = AlphaMode::kBlend;
+  pack.materials[0].alpha = 0.25f;
+  pack.materials[0].emission = Vec3(16);
+  pack.materials[1].transmission = 1;
+  pack.materials[1].base_color = {1, 0.5f, 0.25f};
+  add_quad(pack, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, -1);
+  expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), Vec3(0.25f * 16 + 0.75f * 64));
+  add_quad(pack, {-4, -4, -1}, {8, 0, 0}, {0, 8, 0}, 1, -1);  // behind: drawn first
+  expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), 4.0f + 0.75f * Vec3(64, 32, 16));
+}
+
+TEST_F(Shading, BackFacesOfOneSidedMaterialsAreOpen) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.sky = {3, 4, 5};
+  Camera behind = facing_camera(-2);
+  behind.forward = {0, 0, 1};
+  expect_light(draw(pack, behind, 4, 4).at(1, 1), Vec3(3, 4, 5));
+  pack.materials[0].double_sided = true;
+  expect_light(draw(pack, behind, 4, 4).at(1, 1), Vec3(128, 64, 256) / kPi);
+}
+
+TEST_F(Shading, UnlitSurfacesShowTheirColourAtAnyExposure) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.materials[0].unlit = true;
+  pack.mesh.parts[0].lightmap_page = -1;
+  draw(pack, facing_camera(), 4, 4);
+  for (const float ev : {-5.0f, 0.0f, 20.0f}) {
+    const auto pixels = renderer_->read_display(ev, ToneCurve::kAces);
+    ASSERT_TRUE(pixels);
+    EXPECT_NEAR((*pixels)[0], 188, 1);  // sRGB of 0.5
+    EXPECT_NEAR((*pixels)[1], 137, 1);
+    EXPECT_EQ((*pixels)[2], 255);
+  }
+  const auto metered = renderer_->meter();
+  ASSERT_TRUE(metered);
+  EXPECT_FALSE(metered->has_value()) << "nothing but unlit pixels";
+}
+
+TEST_F(Shading, ExposureIsTheMetersAndTheUsers) {
+  draw(lit_quad(Vec3(256)), facing_camera(), 50, 20);
+  const float y = luminance(Vec3(128, 64, 256) / kPi);
+  const auto metered = renderer_->meter();
+  ASSERT_TRUE(metered && *metered);
+  EXPECT_NEAR(white_of_exposure(**metered) * 0.18f, y, 1e-3f * y);
+  const auto pixels = renderer_->read_display(std::log2(256 / kPi / 1.2f), ToneCurve::kNone);
+  ASSERT_TRUE(pixels);
+  EXPECT_EQ((*pixels)[2], 255);
+  EXPECT_NEAR((*pixels)[0], 188, 1);
+}
+
+TEST_F(Shading, WithoutLightmapsOrAnythingAtAll) {
+  Pack pack = lit_quad(Vec3(256));
+  pack.lightmaps.clear();
+  pack.mesh.parts[0].lightmap_page = -1;
+  expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), Vec3(0));
+  Pack empty;
+  empty.sky = {1, 2, 3};
+  expect_light(draw(empty, facing_camera(), 4, 4).at(1, 1), Vec3(1, 2, 3));
+}
+
+TEST_F(Shading, SizesFromOnePixelTo4096) {
+  const Pack pack = lit_quad(Vec3(256));
+  for (const auto& [w, h] : {std::pair{1, 1}, {1, 7}, {4096, 2}, {3, 4096}}) {
+    const Picture p = draw(pack, facing_camera(), w, h);
+    EXPECT_TRUE(p.finite()) << w << "x" << h;
+    expect_light(p.at(w / 2, h / 2), Vec3(128, 64, 256) / kPi);
+  }
+  auto scene = GpuScene::create(pack, device_);
+  ASSERT_TRUE(scene);
+  const View view = make_view(facing_camera(), device_.texture_size + 1, 1, (*scene)->bounds());
+  const auto refused = renderer_->render(**scene, view, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+  EXPECT_NE(refused.error().message.find(std::to_string(device_.texture_size + 1)), std::string::npos);
+}
+
+// The same picture of a building, a coin and a mountain range.
+TEST_F(Shading, EveryScaleOfGeometry) {
+  for (const float scale : {1e-4f, 1.0f, 1e6f}) {
+    Pack pack = lit_quad(Vec3(256));
+    for (Vec3& p : pack.mesh.positions) p *= scale;
+    add_quad(pack, Vec3(-0.1f, -0.1f, -0.05f) * scale, Vec3(0.2f, 0, 0) * scale, Vec3(0, 0.2f, 0) * scale, 0, -1);  // hidden
+    const Picture p = draw(pack, facing_camera(2 * scale), 16, 16);
+    for (int i = 0; i < 16; ++i) expect_light(p.at(i, i), Vec3(128, 64, 256) / kPi);
+  }
+}
+
+TEST_F(Shading, OrthographicCamera) {
+  Pack pack = lit_quad(Vec3(256));
+  Camera camera = facing_camera();
+  camera.vertical_fov_rad = 0;
+  camera.half_height = 8;  // the quad is half the picture
+  const Picture p = draw(pack, camera, 16, 16);
+  expect_light(p.at(8, 8), Vec3(128, 64, 256) / kPi);
+  expect_light(p.at(4, 4), Vec3(128, 64, 256) / kPi);
+  expect_light(p.at(3, 8), Vec3(0));
+}
+
+TEST_F(Shading, BrokenPacksAreRefused) {
+  Pack bad_index = lit_quad(Vec3(1));
+  bad_index.mesh.indices[3] = 4;
+  Pack bad_page = lit_quad(Vec3(1));
+  bad_page.mesh.parts[0].lightmap_page = 1;
+  Pack bad_texture = lit_quad(Vec3(1));
+  bad_texture.textures.push_back({"t", 2, 2, Wrap::kRepeat, Wrap::kRepeat, false, {1, 2, 3, 4}});
+  for (const Pack& pack : {bad_index, bad_page, bad_texture}) {
+    const auto scene = GpuScene::create(pack, device_);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().code, ErrorCode::kInvalid) << scene.error().text();
+    EXPECT_NE(scene.error().message.find("expected"), std::string::npos);
+  }
+  Pack too_large = lit_quad(Vec3(1));
+  too_large.textures.push_back({"t", 1u << 20, 1, Wrap::kRepeat, Wrap::kRepeat, false, {}});
+  const auto refused = GpuScene::create(too_large, device_);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kRuntime);
+}
+
+}  // namespace
+}  // namespace oriel
