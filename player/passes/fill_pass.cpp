@@ -1,5 +1,8 @@
 #include "player/passes/fill_pass.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "player/gpu/raster_state.h"
 
 namespace oriel {
@@ -29,7 +32,8 @@ Result<FillPass> FillPass::create(gpu::Dialect dialect) {
 }
 
 void FillPass::draw(const ImageRect& rect, const ImageTarget& target, FrameStats& stats) const {
-  const int levels = gpu::mip_levels(rect.width, rect.height);
+  // Levels round up, to a last one of a single pixel: the textures' sizes are powers of two and have as many.
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(rect.width, rect.height) - 1)) + 1;
   const auto size_at = [&](int level) { return IVec2(gpu::level_size(rect.width, level), gpu::level_size(rect.height, level)); };
   const auto draw_level = [&](const gpu::Texture& texture, int level) {
     target.level_framebuffer.attach_color_level(texture, level);

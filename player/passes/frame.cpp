@@ -95,7 +95,7 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   if (blurs) convolve_pass_.draw(reflector, taps, view, rect, *image_, scene.bounds().radius(), stats);
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value, options,
+  reflector_pass_.draw_light(scene, reflector, view, rect, getenv("SHARP") ? image_->sharp : blurs ? image_->blurred : image_->filled, candidate.value, options,
                              stats);
   ++stats.reflectors;
   return {};

@@ -20,7 +20,7 @@ layout(location = 0) out vec4 o_light;
 
 void main() {
   vec2 at = clamp((gl_FragCoord.xy - u_origin) * u_scale, vec2(0.5), max(u_image_size - 0.5, vec2(0.5)));
-  vec4 image = texture(u_image, at / u_texture_size);
+  vec4 image = textureLod(u_image, at / u_texture_size, 0.0);
   vec3 light = image.a > 0.0 ? image.rgb : u_missing;
   if (u_modulate) {
     vec3 reflectance = vec3(0.0);

@@ -1,0 +1,180 @@
+// The program itself: exit codes, files, and the window under a virtual display.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "formats/core/file.h"
+#include "formats/image/exr.h"
+#include "formats/image/png.h"
+#include "formats/pack/writer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out;  // stdout and stderr together
+};
+
+class Play : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Status written = write_pack(pack(), oriel::testing::tiny_pack());
+    ASSERT_TRUE(written) << written.error().text();
+  }
+  fs::path folder() const { return folder_.path(); }
+  fs::path pack() const { return folder_.path() / "tiny.oriel"; }
+
+  // Shell words after the program's path, in the temporary folder, with DISPLAY unset unless `environment` sets it.
+  Outcome run(const std::string& arguments, const std::string& environment = "env -u DISPLAY -u WAYLAND_DISPLAY") {
+    const std::string program = (fs::path(ORIEL_BIN_DIR) / "oriel-play").string();
+    return shell(environment + " '" + program + "' " + arguments);
+  }
+  Outcome shell(const std::string& command) {
+    const fs::path log = folder() / "log";
+    const int status = std::system(("cd '" + folder().string() + "' && " + command + " > log 2>&1").c_str());
+    std::ifstream in(log);
+    std::stringstream text;
+    text << in.rdbuf();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
+  }
+  ::testing::AssertionResult ends(const Outcome& r, int code, const std::string& says) {
+    if (r.code == code && r.out.find(says) != std::string::npos) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says << "' in: " << r.out;
+  }
+
+ private:
+  oriel::testing::TemporaryFolder folder_;
+};
+
+TEST_F(Play, UsageErrors) {
+  EXPECT_TRUE(ends(run("--help"), 0, "Exit codes"));
+  EXPECT_TRUE(ends(run("--version"), 0, "oriel-play"));
+  EXPECT_TRUE(ends(run(""), 1, "required"));
+  EXPECT_TRUE(ends(run("tiny.oriel --no-such-option"), 1, "--no-such-option"));
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen"), 1, "-o"));
+  EXPECT_TRUE(ends(run("tiny.oriel -o a.png"), 1, "--offscreen"));
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o a.jpg"), 1, ".jpg"));
+  for (const char* bad : {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan", "--show X", "--maps -1",
+                          "--maps many", "--select near", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
+    EXPECT_EQ(run(std::string("tiny.oriel --offscreen -o a.png ") + bad).code, 1) << bad;
+  }
+  const Outcome unknown = run("tiny.oriel --offscreen -o a.png --camera nowhere");
+  EXPECT_TRUE(ends(unknown, 1, "nowhere"));
+  EXPECT_FALSE(fs::exists(folder() / "a.png"));
+}
+
+TEST_F(Play, FilesThatAreMissingOrBroken) {
+  EXPECT_TRUE(ends(run("absent.oriel --list"), 2, "absent.oriel"));
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o no/such/folder/a.png"), 2, "no/such/folder"));
+  auto bytes = *read_file(pack());
+  const Bytes truncated(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2));
+  ASSERT_TRUE(write_file_atomically(folder() / "half.oriel", truncated));
+  EXPECT_EQ(run("half.oriel --offscreen -o a.png").code, 3);
+  bytes[bytes.size() / 2] ^= std::byte{1};
+  ASSERT_TRUE(write_file_atomically(folder() / "flipped.oriel", bytes));
+  EXPECT_TRUE(ends(run("flipped.oriel --list"), 3, "section"));
+}
+
+TEST_F(Play, Lists) {
+  const Outcome r = run("tiny.oriel --list");
+  EXPECT_TRUE(ends(r, 0, "camera 0 "));
+  EXPECT_NE(r.out.find("path "), std::string::npos) << r.out;
+}
+
+TEST_F(Play, OffscreenWritesPicturesOfTheSizeAsked) {
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen --size 33x17 --camera 0 -o a.png"), 0, "33x17"));
+  const auto png = read_png(folder() / "a.png");
+  ASSERT_TRUE(png) << png.error().text();
+  EXPECT_EQ(png->width, 33u);
+  EXPECT_EQ(png->height, 17u);
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen --size 33x17 --camera 0 --exposure 5 -o a.exr"), 0, "EV 5.00"));
+  const auto exr = read_exr(folder() / "a.exr");
+  ASSERT_TRUE(exr) << exr.error().text();
+  EXPECT_EQ(exr->width, 33u);
+  float brightest = 0;
+  for (const float v : exr->pixels) brightest = std::max(brightest, v);
+  EXPECT_GT(brightest, 1) << "lit by a hundred lux";
+  EXPECT_LT(brightest, 1e4f);
+  // The same bytes again.
+  const auto first = *read_file(folder() / "a.exr");
+  ASSERT_EQ(run("tiny.oriel --offscreen --size 33x17 --camera 0 --exposure 5 -o a.exr").code, 0);
+  EXPECT_EQ(first, *read_file(folder() / "a.exr"));
+}
+
+TEST_F(Play, SeveralCamerasGoIntoAFolder) {
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen --size 16x9 --camera all --camera 0 --format exr -o shots"), 0, "shots/"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "shots"), fs::directory_iterator()), 3);
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen --camera all -o shots.png"), 1, "folder"));
+}
+
+TEST_F(Play, EveryStageAndOption) {
+  for (const char* options : {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1", "--select distance",
+                              "--reflectance sphere", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
+    EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png")) << options;
+  }
+}
+
+TEST_F(Play, WithoutADisplayTheWindowSaysWhatToDo) { EXPECT_TRUE(ends(run("tiny.oriel"), 4, "--offscreen")); }
+
+class PlayWindow : public Play {
+ protected:
+  void SetUp() override {
+    Play::SetUp();
+    if (std::system("command -v xvfb-run >/dev/null && command -v xdotool >/dev/null") != 0) {
+      GTEST_SKIP() << "xvfb-run or xdotool is not installed";
+    }
+  }
+  // Runs a script with $PLAY and $PACK under a virtual display.
+  Outcome in_display(const std::string& script) {
+    std::ofstream(folder() / "script.sh") << "PLAY='" << (fs::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n" << script;
+    return shell("xvfb-run -a -s '-screen 0 640x480x24' bash script.sh");
+  }
+};
+
+// Waits for the window, sends keys, waits for the end.
+constexpr const char* kStart = R"(
+"$PLAY" tiny.oriel --size 160x90 & pid=$!
+window=$(timeout 30 xdotool search --sync --onlyvisible --pid $pid --name Oriel | head -1)
+[ -n "$window" ] || { echo "no window"; kill $pid; exit 99; }
+xdotool windowfocus "$window"
+sleep 0.5
+)";
+
+TEST_F(PlayWindow, ClosesAfterTheFramesAsked) { EXPECT_TRUE(ends(in_display("\"$PLAY\" tiny.oriel --size 160x90 --frames 3\n"), 0, "")); }
+
+TEST_F(PlayWindow, AnswersKeysAndQuits) {
+  const Outcome r = in_display(std::string(kStart) + R"(
+key() { xdotool key --window "$window" "$@"; sleep 0.1; }
+key 2; key F12; sleep 0.5
+xdotool keydown --window "$window" w; sleep 0.5; xdotool keyup --window "$window" w
+key f; key m; key m; key m; key m; key m; key plus; key x; key p; key p; key F12; sleep 0.5
+xdotool windowsize "$window" 200 120; sleep 0.3; key F12; sleep 0.5
+key Escape
+wait $pid
+)");
+  EXPECT_TRUE(ends(r, 0, "oriel-002.png"));
+  const auto first = read_png(folder() / "oriel-000.png"), second = read_png(folder() / "oriel-001.png"),
+             resized = read_png(folder() / "oriel-002.png");
+  ASSERT_TRUE(first && second && resized) << r.out;
+  EXPECT_EQ(first->width, 160u);
+  EXPECT_NE(first->pixels, second->pixels) << "W has moved the camera";
+  EXPECT_EQ(resized->width, 200u);
+  EXPECT_EQ(resized->height, 120u);
+}
+
+TEST_F(PlayWindow, ControlQQuits) { EXPECT_TRUE(ends(in_display(std::string(kStart) + "xdotool key --window \"$window\" ctrl+q\nwait $pid\n"), 0, "")); }
+
+TEST_F(PlayWindow, AnInterruptEndsItCleanly) {
+  EXPECT_TRUE(ends(in_display(std::string(kStart) + "kill -TERM $pid\nwait $pid\n"), 130, "stopped by the user"));
+}
+
+}  // namespace
+}  // namespace oriel
