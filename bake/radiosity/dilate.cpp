@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 namespace oriel {
 namespace {
@@ -56,13 +57,16 @@ void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, 
 void fill_buried(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page) {
   std::vector<std::uint32_t> chart(page.state.size(), ~0u);
   std::vector<char> filled(page.state.size(), 0);
+  std::unordered_set<std::uint32_t> lit;  // charts with a valid texel; others have nothing to spread
   std::vector<std::uint32_t> pending;
   for (std::size_t i = 0; i < map.texel.size(); ++i) {
     const std::uint32_t texel = map.texel[i];
     chart[texel] = atlas.chart[map.fragments[map.first[i]].triangle];
     filled[texel] = page.state[texel] == TexelState::kValid;
-    if (!filled[texel]) pending.push_back(texel);
+    if (filled[texel]) lit.insert(chart[texel]);
   }
+  for (const std::uint32_t texel : map.texel)
+    if (!filled[texel] && lit.contains(chart[texel])) pending.push_back(texel);
   const int rounds = static_cast<int>(std::max(page.width, page.height));
   spread(
       page, std::move(pending), rounds, [&](std::uint32_t at, std::uint32_t n) { return filled[n] && chart[n] == chart[at]; },
@@ -73,8 +77,12 @@ void dilate(int texels, LightmapPage& page) {
   std::vector<std::uint32_t> pending;
   for (std::uint32_t texel = 0; texel < page.state.size(); ++texel)
     if (page.state[texel] == TexelState::kEmpty) pending.push_back(texel);
+  // A chart that is buried whole is black and must not darken its neighbours.
+  const auto usable = [&](std::uint32_t, std::uint32_t n) {
+    return page.state[n] != TexelState::kEmpty && (page.state[n] != TexelState::kBuried || max_component(page.irradiance[n]) > 0);
+  };
   spread(
-      page, std::move(pending), texels, [&](std::uint32_t, std::uint32_t n) { return page.state[n] != TexelState::kEmpty; },
+      page, std::move(pending), texels, usable,
       [&](std::uint32_t texel) { page.state[texel] = TexelState::kDilated; });
 }
 

@@ -29,15 +29,14 @@ class Baker {
   TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
     TexelSums sums;
     const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
+    const bool mixed = any_buried(map, i, stream, rays);
     for (std::uint32_t k = 0; k < options_.samples; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
       Sampler sampler(context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
-      const TexelPoint point = sample_texel(atlas_, map, i, Vec3(uv, sampler.next1()));
-      const Vec3 normal = geometric_normal(t_.accel.scene(), point.triangle);
-      const SurfacePoint surface = geometry_at(t_.accel.scene(), {point.triangle, 0, point.barycentric, true}, -normal);
+      const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
+      if (mixed && buried(surface, k, stream, rays)) continue;
       const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays);
-      if (e.back_face && buried(surface, sampler, rays)) continue;
       const DVec3 value(e.direct + e.indirect);
       sums.sum += value;
       sums.squares += value * value;
@@ -47,19 +46,38 @@ class Baker {
   }
 
  private:
-  // Asked of points whose path met a back face first. Inside a closed body nearly every direction meets the back of its
-  // faces; at a point outside that sees half a hemisphere of backs, four of five probes do so in one case of five.
-  bool buried(const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays) const {
+  SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const {
+    const TexelPoint point = sample_texel(atlas_, map, i, u);
+    const Vec3 normal = geometric_normal(t_.accel.scene(), point.triangle);
+    return geometry_at(t_.accel.scene(), {point.triangle, 0, point.barycentric, true}, -normal);
+  }
+
+  // Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most texels
+  // answer with one ray a point.
+  bool any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      Sampler sampler(~context_.seed, stream, k);
+      const Vec2 uv = sampler.next2();
+      if (buried(point_of(map, i, Vec3(uv, sampler.next1())), ~k, stream, rays)) return true;
+    }
+    return false;
+  }
+
+  // Inside a closed body nearly every direction meets the back of its faces. Random numbers of its own: a point is left
+  // out whatever light its path would have found, so that leaving out does not favour bright paths.
+  bool buried(const SurfacePoint& surface, std::uint32_t sample, std::uint64_t stream, std::uint64_t& rays) const {
     const Scene& scene = t_.accel.scene();
+    Sampler sampler(context_.seed + 0x5eed, stream, sample);
+    const Mat3 frame = frame_from_normal(surface.geometric_normal);
+    const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
     int missed = 0;
-    for (int probe = 0; probe < 5; ++probe) {
-      const Vec3 direction =
-          glm::normalize(frame_from_normal(surface.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
+    for (int probe = 0; probe < 6; ++probe) {
+      const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
       ++rays;
-      const Hit hit = t_.accel.intersect({spawn_origin(scene, surface.triangle, surface.barycentric, direction), direction});
+      const Hit hit = t_.accel.intersect({origin, direction});
       const bool back =
           hit && !hit.front && !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
-      if (!back && ++missed > 1) return false;
+      if (!back && (probe == 0 || ++missed > 1)) return false;
     }
     return true;
   }
@@ -78,7 +96,8 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
   }
   const double n = sums.count;
   const DVec3 mean = sums.sum / n;
-  const DVec3 variance = glm::max(DVec3(0), sums.squares / n - mean * mean);
+  // One path says nothing of its spread: its error is taken to be as large as itself.
+  const DVec3 variance = sums.count < 2 ? mean * mean : glm::max(DVec3(0), sums.squares / n - mean * mean);
   page.irradiance[texel] = Vec3(mean);
   page.standard_error[texel] = Vec3(glm::sqrt(variance / std::max(1.0, n - 1)));
   page.state[texel] = TexelState::kValid;

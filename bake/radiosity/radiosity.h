@@ -30,8 +30,8 @@ struct Radiosity {
 };
 
 // The `reference` estimator: unbiased paths from points spread over each texel, light and BSDF sampling combined. Points
-// that lie inside other geometry (their rays meet back faces of one-sided materials) are left out; a texel with none
-// left is kBuried and filled from its chart's neighbours. Stage name "radiosity"; error kStopped.
+// that lie inside other geometry (independent probes meet little but back faces of one-sided materials) are left out; a
+// texel with none left is kBuried and filled from its chart's neighbours. Stage name "radiosity"; error kStopped.
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                                  const RadiosityOptions& options, Context& context);
 

@@ -25,6 +25,13 @@ DVec3 punctual_power(const Light& light) {
   return 2 * kPiD * ((1 - ci) + (ci - co) / 3) * intensity;  // ∫ t² over the falloff, t linear in the cosine
 }
 
+// How far off its plane an emitter's sampled point may lie by rounding, as offset_origin reckons it.
+float emitter_margin(const Scene& scene, std::uint32_t triangle) {
+  float magnitude = 0;
+  for (int i = 0; i < 3; ++i) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[scene.triangles[triangle][i]])));
+  return magnitude * (32 * 0x1p-24f);
+}
+
 }  // namespace
 
 LightSet::LightSet(const Scene& scene) : scene_(&scene) {
@@ -41,17 +48,17 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene) {
     const double area = triangle_area(scene, t) * (scene.materials[m].double_sided ? 2 : 1);
     const DVec3 flux = kPiD * area * DVec3(mean_emission(scene, t));
     power_ += flux;
-    add({false, t, 0, geometric_normal(scene, t), scene.materials[m].double_sided}, luminance(Vec3(flux)));
+    add({false, t, 0, geometric_normal(scene, t), emitter_margin(scene, t), scene.materials[m].double_sided}, luminance(Vec3(flux)));
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (light.type == LightType::kDirectional) {
       const double r = scene.radius();
-      add({true, i, 0, {}, false}, luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
+      add({true, i, 0, {}, 0, false}, luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
     } else {
       const DVec3 flux = punctual_power(light);
       power_ += flux;
-      add({true, i, 0, {}, false}, luminance(Vec3(flux)));
+      add({true, i, 0, {}, 0, false}, luminance(Vec3(flux)));
     }
   }
   const double total = cdf_.empty() ? 0 : cdf_.back();
@@ -87,7 +94,7 @@ LightSample LightSet::sample_triangle(const Pick& pick, const Vec3& p, const Vec
   if (pick.double_sided ? cosine == 0 : cosine <= 0) return s;
   s.pdf = triangle_pdf_[pick.index] * d2 / std::abs(cosine);
   s.estimate = shade_point(*scene_, pick.index, barycentric).emission / s.pdf;
-  s.distance *= 1 - 0x1p-14f;  // stop short of the emitter itself
+  s.distance -= s.distance * 0x1p-14f + pick.margin / std::abs(cosine);  // stop short of the emitter itself
   return s;
 }
 

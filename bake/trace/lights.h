@@ -8,7 +8,7 @@ namespace oriel {
 
 struct LightSample {
   Vec3 direction{0, 0, 1};  // unit, from the point to the light
-  float distance = 3.0e38f;
+  float distance = 3.0e38f;  // that a shadow ray must go; may be <= 0 where the light touches the point
   Vec3 estimate{0};  // incident radiance over pdf; for delta lights the irradiance on a facing plane over the
                      // probability of picking that light. Times f·cosθ: an unbiased estimate of reflected light
   float pdf = 0;     // per steradian, including the choice of the light; 0 for delta lights
@@ -36,6 +36,7 @@ class LightSet {
     std::uint32_t index;  // of a triangle or of Scene::lights
     float probability;
     Vec3 normal;        // of a triangle, front side
+    float margin;       // of a triangle: see emitter_margin, metres
     bool double_sided;  // triangles
   };
   LightSample sample_triangle(const Pick& pick, const Vec3& p, const Vec2& v) const;

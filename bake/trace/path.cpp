@@ -63,13 +63,15 @@ Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sam
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   if (t.lights.empty()) return Vec3(0);
-  const LightSample light = t.lights.sample(surface.position, u, v);
+  // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  const LightSample light = t.lights.sample(origin, u, v);
   if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return Vec3(0);
   Vec3 value = light.estimate * reflect(light.direction);
   if (max_component(value) <= 0) return Vec3(0);
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
+  if (!(light.distance > 0)) return value;  // touching
   ++rays;
-  const Vec3 origin = spawn_origin(surface, light.direction);
   return value * t.accel.transmittance({origin, light.direction, light.distance});
 }
 
@@ -143,7 +145,7 @@ class Walk {
     ray = {spawn_origin(surface, direction), direction};
     // Straight transmission continues the same segment: light sampling from the last vertex sees through glass too.
     if (passes) return Step::kPassed;
-    from_ = surface.position;
+    from_ = ray.origin;
     pdf_ = sample->delta ? 0 : shading.pdf(direction);
     return Step::kBounced;
   }

@@ -2,7 +2,8 @@
 
 namespace oriel::testing {
 
-void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material, std::int32_t page) {
+void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material,
+              std::int32_t page) {
   Mesh& mesh = pack.mesh;
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const Vec3 normal = normalize_or(glm::cross(right, up), Vec3(0, 0, 1));
@@ -59,7 +60,8 @@ void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
     map.has_emission = true;
     for (std::uint32_t y = 0; y < size; ++y) {
       for (std::uint32_t x = 0; x < size; ++x) {
-        const Vec2 share((static_cast<float>(x) + 0.5f) / static_cast<float>(size), (static_cast<float>(y) + 0.5f) / static_cast<float>(size));
+        const Vec2 share((static_cast<float>(x) + 0.5f) / static_cast<float>(size),
+                         (static_cast<float>(y) + 0.5f) / static_cast<float>(size));
         const Vec2 on_plane = map.lower + share * (map.upper - map.lower);
         const Seen s = seen(on_plane, Vec3(on_plane, 0) - eye);
         map.radiance.push_back(s.radiance);
@@ -74,7 +76,8 @@ void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
 }
 
 Vec3 Picture::at(int x, int y) const {
-  const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3;
+  const std::size_t i =
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3;
   return {rgb[i], rgb[i + 1], rgb[i + 2]};
 }
 

@@ -11,14 +11,15 @@
 namespace oriel::testing {
 
 // A quad of two triangles with one part of its own: corner, corner + right, …; its normal is right x up.
-void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material, std::int32_t page);
+void add_quad(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material,
+              std::int32_t page);
 
 // A page of one colour, lux.
 LightmapPage flat_page(const Vec3& irradiance);
 
-// The mirror: x, y in [-1, 1] on the plane z = 0, looking towards +z, material 0 of `pack`, with radiance maps from `eyes`
-// (reflector space = pack space, z < 0), pixels computed by `seen`: the light and the z of what the ray from a point
-// of the plane along a direction meets (infinite: the sky).
+// The mirror: x, y in [-1, 1] on the plane z = 0, looking towards +z, material 0 of `pack`, with radiance maps from
+// `eyes` (reflector space = pack space, z < 0), pixels computed by `seen`: the light and the z of what the ray from a
+// point of the plane along a direction meets (infinite: the sky).
 struct Seen {
   Vec3 radiance{0};
   float z = 1;

@@ -16,8 +16,8 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {"depth",    "mask", "scene", "transparent", "reproject", "pull",
-                                   "push", "convolve", "compose", "luminance",   "tonemap"};
+constexpr const char* kPasses[] = {"depth", "mask",     "scene",   "transparent", "reproject", "pull",
+                                   "push",  "convolve", "compose", "luminance",   "tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();
@@ -169,9 +169,10 @@ TEST_F(SharedMaths, ScreenSteps) {
     clips.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(0.1f, 2));
     steps.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(-0.1f, 0.1f));
   }
-  const auto found = run_shader("lib/reprojection.glsl",
-                                "vec2 s = screen_step(a, b, vec2(640.0, 480.0));\no_value = vec4(s, covering_size(s, b.xy), 0.0);\n",
-                                clips, steps);
+  const auto found =
+      run_shader("lib/reprojection.glsl",
+                 "vec2 s = screen_step(a, b, vec2(640.0, 480.0));\no_value = vec4(s, covering_size(s, b.xy), 0.0);\n",
+                 clips, steps);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec2 s = screen_step(clips[i], steps[i], {640, 480});
     expect_same(found[i], Vec4(s, covering_size(s, Vec2(steps[i])), 0), 1e3f + glm::length(s));
@@ -180,15 +181,18 @@ TEST_F(SharedMaths, ScreenSteps) {
 
 TEST_F(SharedMaths, SrgbAndToneCurves) {
   std::vector<Vec4> colors;
-  for (int i = 0; i <= 1000; ++i) colors.emplace_back(static_cast<float>(i) / 1000, 0.0031308f, std::exp2(random(-30, 0)), 0);
-  const auto found = run_shader("lib/color.glsl", "o_value = vec4(srgb_from_linear(a.rgb), luminance(a.rgb));\n", colors, colors);
+  for (int i = 0; i <= 1000; ++i)
+    colors.emplace_back(static_cast<float>(i) / 1000, 0.0031308f, std::exp2(random(-30, 0)), 0);
+  const auto found =
+      run_shader("lib/color.glsl", "o_value = vec4(srgb_from_linear(a.rgb), luminance(a.rgb));\n", colors, colors);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec3 c(colors[i]);
     expect_same(found[i], Vec4(srgb_from_linear(c), luminance(c)), 2);
   }
   std::vector<Vec4> light;
   for (int i = -40; i <= 120; ++i) light.emplace_back(std::exp2(static_cast<float>(i)), 0, -1, 0);
-  const auto shown = run_shader("lib/tonemap.glsl", "o_value = vec4(tonemap_aces(a.rgb), tonemap_none(a.rgb).r);\n", light, light);
+  const auto shown =
+      run_shader("lib/tonemap.glsl", "o_value = vec4(tonemap_aces(a.rgb), tonemap_none(a.rgb).r);\n", light, light);
   for (std::size_t i = 1; i < shown.size(); ++i) {
     EXPECT_GE(shown[i].x, shown[i - 1].x);
     EXPECT_LE(shown[i].x, 1);
@@ -212,7 +216,8 @@ TEST_F(SharedMaths, ReflectanceTable) {
   std::vector<Vec4> row(table.width());
   for (int i = 0; i < table.width(); ++i) row[i] = i < 17 ? Vec4(map.table[i], 1) : Vec4(0);
   row.resize(angles.size());
-  const auto found = run_shader("lib/reflectance.glsl", "o_value = vec4(reflectance_from_table(u_b, 0, 17, a.x), 1.0);\n", angles, row);
+  const auto found = run_shader("lib/reflectance.glsl",
+                                "o_value = vec4(reflectance_from_table(u_b, 0, 17, a.x), 1.0);\n", angles, row);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const float at = std::sqrt(angles[i].x) * 16;
     const int low = std::min(static_cast<int>(at), 15);

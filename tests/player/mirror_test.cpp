@@ -10,7 +10,9 @@ const Vec3 kRed(40, 2, 2), kGrey(10, 10, 10);
 // The square on the wall.
 constexpr float kLeft = -0.2f, kRight = 0.6f, kBottom = -0.3f, kTop = 0.5f;
 
-bool in_square(const Vec2& p) { return p.x > kLeft && p.x < kRight && p.y > kBottom && p.y < kTop; }
+bool in_square(const Vec2& p) {
+  return p.x > kLeft && p.x < kRight && p.y > kBottom && p.y < kTop;
+}
 
 Seen wall(const Vec2& on_plane, const Vec3& direction) {
   const Vec2 hit = on_plane + Vec2(direction) * (kWall / direction.z);
@@ -18,7 +20,8 @@ Seen wall(const Vec2& on_plane, const Vec3& direction) {
 }
 
 Pack mirror_pack(const std::function<Seen(const Vec2&, const Vec3&)>& seen = wall,
-                 const std::vector<Vec3>& eyes = {{0, 0, -1}, {0.5f, 0, -1}, {-0.5f, 0, -1}, {0, 0.5f, -1}, {0, -0.5f, -1}}) {
+                 const std::vector<Vec3>& eyes = {
+                     {0, 0, -1}, {0.5f, 0, -1}, {-0.5f, 0, -1}, {0, 0.5f, -1}, {0, -0.5f, -1}}) {
   Pack pack;
   pack.materials.resize(2);
   pack.materials[0].base_color = Vec3(1);
@@ -44,7 +47,8 @@ struct Expected {
 };
 Expected expected_at(const Camera& camera, int x, int y, int width, int height, float margin) {
   const View view = make_view(camera, width, height, {});
-  const Vec2 ndc((static_cast<float>(x) + 0.5f) / static_cast<float>(width) * 2 - 1, 1 - (static_cast<float>(y) + 0.5f) / static_cast<float>(height) * 2);
+  const Vec2 ndc((static_cast<float>(x) + 0.5f) / static_cast<float>(width) * 2 - 1,
+                 1 - (static_cast<float>(y) + 0.5f) / static_cast<float>(height) * 2);
   const Vec3 direction = glm::transpose(Mat3(view.view_from_pack)) * Vec3(ndc * view.tangents, -1);
   Expected out;
   if (direction.z >= 0 || camera.eye.z <= 0) return out;
@@ -82,7 +86,8 @@ class Mirror : public FrameTest {
 
 TEST_F(Mirror, ShowsTheSquareWhereGeometrySays) {
   const Pack pack = mirror_pack();
-  for (const Vec3& eye : {Vec3(0, 0, 1), Vec3(0.5f, 0.3f, 1.5f), Vec3(-0.8f, -0.4f, 0.7f), Vec3(0.01f, 0, 0.05f), Vec3(0, 0, 2.9f)}) {
+  for (const Vec3& eye :
+       {Vec3(0, 0, 1), Vec3(0.5f, 0.3f, 1.5f), Vec3(-0.8f, -0.4f, 0.7f), Vec3(0.01f, 0, 0.05f), Vec3(0, 0, 2.9f)}) {
     for (const Selection selection : {Selection::kAngle, Selection::kDistance}) {
       FrameOptions options;
       options.selection = selection;
@@ -122,7 +127,8 @@ TEST_F(Mirror, WrongDepthIsSeen) {
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
       const Expected e = expected_at(camera, x, y, 160, 120, 0.08f);
-      if (e.on_mirror && e.sure) wrong += glm::length(p.at(x, y) / Vec3(0.5f, 0.5f, 1) - (e.red ? kRed : kGrey)) > 1e-3f;
+      if (e.on_mirror && e.sure)
+        wrong += glm::length(p.at(x, y) / Vec3(0.5f, 0.5f, 1) - (e.red ? kRed : kGrey)) > 1e-3f;
     }
   }
   EXPECT_GT(wrong, 30);
@@ -158,6 +164,36 @@ TEST_F(Mirror, DisocclusionsAreFilled) {
     }
   }
   EXPECT_GT(seen, 2000);
+}
+
+// A post before the wall hides it in the mirror too, however far beyond the scene's own bounds the mirrored things lie.
+TEST_F(Mirror, NearThingsHideFarOnes) {
+  const auto post = [](const Vec2& p, const Vec3& d) {
+    return std::fabs(p.x + d.x / d.z) < 0.3f ? Seen{Vec3(20), 1.0f} : wall(p, d);
+  };
+  const Pack pack = mirror_pack(post);
+  for (const Vec3& eye : {Vec3(0.2f, 0, 1), Vec3(-0.5f, 0.3f, 1.2f)}) {
+    const Camera camera = camera_at(eye);
+    FrameOptions options;
+    options.show = Show::kM;
+    options.maps_per_element = 5;
+    const Picture p = draw(pack, camera, 160, 120, options);
+    const View view = make_view(camera, 160, 120, {});
+    int seen = 0;
+    for (int y = 0; y < 120; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        if (!expected_at(camera, x, y, 160, 120, 0).on_mirror) continue;
+        const Vec2 ndc((static_cast<float>(x) + 0.5f) / 80 - 1, 1 - (static_cast<float>(y) + 0.5f) / 60);
+        const Vec3 direction = glm::transpose(Mat3(view.view_from_pack)) * Vec3(ndc * view.tangents, -1);
+        const float at = eye.x + direction.x * ((eye.z + 1) / -direction.z);
+        const float up = eye.y + direction.y * ((eye.z + 1) / -direction.z);
+        if (std::fabs(at) > 0.25f || std::fabs(up) > 1.8f) continue;  // lower, not all maps see it
+        ++seen;
+        EXPECT_NEAR(p.at(x, y).y, 20, 1e-3f) << x << "," << y;
+      }
+    }
+    EXPECT_GT(seen, 1000);
+  }
 }
 
 // No map saw anything through part of it: the mirror shows what its maps hold elsewhere, not black.
@@ -198,7 +234,8 @@ TEST_F(Mirror, AKernelKeepsAFlatImageAndBlursAnEdgeByItsDistance) {
   EXPECT_NEAR(flat.at(80, 60).x, 0.5f * kGrey.x, 1e-3f);
   EXPECT_NEAR(flat.at(80, 60).z, kGrey.z, 1e-3f);
 
-  // An edge at x = 0 of the wall, seen from straight before: between the levels over +-0.3 * d / (d + e) of the tangent.
+  // An edge at x = 0 of the wall, seen from straight before: between the levels over +-0.3 * d / (d + e) of the
+  // tangent.
   const auto edge = [](const Vec2& p, const Vec3& d) {
     return Seen{p.x + d.x * (kWall / d.z) > 0 ? kRed : kGrey, kWall};
   };
@@ -223,7 +260,8 @@ TEST_F(Mirror, AKernelKeepsAFlatImageAndBlursAnEdgeByItsDistance) {
 
 TEST_F(Mirror, EdgeOnOnThePlaneAndBehind) {
   const Pack pack = mirror_pack();
-  for (const Vec3& eye : {Vec3(3, 0, 0), Vec3(3, 0, 1e-7f), Vec3(3, 0, 1e-3f), Vec3(0, 0, 0), Vec3(0.3f, 0, -1), Vec3(0, 0, 1e-6f), Vec3(500, 0, 0.01f)}) {
+  for (const Vec3& eye : {Vec3(3, 0, 0), Vec3(3, 0, 1e-7f), Vec3(3, 0, 1e-3f), Vec3(0, 0, 0), Vec3(0.3f, 0, -1),
+                          Vec3(0, 0, 1e-6f), Vec3(500, 0, 0.01f)}) {
     for (const Vec3& target : {Vec3(0.01f, 0, 0), Vec3(0, 0.4f, -2)}) {
       const Picture p = draw(pack, camera_at(eye, target), 64, 48);
       EXPECT_TRUE(p.finite()) << eye.x << " " << eye.z;
@@ -295,7 +333,9 @@ TEST_F(Mirror, Orthographic) {
     for (int x = 4; x < 96; ++x) {
       const Vec2 at((static_cast<float>(x) + 0.5f) / 50 - 1, 1 - (static_cast<float>(y) + 0.5f) / 50);
       const bool red = in_square(at);
-      if (in_square(at + Vec2(0.08f)) != red || in_square(at - Vec2(0.08f)) != red || in_square(at + Vec2(0.08f, -0.08f)) != red || in_square(at + Vec2(-0.08f, 0.08f)) != red) continue;
+      if (in_square(at + Vec2(0.08f)) != red || in_square(at - Vec2(0.08f)) != red ||
+          in_square(at + Vec2(0.08f, -0.08f)) != red || in_square(at + Vec2(-0.08f, 0.08f)) != red)
+        continue;
       ASSERT_NEAR(p.at(x, y).x, 0.5f * (red ? kRed.x : kGrey.x), 1e-3f) << x << "," << y;
     }
   }

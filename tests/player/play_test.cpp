@@ -47,7 +47,8 @@ class Play : public ::testing::Test {
   }
   ::testing::AssertionResult ends(const Outcome& r, int code, const std::string& says) {
     if (r.code == code && r.out.find(says) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says << "' in: " << r.out;
+    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says
+                                         << "' in: " << r.out;
   }
 
  private:
@@ -62,8 +63,9 @@ TEST_F(Play, UsageErrors) {
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen"), 1, "-o"));
   EXPECT_TRUE(ends(run("tiny.oriel -o a.png"), 1, "--offscreen"));
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o a.jpg"), 1, ".jpg"));
-  for (const char* bad : {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan", "--show X", "--maps -1",
-                          "--maps many", "--select near", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
+  for (const char* bad :
+       {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan", "--show X", "--maps -1",
+        "--maps many", "--select near", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
     EXPECT_EQ(run(std::string("tiny.oriel --offscreen -o a.png ") + bad).code, 1) << bad;
   }
   const Outcome unknown = run("tiny.oriel --offscreen -o a.png --camera nowhere");
@@ -110,19 +112,24 @@ TEST_F(Play, OffscreenWritesPicturesOfTheSizeAsked) {
 }
 
 TEST_F(Play, SeveralCamerasGoIntoAFolder) {
-  ASSERT_TRUE(ends(run("tiny.oriel --offscreen --size 16x9 --camera all --camera 0 --format exr -o shots"), 0, "shots/"));
+  ASSERT_TRUE(
+      ends(run("tiny.oriel --offscreen --size 16x9 --camera all --camera 0 --format exr -o shots"), 0, "shots/"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "shots"), fs::directory_iterator()), 3);
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen --camera all -o shots.png"), 1, "folder"));
 }
 
 TEST_F(Play, EveryStageAndOption) {
-  for (const char* options : {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1", "--select distance",
-                              "--reflectance sphere", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
-    EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png")) << options;
+  for (const char* options :
+       {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1", "--select distance",
+        "--reflectance sphere", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
+    EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
+        << options;
   }
 }
 
-TEST_F(Play, WithoutADisplayTheWindowSaysWhatToDo) { EXPECT_TRUE(ends(run("tiny.oriel"), 4, "--offscreen")); }
+TEST_F(Play, WithoutADisplayTheWindowSaysWhatToDo) {
+  EXPECT_TRUE(ends(run("tiny.oriel"), 4, "--offscreen"));
+}
 
 class PlayWindow : public Play {
  protected:
@@ -134,7 +141,8 @@ class PlayWindow : public Play {
   }
   // Runs a script with $PLAY and $PACK under a virtual display.
   Outcome in_display(const std::string& script) {
-    std::ofstream(folder() / "script.sh") << "PLAY='" << (fs::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n" << script;
+    std::ofstream(folder() / "script.sh") << "PLAY='" << (fs::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n"
+                                          << script;
     return shell("xvfb-run -a -s '-screen 0 640x480x24' bash script.sh");
   }
 };
@@ -148,7 +156,9 @@ xdotool windowfocus "$window"
 sleep 0.5
 )";
 
-TEST_F(PlayWindow, ClosesAfterTheFramesAsked) { EXPECT_TRUE(ends(in_display("\"$PLAY\" tiny.oriel --size 160x90 --frames 3\n"), 0, "")); }
+TEST_F(PlayWindow, ClosesAfterTheFramesAsked) {
+  EXPECT_TRUE(ends(in_display("\"$PLAY\" tiny.oriel --size 160x90 --frames 3\n"), 0, ""));
+}
 
 TEST_F(PlayWindow, AnswersKeysAndQuits) {
   const Outcome r = in_display(std::string(kStart) + R"(
@@ -170,7 +180,9 @@ wait $pid
   EXPECT_EQ(resized->height, 120u);
 }
 
-TEST_F(PlayWindow, ControlQQuits) { EXPECT_TRUE(ends(in_display(std::string(kStart) + "xdotool key --window \"$window\" ctrl+q\nwait $pid\n"), 0, "")); }
+TEST_F(PlayWindow, ControlQQuits) {
+  EXPECT_TRUE(ends(in_display(std::string(kStart) + "xdotool key --window \"$window\" ctrl+q\nwait $pid\n"), 0, ""));
+}
 
 TEST_F(PlayWindow, AnInterruptEndsItCleanly) {
   EXPECT_TRUE(ends(in_display(std::string(kStart) + "kill -TERM $pid\nwait $pid\n"), 130, "stopped by the user"));

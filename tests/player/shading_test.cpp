@@ -23,7 +23,8 @@ Camera facing_camera(float distance = 2) {
 }
 
 void expect_light(const Vec3& found, const Vec3& expected, float relative = 1e-6f) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], relative * std::fabs(expected[c]) + 1e-30f) << "channel " << c;
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(found[c], expected[c], relative * std::fabs(expected[c]) + 1e-30f) << "channel " << c;
 }
 
 class Shading : public FrameTest {};
@@ -175,7 +176,8 @@ TEST_F(Shading, EveryScaleOfGeometry) {
   for (const float scale : {1e-4f, 1.0f, 1e6f}) {
     Pack pack = lit_quad(Vec3(256));
     for (Vec3& p : pack.mesh.positions) p *= scale;
-    add_quad(pack, Vec3(-0.1f, -0.1f, -0.05f) * scale, Vec3(0.2f, 0, 0) * scale, Vec3(0, 0.2f, 0) * scale, 0, -1);  // hidden
+    add_quad(pack, Vec3(-0.1f, -0.1f, -0.05f) * scale, Vec3(0.2f, 0, 0) * scale, Vec3(0, 0.2f, 0) * scale, 0,
+             -1);  // hidden
     const Picture p = draw(pack, facing_camera(2 * scale), 16, 16);
     for (int i = 0; i < 16; ++i) expect_light(p.at(i, i), Vec3(128, 64, 256) / kPi);
   }

@@ -141,6 +141,25 @@ TEST(Radiosity, BuriedTexelsTakeTheirNeighboursLight) {
     }
 }
 
+// Beside a one-sided wall seen from behind, half of the sky is hidden and no point is buried: leaving points out by what
+// their paths met would brighten the texel.
+TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
+  SceneParts parts;
+  const auto black = parts.diffuse(Vec3(0));
+  parts.quad("floor", black, {0, 0, 1}, {2, 0, 0}, {0, 0, -1});
+  parts.quad("wall", black, {-0.001f, 0, -200}, {0, 0, 400}, {0, 400, 0});  // faces -x, away from the floor
+  parts.scene().sky = Vec3(1);
+  const Baked b = bake(parts.finish(), 0.25f, 1024);
+  int seen = 0;
+  for (std::size_t p = 0; p < b.texel_map.size(); ++p)
+    for (const std::uint32_t texel : b.texel_map[p].texel)
+      if (b.radiosity.pages[p].irradiance[texel].g > 1.2f && b.radiosity.pages[p].irradiance[texel].g < 1.9f) {
+        EXPECT_NEAR(b.radiosity.pages[p].irradiance[texel].g, kPi / 2, 0.05) << "half of the sky";
+        ++seen;
+      }
+  EXPECT_GE(seen, 4);
+}
+
 TEST(Radiosity, NoLightIsExactlyBlack) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(1), true);

@@ -91,6 +91,22 @@ TEST(Path, AreaLightHasItsFormFactor) {
   EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 4096).direct.g / (kPi * 100 * factor), 1, 5e-3);
 }
 
+// The same, close above a floor so large that its points are rounded to a share of the distance; at three scales.
+class CloseLamp : public testing::TestWithParam<float> {};
+
+TEST_P(CloseLamp, IsNotHiddenByItself) {
+  const float scale = GetParam();
+  for (const float height : {3.0f, 0.1f}) {
+    SceneParts parts;
+    parts.quad("floor", parts.diffuse(Vec3(0)), Vec3(-200, 0, 200) * scale, Vec3(400, 0, 0) * scale, Vec3(0, 0, -400) * scale);
+    parts.quad("light", parts.diffuse(Vec3(0), Vec3(100)), Vec3(-0.5f, height, -0.5f) * scale, Vec3(1, 0, 0) * scale, Vec3(0, 0, 1) * scale);
+    const float x = 0.5f / height, root = std::sqrt(1 + x * x);
+    const float factor = 4 * (1 / (2 * kPi)) * (2 * x / root * std::atan(x / root));
+    EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 16384).direct.g / (kPi * 100 * factor), 1, 0.01) << height;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Scales, CloseLamp, testing::Values(1e-3f, 1.0f, 1e3f));
+
 // Light sampling alone reads low where a whole face emits beside the receiver: MIS must not.
 TEST(Path, AdjoiningEmitterIsNotReadLow) {
   SceneParts parts;
