@@ -13,7 +13,7 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, reflections, 256 paths a texel
   oriel-bake house.glb -o house.oriel --texel 5cm --samples 1024     finer and with half the noise
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
-  oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a third of the size, no mirror images
+  oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
 
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
 130 stopped by the user (nothing half-written is left).)";
@@ -30,42 +30,59 @@ CLI::Validator checked(Parser parse, const char* name) {
 }
 
 struct Texts {
-  std::string texel = "10cm", memory = "64MiB", sky = "0", atlas = "auto", only;
+  std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", only;
   bool quiet = false, json_log = false;
   int resolution = 0;
+  CLI::Option* texel_option = nullptr;
 };
 
 void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
-  app.add_option("--atlas", texts.atlas, "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's TEXCOORD_1)")
+  app.add_option("--atlas", texts.atlas,
+                 "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's TEXCOORD_1)")
       ->check(CLI::IsMember({"auto", "uv1"}))
       ->capture_default_str();
-  auto* texel = app.add_option("--texel", texts.texel, "Size of a lightmap texel on a surface. Smaller shows finer shadows; time and size grow with its inverse square")
+  auto* texel = app.add_option("--texel", texts.texel,
+                               "Size of a lightmap texel on a surface. Smaller shows finer shadows; time and size grow "
+                               "with its inverse square")
                     ->check(checked(parse_length, "LENGTH"))
                     ->capture_default_str();
-  app.add_option("--resolution", texts.resolution, "Side of the lightmap page in texels: with --atlas uv1 the page the coordinates are meant for, with auto the page that everything shall fit on")
-      ->check(CLI::Range(16, 16384))
-      ->excludes(texel);
-  app.add_option("--max-page", bake.atlas.max_page, "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
+  app.add_option("--resolution", texts.resolution,
+                 "Side of the lightmap page in texels: with --atlas uv1 the page the coordinates are meant for, with "
+                 "auto the page that everything shall fit on")
+      ->check(CLI::Range(16, 16384));
+  texts.texel_option = texel;
+  app.add_option("--max-page", bake.atlas.max_page,
+                 "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
 }
 
 void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
-  app.add_option("--samples", bake.radiosity.samples, "Paths a texel, best a power of two. The error falls with the square root; each texel's standard error is stored")
+  app.add_option("--samples", bake.radiosity.samples,
+                 "Paths a texel, best a power of two. The error falls with the square root; each texel's standard "
+                 "error is stored")
       ->check(CLI::Range(1u, 1u << 24))
       ->capture_default_str();
-  app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")->check(checked(parse_color, "L|R,G,B"))->capture_default_str();
+  app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")
+      ->check(checked(parse_color, "L|R,G,B"))
+      ->capture_default_str();
 }
 
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
-  app.add_option("--only", texts.only, "Leave components out, comma-separated list of: radiosity, radiance, material")->type_name("LIST");
-  app.add_option("--max-reflectors", bake.reflectors.max_reflectors, "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
+  app.add_option("--only", texts.only,
+                 "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps "
+                 "behind reflectors), material (kernels)")
+      ->type_name("LIST");
+  app.add_option("--max-reflectors", bake.reflectors.max_reflectors,
+                 "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--views", bake.views.views_per_element, "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
+  app.add_option("--views", bake.views.views_per_element,
+                 "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  app.add_option("--map-resolution", bake.views.map_resolution, "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
+  app.add_option("--map-resolution", bake.views.map_resolution,
+                 "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   app.add_option("--memory", texts.memory, "Limit of all radiance maps together; views are thinned out to keep it")
@@ -79,9 +96,14 @@ Status resolve(const Texts& texts, Arguments& args) {
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
   ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
   bake.atlas.resolution = texts.resolution;
+  if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)
+    return fail(ErrorCode::kUsage, "",
+                "found both --texel and --resolution, expected one: with --atlas auto each follows from the other");
   if (texts.atlas == "uv1") {
     bake.atlas.source = AtlasOptions::Source::kUv1;
-    if (texts.resolution == 0) return fail(ErrorCode::kUsage, "--atlas uv1", "needs --resolution N, the side of the page its coordinates are meant for");
+    if (texts.resolution == 0)
+      return fail(ErrorCode::kUsage, "--atlas uv1",
+                  "needs --resolution N, the side of the page its coordinates are meant for");
   }
   if (!texts.only.empty()) {
     bake.with_radiance = bake.with_material = false;
@@ -94,10 +116,10 @@ Status resolve(const Texts& texts, Arguments& args) {
         return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance or material", part);
     }
   }
-  args.style = texts.json_log               ? ProgressPrinter::Style::kJson
-               : texts.quiet                ? ProgressPrinter::Style::kQuiet
-               : ::isatty(STDERR_FILENO)    ? ProgressPrinter::Style::kBar
-                                            : ProgressPrinter::Style::kPlain;
+  args.style = texts.json_log            ? ProgressPrinter::Style::kJson
+               : texts.quiet             ? ProgressPrinter::Style::kQuiet
+               : ::isatty(STDERR_FILENO) ? ProgressPrinter::Style::kBar
+                                         : ProgressPrinter::Style::kPlain;
   return {};
 }
 
@@ -106,9 +128,11 @@ Status resolve(const Texts& texts, Arguments& args) {
 Arguments parse_arguments(int argc, char** argv) {
   Arguments args;
   Texts texts;
-  CLI::App app("Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
-               "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with oriel-inspect.",
-               "oriel-bake");
+  CLI::App app(
+      "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
+      "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with "
+      "oriel-inspect.",
+      "oriel-bake");
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("oriel-bake ") + kVersion);
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures")->required();
@@ -117,9 +141,14 @@ Arguments parse_arguments(int argc, char** argv) {
   add_light_options(app, texts, args.bake);
   add_reflection_options(app, texts, args.bake);
   app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
-  app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The bytes of the pack do not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
-  app.add_option("--seed", args.seed, "Of every random number: another seed gives another, equally good, estimate")->capture_default_str();
-  app.add_flag("--reproducible", args.bake.reproducible, "Pin the instruction set: the same bytes on every x86-64 CPU, about 15 % slower");
+  app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The bytes of the pack do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--seed", args.seed, "Of every random number: another seed gives another, equally good, estimate")
+      ->capture_default_str();
+  app.add_flag("--reproducible", args.bake.reproducible,
+               "Pin Embree's instruction set, about 15 % slower: with one C library the same bytes on CPUs that differ "
+               "in AVX only");
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   auto* quiet = app.add_flag("--quiet", texts.quiet, "No progress; warnings and errors only");
   app.add_flag("--json-log", texts.json_log, "Progress, warnings and errors as JSON lines on stderr")->excludes(quiet);

@@ -1,7 +1,12 @@
 // oriel-bake: a glTF scene into one .oriel pack.
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "bake/cli/arguments.h"
@@ -12,10 +17,31 @@
 namespace oriel {
 namespace {
 
-Context* g_context = nullptr;  // for the signal handler alone
+// What the signal handlers need; set before they are installed.
+Context* g_context = nullptr;
+char g_temporary[4096] = "";
 
-void on_signal(int) {
-  if (g_context) g_context->stop.store(true);
+// Stages look at the flag many times a second, but libraries' long calls do not: after a second the process ends
+// itself. That loses nothing: a pack exists only once it is renamed into place.
+void on_alarm(int) {
+  ::unlink(g_temporary);
+  static constexpr char kText[] = "\noriel-bake: stopped; nothing was written\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+  ::_exit(static_cast<int>(ErrorCode::kStopped));
+}
+
+void on_stop(int) {
+  g_context->stop.store(true);
+  ::alarm(1);
+}
+
+void install_signal_handlers(Context& context, const std::filesystem::path& output) {
+  g_context = &context;
+  const std::string temporary = temporary_name(output).string();
+  if (temporary.size() < sizeof(g_temporary)) std::copy(temporary.begin(), temporary.end(), g_temporary);
+  std::signal(SIGALRM, on_alarm);
+  std::signal(SIGINT, on_stop);
+  std::signal(SIGTERM, on_stop);
 }
 
 int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinter& printer) {
@@ -25,16 +51,26 @@ int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinte
         {"event", "error"}, {"code", static_cast<int>(error.code)}, {"message", error.message}, {"where", error.where}};
     std::fprintf(stderr, "%s\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
-    std::fprintf(stderr, "oriel-bake: %s\n", error.code == ErrorCode::kStopped ? "stopped; nothing was written" : error.text().c_str());
+    std::fprintf(stderr, "oriel-bake: %s\n",
+                 error.code == ErrorCode::kStopped ? "stopped; nothing was written" : error.text().c_str());
   }
   return static_cast<int>(error.code);
 }
 
-// Fails before hours of work where the pack could not be written at their end.
-Status check_output(const std::filesystem::path& output) {
-  const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder)) return fail(ErrorCode::kIo, output.string(), "there is no folder {}", folder.string());
-  if (std::filesystem::is_directory(output)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
+// Fails before hours of work where their result could not be written, or would replace the scene.
+Status check_output(const std::filesystem::path& output, const std::filesystem::path& scene) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  if (!fs::is_directory(folder, ec))
+    return fail(ErrorCode::kIo, output.string(), "there is no folder {}", folder.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    return fail(ErrorCode::kIo, output.string(), "the folder {} cannot be written: {}", folder.string(),
+                std::strerror(errno));
+  if (fs::is_directory(output, ec)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
+  if (fs::equivalent(output, scene, ec))
+    return fail(ErrorCode::kUsage, output.string(),
+                "is the scene itself, which would be overwritten: expected another name");
   return {};
 }
 
@@ -46,8 +82,13 @@ void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter&
     printer.note(fmt::format("omitted: {} more, see oriel-inspect info or --report", omissions.size() - kShown));
 }
 
-Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
-  ORIEL_TRY_VOID(check_output(args.bake.output));
+Status run_checked(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  ORIEL_TRY_VOID(check_output(args.bake.output, args.bake.scene));
+  if (!args.report.empty()) {
+    ORIEL_TRY_VOID(check_output(args.report, args.bake.scene));
+    if (args.report.lexically_normal() == args.bake.output.lexically_normal())
+      return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
+  }
   ORIEL_TRY(const BakeResult result, bake(args.bake, context));
   print_omissions(result.omissions, printer);
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
@@ -57,9 +98,23 @@ Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   }
   double seconds = 0;
   for (const StageTime& time : result.times) seconds += time.seconds;
+  std::error_code ec;
+  const auto size = std::filesystem::file_size(args.bake.output, ec);
   printer.note(fmt::format("wrote {}: {:.1f} MB, baked in {:.1f} s", args.bake.output.string(),
-                           static_cast<double>(std::filesystem::file_size(args.bake.output)) * 1e-6, seconds));
+                           ec ? 0.0 : static_cast<double>(size) * 1e-6, seconds));
   return {};
+}
+
+// Our code throws nothing, but the libraries and the allocator may.
+Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  try {
+    return run_checked(args, context, printer);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, "",
+                "not enough memory: try a larger --texel, fewer --views or a smaller --memory");
+  } catch (const std::exception& error) {
+    return fail(ErrorCode::kRuntime, "", "{}", error.what());
+  }
 }
 
 int main_of_bake(int argc, char** argv) {
@@ -71,15 +126,15 @@ int main_of_bake(int argc, char** argv) {
   ProgressPrinter printer(args.style);
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
-  g_context = &context;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  install_signal_handlers(context, args.bake.output);
   const Status status = run(args, context, printer);
-  g_context = nullptr;
+  ::alarm(0);
   return status ? 0 : print_error(status.error(), args.style, printer);
 }
 
 }  // namespace
 }  // namespace oriel
 
-int main(int argc, char** argv) { return oriel::main_of_bake(argc, argv); }
+int main(int argc, char** argv) {
+  return oriel::main_of_bake(argc, argv);
+}

@@ -41,9 +41,9 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
   const double rays_per_s = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
   const double left = progress.fraction > 0 ? seconds * (1 - progress.fraction) / progress.fraction : 0;
   if (style_ == Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", "progress"},      {"stage", std::string(progress.stage)},
+    const nlohmann::ordered_json json = {{"event", "progress"},           {"stage", std::string(progress.stage)},
                                          {"fraction", progress.fraction}, {"seconds", seconds},
-                                         {"rays", progress.rays},    {"rays_per_s", rays_per_s},
+                                         {"rays", progress.rays},         {"rays_per_s", rays_per_s},
                                          {"seconds_left", left}};
     std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
@@ -73,7 +73,9 @@ void ProgressPrinter::line(const char* event, const std::string& message) {
   std::fprintf(stderr, "%s%s\n", std::string(event) == "warning" ? "warning: " : "", message.c_str());
 }
 
-void ProgressPrinter::warning(const std::string& message) { line("warning", message); }
+void ProgressPrinter::warning(const std::string& message) {
+  line("warning", message);
+}
 
 void ProgressPrinter::note(const std::string& message) {
   if (style_ != Style::kQuiet) line("note", message);

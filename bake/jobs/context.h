@@ -25,7 +25,7 @@ class Context {
   std::uint64_t seed = 1;                         // of every random number
   std::function<void(const Progress&)> progress;  // called from one thread at a time; may be empty
   std::function<void(const std::string&)> warn;   // a finding the user should read; may be empty
-  std::atomic<bool> stop{false};                  // set from outside (a signal handler may): stages return kStopped soon
+  std::atomic<bool> stop{false};  // set from outside (a signal handler may): stages return kStopped soon
 
   bool stopped() const { return stop.load(std::memory_order_relaxed); }
   void warning(const std::string& message);

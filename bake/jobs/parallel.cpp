@@ -40,7 +40,8 @@ Status parallel_for(Context& context, std::string_view stage, std::size_t count,
   const std::size_t step = std::max<std::size_t>(1, count / 200);
   const auto report = [&](std::size_t finished) {
     if (!stage.empty())
-      context.report(stage, count == 0 ? 1.0 : static_cast<double>(finished) / static_cast<double>(count), rays ? rays->load() : 0);
+      context.report(stage, count == 0 ? 1.0 : static_cast<double>(finished) / static_cast<double>(count),
+                     rays ? rays->load() : 0);
   };
   if (count > 0) report(0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

@@ -14,7 +14,7 @@ constexpr std::uint32_t kSamples = 1024;  // per textured material
 
 bool is_textured(const Scene& scene, const SceneMaterial& m) {
   return m.base_color_texture.image >= 0 || m.metallic_roughness_texture.image >= 0 || m.emission_texture.image >= 0 ||
-         !scene.colors.empty();
+         m.specular_texture.image >= 0 || m.specular_color_texture.image >= 0 || !scene.colors.empty();
 }
 
 float dielectric_f0(float ior) {

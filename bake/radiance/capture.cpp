@@ -74,7 +74,7 @@ class Capture {
     const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
     Vec3 through(0);
     float coverage = 1;
-    if (may_transmit(material)) {
+    if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them
       const ShadePoint point = shade_point(scene_, hit.triangle, hit.barycentric);
       coverage = point.coverage;
       through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));

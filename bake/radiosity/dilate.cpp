@@ -31,14 +31,16 @@ bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usa
 // Repeats rounds in which every pending texel with a usable neighbour is filled; a round reads only earlier rounds, so
 // the result does not depend on the order within it.
 template <class Usable, class Fill>
-void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, const Usable& usable, const Fill& fill) {
+void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, const Usable& usable,
+            const Fill& fill) {
   std::vector<std::pair<std::uint32_t, Vec3>> found;
   for (int round = 0; round < rounds && !pending.empty(); ++round) {
     found.clear();
     std::vector<std::uint32_t> left;
     for (const std::uint32_t texel : pending) {
       Vec3 mean(0);
-      if (mean_of_neighbours(page, texel, [&](std::uint32_t n) { return usable(texel, n); }, mean))
+      if (mean_of_neighbours(
+              page, texel, [&](std::uint32_t n) { return usable(texel, n); }, mean))
         found.emplace_back(texel, mean);
       else
         left.push_back(texel);
@@ -69,7 +71,8 @@ void fill_buried(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page
     if (!filled[texel] && lit.contains(chart[texel])) pending.push_back(texel);
   const int rounds = static_cast<int>(std::max(page.width, page.height));
   spread(
-      page, std::move(pending), rounds, [&](std::uint32_t at, std::uint32_t n) { return filled[n] && chart[n] == chart[at]; },
+      page, std::move(pending), rounds,
+      [&](std::uint32_t at, std::uint32_t n) { return filled[n] && chart[n] == chart[at]; },
       [&](std::uint32_t texel) { filled[texel] = 1; });
 }
 
@@ -79,11 +82,11 @@ void dilate(int texels, LightmapPage& page) {
     if (page.state[texel] == TexelState::kEmpty) pending.push_back(texel);
   // A chart that is buried whole is black and must not darken its neighbours.
   const auto usable = [&](std::uint32_t, std::uint32_t n) {
-    return page.state[n] != TexelState::kEmpty && (page.state[n] != TexelState::kBuried || max_component(page.irradiance[n]) > 0);
+    return page.state[n] != TexelState::kEmpty &&
+           (page.state[n] != TexelState::kBuried || max_component(page.irradiance[n]) > 0);
   };
-  spread(
-      page, std::move(pending), texels, usable,
-      [&](std::uint32_t texel) { page.state[texel] = TexelState::kDilated; });
+  spread(page, std::move(pending), texels, usable,
+         [&](std::uint32_t texel) { page.state[texel] = TexelState::kDilated; });
 }
 
 }  // namespace oriel

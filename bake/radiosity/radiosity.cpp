@@ -4,6 +4,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/dilate.h"
+#include "bake/radiosity/sides.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
@@ -23,8 +24,9 @@ struct TexelSums {
 
 class Baker {
  public:
-  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, const Context& context)
-      : t_(t), atlas_(atlas), options_(options), context_(context) {}
+  Baker(const Transport& t, const Atlas& atlas, const std::vector<char>& back, const RadiosityOptions& options,
+        const Context& context)
+      : t_(t), atlas_(atlas), back_(back), options_(options), context_(context) {}
 
   TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
     TexelSums sums;
@@ -48,12 +50,11 @@ class Baker {
  private:
   SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const {
     const TexelPoint point = sample_texel(atlas_, map, i, u);
-    const Vec3 normal = geometric_normal(t_.accel.scene(), point.triangle);
-    return geometry_at(t_.accel.scene(), {point.triangle, 0, point.barycentric, true}, -normal);
+    return point_on_side(t_.accel.scene(), point, back_[atlas_.chart[point.triangle]]);
   }
 
-  // Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most texels
-  // answer with one ray a point.
+  // Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most
+  // texels answer with one ray a point.
   bool any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
     for (std::uint32_t k = 0; k < 16; ++k) {
       Sampler sampler(~context_.seed, stream, k);
@@ -75,8 +76,8 @@ class Baker {
       const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
       ++rays;
       const Hit hit = t_.accel.intersect({origin, direction});
-      const bool back =
-          hit && !hit.front && !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+      const bool back = hit && !hit.front &&
+                        !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
       if (!back && (probe == 0 || ++missed > 1)) return false;
     }
     return true;
@@ -84,6 +85,7 @@ class Baker {
 
   const Transport& t_;
   const Atlas& atlas_;
+  const std::vector<char>& back_;  // by chart: bake the back
   const RadiosityOptions& options_;
   const Context& context_;
 };
@@ -152,21 +154,25 @@ RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<cons
 
 }  // namespace
 
-Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                                 const RadiosityOptions& options, Context& context) {
+Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
+                                 std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
+                                 Context& context) {
   Radiosity result;
   std::vector<Run> runs;
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
     const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
-    LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size), std::vector<TexelState>(size)};
+    LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size),
+                      std::vector<TexelState>(size)};
     result.pages.push_back(std::move(page));
     result.visible.emplace_back(map.texel.size());
     for (std::size_t first = 0; first < map.texel.size(); first += kRun)
       runs.push_back({p, first, std::min(first + kRun, map.texel.size())});
   }
-  const Baker baker(transport, atlas, options, context);
-  std::atomic<std::uint64_t> total_rays{0};
+  std::uint64_t side_rays = 0;
+  const std::vector<char> back = choose_sides(transport, atlas, texel_map, context.seed, side_rays);
+  const Baker baker(transport, atlas, back, options, context);
+  std::atomic<std::uint64_t> total_rays{side_rays};
   const auto body = [&](std::size_t r) {
     const Run& run = runs[r];
     std::uint64_t rays = 0;
@@ -181,6 +187,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
   result.report = summarize(transport.accel.scene(), atlas, texel_map, result);
   result.report.rays = total_rays;
+  result.report.back_charts = static_cast<std::size_t>(std::count(back.begin(), back.end(), 1));
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     fill_buried(atlas, texel_map[p], result.pages[p]);
     dilate(options.dilation, result.pages[p]);

@@ -67,7 +67,8 @@ AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas) {
       for (const std::uint32_t t : triangles) {
         out.first_index[t] = static_cast<std::uint32_t>(mesh.indices.size());
         for (int corner = 0; corner < 3; ++corner)
-          mesh.indices.push_back(splitter.vertex(scene.triangles[t][corner], page < 0 ? Vec2(0) : atlas.uv[t][corner], material));
+          mesh.indices.push_back(
+              splitter.vertex(scene.triangles[t][corner], page < 0 ? Vec2(0) : atlas.uv[t][corner], material));
       }
       part.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - part.first_index;
     }
@@ -99,11 +100,12 @@ void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vecto
     m.fresnel_map = maps.fresnel_map[i];
     const TextureSlot& slot = in.base_color_texture;
     if (slot.image >= 0) {
-      const auto [at, added] =
-          known.try_emplace({slot.image, slot.wrap_s, slot.wrap_t, slot.nearest}, static_cast<std::int32_t>(textures.size()));
+      const auto [at, added] = known.try_emplace({slot.image, slot.wrap_s, slot.wrap_t, slot.nearest},
+                                                 static_cast<std::int32_t>(textures.size()));
       if (added) {
         const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
-        textures.push_back({image.name, image.width, image.height, slot.wrap_s, slot.wrap_t, slot.nearest, image.texels});
+        textures.push_back(
+            {image.name, image.width, image.height, slot.wrap_s, slot.wrap_t, slot.nearest, image.texels});
       }
       m.base_color_texture = at->second;
     }

@@ -6,7 +6,8 @@
 
 namespace oriel {
 
-Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle, const Vec2& barycentric) {
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
+                      const Vec2& barycentric) {
   const std::int32_t index = atlas.page[triangle];
   if (index < 0) return Vec3(0);
   const LightmapPage& page = pages[static_cast<std::size_t>(index)];

@@ -9,9 +9,10 @@
 
 namespace oriel {
 
-// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does. 0 for triangles
-// without a chart.
-Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle, const Vec2& barycentric);
+// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does. 0 for
+// triangles without a chart.
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
+                      const Vec2& barycentric);
 
 // Radiance that a hit surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
 // specular part as a wide lobe R E/π, and its own emission. Constant cost: no further ray.

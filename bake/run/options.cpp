@@ -11,15 +11,16 @@ struct Unit {
   double factor;
 };
 
-// A number and one of the units (the first is the default where none is given).
-Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what, const char* example) {
+// A number and one of the units; a number alone is ambiguous (metres? centimetres?) and refused.
+Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what,
+                              const char* example) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (error == std::errc() && std::isfinite(value) && value > 0)
     for (const Unit& u : units)
-      if (unit == u.name || (unit.empty() && &u == units.data())) return value * u.factor;
+      if (unit == u.name) return value * u.factor;
   return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
 }
 
@@ -32,7 +33,8 @@ Result<float> parse_length(const std::string& text) {
 }
 
 Result<std::uint64_t> parse_bytes(const std::string& text) {
-  static constexpr Unit kUnits[] = {{"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};
+  static constexpr Unit kUnits[] = {{"B", 1},      {"kB", 1e3},      {"MB", 1e6},        {"GB", 1e9},
+                                    {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};
   ORIEL_TRY(const double bytes, parse_quantity(text, kUnits, "size", "64MiB or 2GB"));
   if (bytes > 0x1p60) return fail(ErrorCode::kUsage, "", "found '{}', expected at most 1 EiB", text);
   return static_cast<std::uint64_t>(bytes);
@@ -53,7 +55,8 @@ Result<Vec3> parse_color(const std::string& text) {
   }
   if (at == end && count == 1) return Vec3(color.x);
   if (at == end && count == 3) return color;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected one value or three with commas, none negative, such as 100 or 90,95,100", text);
+  return fail(ErrorCode::kUsage, "",
+              "found '{}', expected one value or three with commas, none negative, such as 100 or 90,95,100", text);
 }
 
 std::string options_json(const BakeOptions& o, std::uint64_t seed) {

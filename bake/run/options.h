@@ -24,14 +24,14 @@ struct BakeOptions {
   ViewOptions views;
   CaptureOptions capture;
   MaterialOptions material;
-  bool with_radiance = true;   // radiance maps behind reflectors
-  bool with_material = true;   // kernels; Fresnel maps are always there, the diffuse part needs them too
-  bool reproducible = false;   // the same bytes on every CPU type
+  bool with_radiance = true;  // radiance maps behind reflectors
+  bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
+  bool reproducible = false;  // the same bytes on every CPU type
 };
 
-// "5cm", "0.05m", "50mm", "0.05" (metres) as metres. Error kUsage.
+// "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
-// "64MiB", "2GiB", "500000" (bytes). Error kUsage.
+// "64MiB", "2GB", "500000B" as bytes; a unit is required. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
 Result<Vec3> parse_color(const std::string& text);

@@ -34,16 +34,18 @@ std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
 }
 
 // Reflectors, their viewpoints and what is seen from them, into the pack.
-Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas, const MaterialMaps& materials,
-                        const AssembledMesh& mesh, Context& context, BakeResult& result, std::uint64_t& rays) {
+Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
+                        const MaterialMaps& materials, const AssembledMesh& mesh, Context& context, BakeResult& result,
+                        std::uint64_t& rays) {
   const Scene& scene = accel.scene();
   FoundReflectors found = find_reflectors(accel, reflector_materials(materials), options.reflectors);
   ViewPlan plan = plan_views(scene, found.reflectors, options.views);
-  for (auto* lines : {&found.omitted, &plan.omitted})
+  for (auto* lines : {&plan.omitted, &found.omitted})  // what reduces quality first
     result.omissions.insert(result.omissions.end(), lines->begin(), lines->end());
   if (found.reflectors.empty())
-    result.omissions.push_back(fmt::format("radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
-                                           options.reflectors.max_roughness, options.reflectors.min_area_m2));
+    result.omissions.push_back(fmt::format(
+        "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
+        options.reflectors.max_roughness, options.reflectors.min_area_m2));
   const auto outgoing = [&](const Hit& hit, const Vec3& towards_eye) {
     return baked_radiance(scene, atlas, result.pack.lightmaps, hit, towards_eye);
   };
@@ -62,7 +64,8 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
   if (lights.empty() && luminance(scene.sky) <= 0)
-    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it bakes to black");
+    context.warning(
+        "the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it bakes to black");
 }
 
 }  // namespace
@@ -70,11 +73,13 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;
   Stopwatch timed(result.times);
-  ORIEL_TRY(const ImportedScene imported, timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
+  ORIEL_TRY(const ImportedScene imported,
+            timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
   ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
-  ORIEL_TRY(const Accel accel, timed("accelerator", [&](auto&) { return Accel::build(scene, {options.reproducible}); }));
+  ORIEL_TRY(const Accel accel,
+            timed("accelerator", [&](auto&) { return Accel::build(scene, {options.reproducible}); }));
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 
@@ -85,7 +90,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
             }));
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
-  ORIEL_TRY(MaterialMaps materials, timed("material", [&](auto&) { return bake_materials(scene, options.material, context); }));
+  ORIEL_TRY(MaterialMaps materials,
+            timed("material", [&](auto&) { return bake_materials(scene, options.material, context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   if (options.with_radiance) {
     ORIEL_TRY_VOID(timed("radiance", [&](std::uint64_t& rays) {
@@ -106,7 +112,9 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.cameras = scene.cameras;
   pack.paths = scene.paths;
   pack.sky = scene.sky;
-  pack.plan = plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(), result.times.back().rays});
+  if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
+  pack.plan =
+      plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(), result.times.back().rays});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;
 }

@@ -14,8 +14,8 @@ struct StageTime {
 
 struct BakeResult {
   Pack pack;
-  std::vector<StageTime> times;         // wall clock; not in the pack, whose bytes depend on input and options only
-  std::vector<std::string> omissions;   // what was not modelled, and why
+  std::vector<StageTime> times;        // wall clock; not in the pack, whose bytes depend on input and options only
+  std::vector<std::string> omissions;  // what was not modelled, and why
 };
 
 // Scene file → pack in memory. Errors as the stages give them; kStopped when context.stop was set.

@@ -9,26 +9,47 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json rgb(const Vec3& v) { return {v.r, v.g, v.b}; }
-Json rgb(const DVec3& v) { return {v.r, v.g, v.b}; }
+Json rgb(const Vec3& v) {
+  return {v.r, v.g, v.b};
+}
+Json rgb(const DVec3& v) {
+  return {v.r, v.g, v.b};
+}
 
 // Names come from files and may hold any bytes.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
 
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
   Json reflectors = Json::array();
   for (const Reflector& r : f.pack.reflectors)
-    reflectors.push_back({{"name", r.name}, {"area_m2", r.area_m2}, {"elements", r.elements_x * r.elements_y}, {"maps", r.map_count}});
+    reflectors.push_back(
+        {{"name", r.name}, {"area_m2", r.area_m2}, {"elements", r.elements_x * r.elements_y}, {"maps", r.map_count}});
   const Json json = {
-      {"scene", {{"triangles", f.scene.triangles.size()}, {"surfaces", f.scene.surfaces.size()}, {"materials", f.scene.materials.size()},
-                 {"punctual_lights", f.scene.lights.size()}, {"emitted_lm", rgb(f.emitted_lm)}}},
-      {"atlas", {{"pages", f.atlas.pages.size()}, {"charts", f.atlas.chart_count}, {"texel_m", f.atlas.texel_m},
-                 {"covered_share", f.atlas.covered_share}}},
-      {"radiosity", {{"estimator", "reference"}, {"texels", f.radiosity.texels}, {"buried_texels", f.radiosity.buried},
-                     {"rays", f.radiosity.rays}, {"mean_lux", rgb(f.radiosity.mean)}, {"max_lux", rgb(f.radiosity.max)},
-                     {"relative_standard_error", f.radiosity.relative_error}, {"incident_lm", rgb(f.radiosity.incident_lm)}}},
+      {"scene",
+       {{"triangles", f.scene.triangles.size()},
+        {"surfaces", f.scene.surfaces.size()},
+        {"materials", f.scene.materials.size()},
+        {"punctual_lights", f.scene.lights.size()},
+        {"emitted_lm", rgb(f.emitted_lm)}}},
+      {"atlas",
+       {{"pages", f.atlas.pages.size()},
+        {"charts", f.atlas.chart_count},
+        {"texel_m", f.atlas.texel_m},
+        {"covered_share", f.atlas.covered_share}}},
+      {"radiosity",
+       {{"estimator", "reference"},
+        {"texels", f.radiosity.texels},
+        {"buried_texels", f.radiosity.buried},
+        {"back_side_charts", f.radiosity.back_charts},
+        {"rays", f.radiosity.rays},
+        {"mean_lux", rgb(f.radiosity.mean)},
+        {"max_lux", rgb(f.radiosity.max)},
+        {"relative_standard_error", f.radiosity.relative_error},
+        {"incident_lm", rgb(f.radiosity.incident_lm)}}},
       {"radiance", {{"reflectors", reflectors}, {"maps", f.pack.radiance_maps.size()}, {"rays", f.radiance_rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
       {"omitted", f.omissions},
@@ -40,15 +61,22 @@ std::string provenance_json(const BakeOptions& options, std::uint64_t seed,
                             const std::vector<std::pair<std::string, std::string>>& inputs) {
   Json files = Json::array();
   for (const auto& [name, hash] : inputs) files.push_back({{"name", name}, {"xxh3_128", hash}});
-  const Json json = {{"tool", "oriel-bake"}, {"version", kVersion}, {"options", Json::parse(options_json(options, seed))}, {"inputs", files}};
+  const Json json = {{"tool", "oriel-bake"},
+                     {"version", kVersion},
+                     {"options", Json::parse(options_json(options, seed))},
+                     {"inputs", files}};
   return text_of(json);
 }
 
 std::string report_json(const BakeResult& result) {
   Json times = Json::array();
   for (const StageTime& t : result.times)
-    times.push_back({{"stage", t.stage}, {"seconds", t.seconds}, {"rays", t.rays}, {"rays_per_s", t.seconds > 0 ? static_cast<double>(t.rays) / t.seconds : 0}});
-  const Json json = {{"provenance", Json::parse(result.pack.provenance)}, {"plan", Json::parse(result.pack.plan)}, {"stages", times}};
+    times.push_back({{"stage", t.stage},
+                     {"seconds", t.seconds},
+                     {"rays", t.rays},
+                     {"rays_per_s", t.seconds > 0 ? static_cast<double>(t.rays) / t.seconds : 0}});
+  const Json json = {
+      {"provenance", Json::parse(result.pack.provenance)}, {"plan", Json::parse(result.pack.plan)}, {"stages", times}};
   return text_of(json) + "\n";
 }
 

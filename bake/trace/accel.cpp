@@ -46,8 +46,8 @@ struct Accel::Impl {
     const Group& group = groups[id];
     const auto& indices = group.indices.empty() ? scene->triangles : group.indices;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(Vec3),
-                               scene->positions.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                               sizeof(Vec3), scene->positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(UVec3),
                                indices.size());
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
@@ -59,7 +59,8 @@ struct Accel::Impl {
 
   void split_groups() {
     std::vector<char> transmits(scene->materials.size());
-    for (std::size_t m = 0; m < transmits.size(); ++m) any_transmitting |= transmits[m] = may_transmit(scene->materials[m]);
+    for (std::size_t m = 0; m < transmits.size(); ++m)
+      any_transmitting |= transmits[m] = may_transmit(scene->materials[m]);
     if (!any_transmitting) return;
     for (std::uint32_t t = 0; t < scene->triangles.size(); ++t) {
       Group& group = groups[transmits[scene->surfaces[scene->triangle_surface[t]].material] ? 1 : 0];
@@ -72,8 +73,9 @@ struct Accel::Impl {
     if (!traceable(ray, scale)) return {};
     alignas(16) RTCRayHit query;
     const Vec3 origin = ray.origin * scale;
-    query.ray = {origin.x, origin.y, origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, 0, ray.max_distance * scale,
-                 mask, 0, 0};
+    query.ray = {
+        origin.x, origin.y, origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, 0, ray.max_distance * scale,
+        mask,     0,        0};
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -85,7 +87,8 @@ struct Accel::Impl {
     hit.distance = query.ray.tfar / scale;
     hit.barycentric = {query.hit.u, query.hit.v};
     // Embree's unnormalised normal underflows for tiny triangles: their side is found in double.
-    const float side = query.hit.Ng_x * ray.direction.x + query.hit.Ng_y * ray.direction.y + query.hit.Ng_z * ray.direction.z;
+    const float side =
+        query.hit.Ng_x * ray.direction.x + query.hit.Ng_y * ray.direction.y + query.hit.Ng_z * ray.direction.z;
     hit.front = side != 0 ? side < 0 : glm::dot(geometric_normal(*scene, hit.triangle), ray.direction) < 0;
     return hit;
   }
@@ -93,8 +96,18 @@ struct Accel::Impl {
   bool occluded(const Ray& ray) const {
     alignas(16) RTCRay query;
     const Vec3 origin = ray.origin * scale;
-    query = {origin.x, origin.y, origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, 0, ray.max_distance * scale,
-             kOpaqueMask, 0, 0};
+    query = {origin.x,
+             origin.y,
+             origin.z,
+             0,
+             ray.direction.x,
+             ray.direction.y,
+             ray.direction.z,
+             0,
+             ray.max_distance * scale,
+             kOpaqueMask,
+             0,
+             0};
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(rtc_scene, &context, &query);
@@ -106,7 +119,9 @@ Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
 Accel::~Accel() = default;
-const Scene& Accel::scene() const { return *impl_->scene; }
+const Scene& Accel::scene() const {
+  return *impl_->scene;
+}
 
 Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   if (scene.triangles.empty()) return invalid("scene", "found no triangle, expected at least one");
@@ -119,7 +134,8 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   impl->positions.resize(scene.positions.size() + 2);  // Embree reads 16 bytes at the last vertex
 
   impl->device = rtcNewDevice(options.reproducible ? "isa=sse4.2" : nullptr);
-  if (!impl->device) return fail(ErrorCode::kRuntime, "Embree", "no device, error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+  if (!impl->device)
+    return fail(ErrorCode::kRuntime, "Embree", "no device, error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
   impl->rtc_scene = rtcNewScene(impl->device);
   rtcSetSceneFlags(impl->rtc_scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(impl->rtc_scene, RTC_BUILD_QUALITY_MEDIUM);
@@ -128,12 +144,15 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   if (impl->any_transmitting && !impl->groups[1].indices.empty()) impl->add_group(1, kTransmittingMask);
   rtcCommitScene(impl->rtc_scene);
   if (const RTCError error = rtcGetDeviceError(impl->device); error != RTC_ERROR_NONE)
-    return fail(ErrorCode::kRuntime, "Embree", "building the ray accelerator of {} triangles failed: {}", scene.triangles.size(),
+    return fail(ErrorCode::kRuntime, "Embree", "building the ray accelerator of {} triangles failed: {}",
+                scene.triangles.size(),
                 error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", static_cast<int>(error)));
   return Accel(std::move(impl));
 }
 
-Hit Accel::intersect(const Ray& ray) const { return impl_->intersect(ray, kOpaqueMask | kTransmittingMask); }
+Hit Accel::intersect(const Ray& ray) const {
+  return impl_->intersect(ray, kOpaqueMask | kTransmittingMask);
+}
 
 Vec3 Accel::transmittance(const Ray& ray) const {
   if (!traceable(ray, impl_->scale) || impl_->occluded(ray)) return Vec3(0);
@@ -170,7 +189,8 @@ Vec3 spawn_origin(const Scene& scene, std::uint32_t triangle, const Vec2& baryce
   float magnitude = 0;
   for (int i = 0; i < 3; ++i) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[i]])));
   const Vec3 normal = geometric_normal(scene, triangle);
-  return offset_origin(point_on(scene, triangle, barycentric), glm::dot(normal, direction) < 0 ? -normal : normal, magnitude);
+  return offset_origin(point_on(scene, triangle, barycentric), glm::dot(normal, direction) < 0 ? -normal : normal,
+                       magnitude);
 }
 
 }  // namespace oriel

@@ -55,8 +55,9 @@ class Accel {
 // The point of a triangle, by interpolation: more precise than origin + t * direction.
 Vec3 point_on(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
 
-// p moved towards `side` (unit) by what covers its rounding error and no more, so that a ray from there neither meets its
-// own surface at distance 0 nor leaks through a thin wall. magnitude: the largest |coordinate| that p was computed from.
+// p moved towards `side` (unit) by what covers its rounding error and no more, so that a ray from there neither meets
+// its own surface at distance 0 nor leaks through a thin wall. magnitude: the largest |coordinate| that p was computed
+// from.
 Vec3 offset_origin(const Vec3& p, const Vec3& side, float magnitude);
 
 // The origin of a ray that leaves a surface: point_on(), moved to the side of `direction`.

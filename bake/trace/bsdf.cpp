@@ -68,8 +68,12 @@ float ggx_d(float cos_h, float alpha) {
   return a2 / (kPi * base * base);
 }
 
-float smith_g1(float cos_v, float alpha) { return 1 / (1 + lambda(cos_v, alpha)); }
-float smith_g2(float cos_o, float cos_i, float alpha) { return 1 / (1 + lambda(cos_o, alpha) + lambda(cos_i, alpha)); }
+float smith_g1(float cos_v, float alpha) {
+  return 1 / (1 + lambda(cos_v, alpha));
+}
+float smith_g2(float cos_o, float cos_i, float alpha) {
+  return 1 / (1 + lambda(cos_o, alpha) + lambda(cos_i, alpha));
+}
 
 Vec3 sample_ggx_visible_normal(const Vec3& wo, float alpha, const Vec2& u) {
   const Vec3 v = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));

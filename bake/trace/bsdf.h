@@ -28,8 +28,8 @@ Vec3 fresnel_schlick(const Vec3& f0, float f90, float cos_theta);
 Vec3 bsdf_eval(const ShadePoint& point, const Vec3& wo, const Vec3& wi);
 // Density of bsdf_sample choosing wi, delta lobes excluded.
 float bsdf_pdf(const ShadePoint& point, const Vec3& wo, const Vec3& wi);
-// A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta. Nothing
-// where the surface is black or the sample falls below the horizon.
+// A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta.
+// Nothing where the surface is black or the sample falls below the horizon.
 std::optional<BsdfSample> bsdf_sample(const ShadePoint& point, const Vec3& wo, float u, const Vec2& v);
 
 // Visible normals of GGX, Heitz 2018. alpha > 0, wo.z > 0. Returns the half vector.

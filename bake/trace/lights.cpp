@@ -28,7 +28,8 @@ DVec3 punctual_power(const Light& light) {
 // How far off its plane an emitter's sampled point may lie by rounding, as offset_origin reckons it.
 float emitter_margin(const Scene& scene, std::uint32_t triangle) {
   float magnitude = 0;
-  for (int i = 0; i < 3; ++i) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[scene.triangles[triangle][i]])));
+  for (int i = 0; i < 3; ++i)
+    magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[scene.triangles[triangle][i]])));
   return magnitude * (32 * 0x1p-24f);
 }
 
@@ -48,13 +49,15 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene) {
     const double area = triangle_area(scene, t) * (scene.materials[m].double_sided ? 2 : 1);
     const DVec3 flux = kPiD * area * DVec3(mean_emission(scene, t));
     power_ += flux;
-    add({false, t, 0, geometric_normal(scene, t), emitter_margin(scene, t), scene.materials[m].double_sided}, luminance(Vec3(flux)));
+    add({false, t, 0, geometric_normal(scene, t), emitter_margin(scene, t), scene.materials[m].double_sided},
+        luminance(Vec3(flux)));
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (light.type == LightType::kDirectional) {
       const double r = scene.radius();
-      add({true, i, 0, {}, 0, false}, luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
+      add({true, i, 0, {}, 0, false},
+          luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
     } else {
       const DVec3 flux = punctual_power(light);
       power_ += flux;
@@ -65,7 +68,8 @@ LightSet::LightSet(const Scene& scene) : scene_(&scene) {
   for (std::size_t i = 0; i < picks_.size(); ++i) {
     Pick& pick = picks_[i];
     pick.probability = static_cast<float>((cdf_[i] - (i > 0 ? cdf_[i - 1] : 0)) / total);
-    if (!pick.punctual) triangle_pdf_[pick.index] = pick.probability / static_cast<float>(triangle_area(scene, pick.index));
+    if (!pick.punctual)
+      triangle_pdf_[pick.index] = pick.probability / static_cast<float>(triangle_area(scene, pick.index));
   }
 }
 

@@ -1,5 +1,5 @@
-// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights. The constant sky is
-// left to cosine-distributed rays, which sample it best.
+// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights. The constant sky
+// is left to cosine-distributed rays, which sample it best.
 #pragma once
 
 #include "bake/trace/accel.h"
@@ -7,11 +7,11 @@
 namespace oriel {
 
 struct LightSample {
-  Vec3 direction{0, 0, 1};  // unit, from the point to the light
+  Vec3 direction{0, 0, 1};   // unit, from the point to the light
   float distance = 3.0e38f;  // that a shadow ray must go; may be <= 0 where the light touches the point
-  Vec3 estimate{0};  // incident radiance over pdf; for delta lights the irradiance on a facing plane over the
+  Vec3 estimate{0};          // incident radiance over pdf; for delta lights the irradiance on a facing plane over the
                      // probability of picking that light. Times f·cosθ: an unbiased estimate of reflected light
-  float pdf = 0;     // per steradian, including the choice of the light; 0 for delta lights
+  float pdf = 0;  // per steradian, including the choice of the light; 0 for delta lights
 };
 
 // Immutable; holds a reference to the scene.
@@ -23,11 +23,11 @@ class LightSet {
   // Emitted power per channel, lm: emissive triangles, point and spot lights. Not the sky, not directional lights.
   DVec3 power() const { return power_; }
 
-  // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate of
-  // 0 where that point cannot shine on p.
+  // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate
+  // of 0 where that point cannot shine on p.
   LightSample sample(const Vec3& p, float u, const Vec2& v) const;
-  // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that unit normal
-  // (either side); 0 for triangles that are not sampled.
+  // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that
+  // unit normal (either side); 0 for triangles that are not sampled.
   float pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const;
 
  private:

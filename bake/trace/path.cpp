@@ -9,11 +9,13 @@ namespace {
 // Straight passes through cut-outs and glass that one path segment may make; a stack of more is taken as black.
 constexpr int kMaxPasses = 256;
 
-float balance(float pdf, float other) { return pdf / (pdf + other); }
+float balance(float pdf, float other) {
+  return pdf / (pdf + other);
+}
 
-// The scattering of a surface in world space. A shading normal tilts the lobe, and a part of it falls below the geometric
-// surface; that part is mirrored back above it, in evaluation, pdf and sampling alike. So no energy is lost at smooth normals
-// (a closed sphere of triangles stays an exact furnace), and light never leaks through.
+// The scattering of a surface in world space. A shading normal tilts the lobe, and a part of it falls below the
+// geometric surface; that part is mirrored back above it, in evaluation, pdf and sampling alike. So no energy is lost
+// at smooth normals (a closed sphere of triangles stays an exact furnace), and light never leaks through.
 class Shading {
  public:
   Shading(const SurfacePoint& surface, const Vec3& wo_world)
@@ -55,11 +57,11 @@ class Shading {
   bool tilted_;
 };
 
-// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with which
-// the other strategy would have chosen that direction.
+// Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
+// which the other strategy would have chosen that direction.
 template <class Reflect, class Pdf>
-Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays, const Reflect& reflect,
-                   const Pdf& pdf_of) {
+Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
+                   const Reflect& reflect, const Pdf& pdf_of) {
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   if (t.lights.empty()) return Vec3(0);
@@ -78,7 +80,8 @@ Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sam
 Vec3 sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading, Sampler& sampler,
                         std::uint64_t& rays) {
   return sample_lights(
-      t, surface, sampler, rays, [&](const Vec3& wi) { return shading.eval(wi); }, [&](const Vec3& wi) { return shading.pdf(wi); });
+      t, surface, sampler, rays, [&](const Vec3& wi) { return shading.eval(wi); },
+      [&](const Vec3& wi) { return shading.pdf(wi); });
 }
 
 // One path, vertex by vertex.
@@ -108,7 +111,9 @@ class Walk {
         continue;
       }
       if (surface.emits) {
-        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal)) : 1.0f;
+        const float weight =
+            pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal))
+                     : 1.0f;
         sink += throughput_ * surface.shade.emission * weight;
       }
       if (!surface.reflects) {
@@ -177,8 +182,9 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
   const float side = hit.front ? 1.0f : -1.0f;
   s.geometric_normal = side * geometric_normal(scene, hit.triangle);
   const Vec2& b = hit.barycentric;
-  s.normal = normalize_or(
-      side * ((1 - b.x - b.y) * scene.normals[t.x] + b.x * scene.normals[t.y] + b.y * scene.normals[t.z]), s.geometric_normal);
+  s.normal =
+      normalize_or(side * ((1 - b.x - b.y) * scene.normals[t.x] + b.x * scene.normals[t.y] + b.y * scene.normals[t.z]),
+                   s.geometric_normal);
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
   s.reflects = hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
@@ -196,7 +202,8 @@ PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler
   return Walk(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
-Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler, std::uint64_t& rays) {
+Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                     std::uint64_t& rays) {
   if (!surface.reflects) return Vec3(0);
   const Shading shading(surface, wo);
   Vec3 light = sample_lights_bsdf(t, surface, shading, sampler, rays);
@@ -210,7 +217,8 @@ Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3
   return light + rest.emitted + rest.scattered;
 }
 
-IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays) {
+IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,
+                                   std::uint64_t& rays) {
   IrradianceSample s;
   const Shading shading(surface, surface.normal);
   s.direct = sample_lights(

@@ -39,7 +39,8 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
 
 // The origin of a ray that leaves the surface.
 inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
-  return offset_origin(s.position, glm::dot(s.geometric_normal, direction) < 0 ? -s.geometric_normal : s.geometric_normal, s.magnitude);
+  return offset_origin(
+      s.position, glm::dot(s.geometric_normal, direction) < 0 ? -s.geometric_normal : s.geometric_normal, s.magnitude);
 }
 
 struct PathLight {
@@ -52,7 +53,8 @@ struct PathLight {
 // sampling from ray.origin (balance heuristic, Veach 1997); with 0 it counts in full.
 PathLight trace_path(const Transport& transport, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays);
 
-// Light reflected by a surface towards wo (unit, world), all bounces; its own emission and straight transmission excluded.
+// Light reflected by a surface towards wo (unit, world), all bounces; its own emission and straight transmission
+// excluded.
 Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 
@@ -62,6 +64,7 @@ struct IrradianceSample {
   Vec3 indirect{0};  // after one reflection or more
   bool back_face = false;
 };
-IrradianceSample sample_irradiance(const Transport& transport, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays);
+IrradianceSample sample_irradiance(const Transport& transport, const SurfacePoint& surface, Sampler& sampler,
+                                   std::uint64_t& rays);
 
 }  // namespace oriel

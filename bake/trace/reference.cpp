@@ -57,13 +57,14 @@ Ray camera_ray(const Camera& camera, float x, float y, int width, int height) {
   return {camera.eye, glm::normalize(camera.forward + t * (sx * right + sy * up))};
 }
 
-Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
-                                        Context& context) {
+Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
+                                        const ReferenceOptions& options, Context& context) {
   ReferenceFrame frame;
   frame.width = options.width;
   frame.height = options.height;
   const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  for (auto* image : {&frame.total, &frame.diffuse, &frame.specular, &frame.noise, &frame.diffuse_noise}) image->resize(pixels);
+  for (auto* image : {&frame.total, &frame.diffuse, &frame.specular, &frame.noise, &frame.diffuse_noise})
+    image->resize(pixels);
   std::atomic<std::uint64_t> total_rays{0};
   const auto row = [&](std::size_t y) {
     std::uint64_t rays = 0;
@@ -74,7 +75,8 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
         Sampler sampler(context.seed, pixel, i);
         const Vec2 spread = sampler.next2();
         const Vec2 jitter = options.antialias ? spread : Vec2(0.5f);
-        const Ray ray = camera_ray(camera, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y, options.width, options.height);
+        const Ray ray = camera_ray(camera, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y,
+                                   options.width, options.height);
         const PixelLight light = trace_pixel(transport, ray, sampler, rays);
         const DVec3 all(light.diffuse + light.specular + light.other);
         diffuse += DVec3(light.diffuse);

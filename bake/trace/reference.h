@@ -18,14 +18,14 @@ struct ReferenceOptions {
 struct ReferenceFrame {
   int width = 0, height = 0;
   std::vector<Vec3> total;
-  std::vector<Vec3> diffuse;   // D: reflected by the diffuse lobe of the first surface, all bounces before it
-  std::vector<Vec3> specular;  // S: reflected by its specular lobe
-  std::vector<Vec3> noise;     // standard error of total
+  std::vector<Vec3> diffuse;        // D: reflected by the diffuse lobe of the first surface, all bounces before it
+  std::vector<Vec3> specular;       // S: reflected by its specular lobe
+  std::vector<Vec3> noise;          // standard error of total
   std::vector<Vec3> diffuse_noise;  // and of diffuse
 };
 
-Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
-                                        Context& context);
+Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
+                                        const ReferenceOptions& options, Context& context);
 
 // The primary ray through (x, y) in pixels from the top left of a width × height frame.
 Ray camera_ray(const Camera& camera, float x, float y, int width, int height);

@@ -21,8 +21,8 @@ std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-// Second dimension of Sobol's sequence, bit-reversed. Its generator matrix is Pascal's triangle modulo 2, and C(j, i) is odd
-// where the bits of i are among those of j: bit i of the result is the sum of all index bits j that contain i, a
+// Second dimension of Sobol's sequence, bit-reversed. Its generator matrix is Pascal's triangle modulo 2, and C(j, i)
+// is odd where the bits of i are among those of j: bit i of the result is the sum of all index bits j that contain i, a
 // superset transform of five butterflies.
 std::uint32_t sobol_second_reversed(std::uint32_t index) {
   index ^= (index & 0xaaaaaaaau) >> 1;
@@ -32,7 +32,9 @@ std::uint32_t sobol_second_reversed(std::uint32_t index) {
   return index ^ (index & 0xffff0000u) >> 16;
 }
 
-float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+float unit_float(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ std::uint64_t mix64(std::uint64_t x) {
   return x ^ x >> 31;
 }
 
-Sampler::Sampler(std::uint64_t seed, std::uint64_t stream, std::uint32_t sample) : key_(mix64(mix64(seed) ^ stream)), sample_(sample) {}
+Sampler::Sampler(std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
+    : key_(mix64(mix64(seed) ^ stream)), sample_(sample) {}
 
 float Sampler::next1() {
   const std::uint64_t h = mix64(key_ + dimension_++);

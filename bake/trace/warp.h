@@ -22,7 +22,9 @@ inline Vec3 square_to_cosine_hemisphere(const Vec2& u) {
   const Vec2 d = square_to_disk(u);
   return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
 }
-inline float cosine_hemisphere_pdf(float cos_theta) { return std::max(0.0f, cos_theta) / kPi; }
+inline float cosine_hemisphere_pdf(float cos_theta) {
+  return std::max(0.0f, cos_theta) / kPi;
+}
 
 // pdf = 1/(4π).
 inline Vec3 square_to_sphere(const Vec2& u) {

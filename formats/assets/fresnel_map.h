@@ -13,9 +13,9 @@ struct FresnelMap {
   // Entry i of n is at cosθ = (i / (n-1))², so that grazing angles get the most entries.
   std::vector<Vec3> table;
   // The paper's sphere map over the hemisphere of reflected vectors: sphere_size² texels, texel (x, y) at the point
-  // ((x+½), (y+½)) / sphere_size * 2 - 1 of the square, a disk of radius 1 inside it. The centre is the surface's normal,
-  // the rim grazing: the reflected vector (sinθ cosφ, sinθ sinφ, cosθ) in the surface's frame lies at
-  // √2 sin(θ/2) (cosφ, sinφ), an equal-area map, so cosθ = 1 - r². Texels outside the disk hold the rim's value.
+  // ((x+½), (y+½)) / sphere_size * 2 - 1 of the square, a disk of radius 1 inside it. The centre is the surface's
+  // normal, the rim grazing: the reflected vector (sinθ cosφ, sinθ sinφ, cosθ) in the surface's frame lies at √2
+  // sin(θ/2) (cosφ, sinφ), an equal-area map, so cosθ = 1 - r². Texels outside the disk hold the rim's value.
   std::uint32_t sphere_size = 0;
   std::vector<Vec3> sphere;
 };

@@ -17,8 +17,9 @@ enum class TexelState : std::uint8_t {
 // Texel (x, y) is at y * width + x; its centre at uv ((x + ½) / width, (y + ½) / height). Row 0 is v = 0.
 struct LightmapPage {
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> irradiance;      // lux, linear Rec. 709, finite and >= 0
-  std::vector<Vec3> standard_error;  // lux per channel: one standard deviation of the estimate's own noise; 0 where not baked
+  std::vector<Vec3> irradiance;  // lux, linear Rec. 709, finite and >= 0
+  std::vector<Vec3>
+      standard_error;  // lux per channel: one standard deviation of the estimate's own noise; 0 where not baked
   std::vector<TexelState> state;
 };
 

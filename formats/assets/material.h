@@ -16,8 +16,8 @@ struct Texture {
   std::string name;
   std::uint32_t width = 0, height = 0;
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
-  bool nearest = false;               // magnification filter: nearest instead of linear
-  std::vector<std::uint8_t> texels;   // 4 * width * height
+  bool nearest = false;              // magnification filter: nearest instead of linear
+  std::vector<std::uint8_t> texels;  // 4 * width * height
 };
 
 struct Material {
@@ -28,14 +28,14 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
-  bool unlit = false;                    // shown as base colour, takes no part in light transport
-  float metallic = 0, roughness = 1;     // [0,1]; averages over the material's texture where it has one
-  float ior = 1.5f;                      // of the dielectric part
-  Vec3 f0{0.04f};                        // reflectance at normal incidence: metals' colour, dielectrics' from ior and specular
-  float transmission = 0;                // [0,1], thin
-  Vec3 emission{0};                      // cd/m², the average over its texture where it has one
-  std::int32_t kernel = -1;              // into Pack::kernels: K, for reflective materials
-  std::int32_t fresnel_map = -1;         // into Pack::fresnel_maps: R
+  bool unlit = false;                 // shown as base colour, takes no part in light transport
+  float metallic = 0, roughness = 1;  // [0,1]; averages over the material's texture where it has one
+  float ior = 1.5f;                   // of the dielectric part
+  Vec3 f0{0.04f};                 // reflectance at normal incidence: metals' colour, dielectrics' from ior and specular
+  float transmission = 0;         // [0,1], thin
+  Vec3 emission{0};               // cd/m², the average over its texture where it has one
+  std::int32_t kernel = -1;       // into Pack::kernels: K, for reflective materials
+  std::int32_t fresnel_map = -1;  // into Pack::fresnel_maps: R
 };
 
 }  // namespace oriel

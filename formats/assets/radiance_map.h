@@ -12,28 +12,29 @@ namespace oriel {
 // A planar reflector. Reflector space: origin on the plane, x and y in it, z along the normal towards the reflected
 // side, metres. Its material's kernel and Fresnel map say how it reflects.
 struct Reflector {
-  std::string name;                    // of the part it was found in
-  std::uint32_t material = 0;          // into Pack::materials
-  Mat4 pack_from_reflector{1};         // rigid; pack space: metres, relative to Mesh::origin
-  Vec2 lower{0}, upper{0};             // bounds of the reflector in its x, y
+  std::string name;             // of the part it was found in
+  std::uint32_t material = 0;   // into Pack::materials
+  Mat4 pack_from_reflector{1};  // rigid; pack space: metres, relative to Mesh::origin
+  Vec2 lower{0}, upper{0};      // bounds of the reflector in its x, y
   float area_m2 = 0;
-  float flatness_m = 0;                // largest distance of a vertex from the plane
-  std::vector<std::uint32_t> indices;  // its triangles, into Mesh's vertices
+  float flatness_m = 0;                          // largest distance of a vertex from the plane
+  std::vector<std::uint32_t> indices;            // its triangles, into Mesh's vertices
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
-  std::uint32_t first_map = 0, map_count = 0;    // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
+  std::uint32_t first_map = 0,
+                map_count = 0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
 };
 
 // A radiance map: an off-axis perspective image from `eye` (behind the plane, z < 0) through the element's rectangle on
 // the plane. Pixel (x, y), row 0 at the element's lower y, is the ray from eye through the rectangle's point
 // lower + ((x+½)/width, (y+½)/height) * (upper - lower). It starts on the plane: what lies behind it is not seen.
 struct RadianceMap {
-  std::uint32_t reflector = 0;         // into Pack::reflectors
-  Vec3 eye{0, 0, -1};                  // reflector space
-  Vec2 lower{0}, upper{0};             // the element, reflector x, y
+  std::uint32_t reflector = 0;  // into Pack::reflectors
+  Vec3 eye{0, 0, -1};           // reflector space
+  Vec2 lower{0}, upper{0};      // the element, reflector x, y
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> radiance;          // cd/m², linear Rec. 709; the pixel's diffuse reflected light, emission not included
-                                       // unless has_emission
-  bool has_emission = false;           // emitters are seen in the map at their own radiance
+  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light, emission not included
+                               // unless has_emission
+  bool has_emission = false;   // emitters are seen in the map at their own radiance
   // Disparity: the eye's distance to the plane over the distance to the hit, both measured along the reflector's z:
   // 1 on the plane, 0 at infinity (a miss). Linear along a projected ray, so it interpolates.
   std::vector<float> disparity;

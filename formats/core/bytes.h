@@ -19,14 +19,14 @@ using Bytes = std::vector<std::byte>;
 class ByteWriter {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void put(T value) {
     const auto* p = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), p, p + sizeof(T));
   }
   // All elements of a span of trivially copyable scalars or of padding-free float vectors.
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void put_array(std::span<const T> values) {
     const auto* p = reinterpret_cast<const std::byte*>(values.data());
     bytes_.insert(bytes_.end(), p, p + values.size_bytes());
@@ -50,16 +50,14 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_arithmetic_v<T>
-  T get() {
+  requires std::is_arithmetic_v<T> T get() {
     T value{};
     if (take(sizeof(T))) std::memcpy(&value, bytes_.data() + at_ - sizeof(T), sizeof(T));
     return value;
   }
   // count elements, or an empty vector where fewer are left: nothing is allocated for a count that cannot be true.
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  std::vector<T> get_array(std::uint64_t count) {
+  requires std::is_trivially_copyable_v<T> std::vector<T> get_array(std::uint64_t count) {
     std::vector<T> values;
     if (count > remaining() / sizeof(T)) {
       ok_ = false;

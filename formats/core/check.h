@@ -18,12 +18,11 @@ template <class A, class B>
 
 }  // namespace oriel::detail
 
-#define ORIEL_CHECK_OP_(op, a, b)                                                                          \
-  do {                                                                                                     \
-    const auto& oriel_a = (a);                                                                             \
-    const auto& oriel_b = (b);                                                                             \
-    if (!(oriel_a op oriel_b))                                                                             \
-      ::oriel::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, oriel_a, oriel_b);              \
+#define ORIEL_CHECK_OP_(op, a, b)                                                                                      \
+  do {                                                                                                                 \
+    const auto& oriel_a = (a);                                                                                         \
+    const auto& oriel_b = (b);                                                                                         \
+    if (!(oriel_a op oriel_b)) ::oriel::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, oriel_a, oriel_b); \
   } while (false)
 #define ORIEL_CHECK_EQ(a, b) ORIEL_CHECK_OP_(==, a, b)
 #define ORIEL_CHECK_LT(a, b) ORIEL_CHECK_OP_(<, a, b)

@@ -18,7 +18,8 @@ Result<Bytes> read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) return fail(ErrorCode::kIo, path.string(), "cannot be opened for reading: {}", std::strerror(errno));
   const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, in.tellg()));
-  if (size > max_bytes) return fail(ErrorCode::kIo, path.string(), "holds {} bytes, at most {} are accepted", size, max_bytes);
+  if (size > max_bytes)
+    return fail(ErrorCode::kIo, path.string(), "holds {} bytes, at most {} are accepted", size, max_bytes);
   Bytes bytes(size);
   in.seekg(0);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -26,8 +27,12 @@ Result<Bytes> read_file(const fs::path& path, std::uint64_t max_bytes) {
   return bytes;
 }
 
+fs::path temporary_name(const fs::path& path) {
+  return path.string() + fmt::format(".tmp-{}", ::getpid());
+}
+
 Status write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  const fs::path temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
+  const fs::path temporary = temporary_name(path);
   const auto failed = [&](const char* what) -> Status {
     const std::string reason = std::strerror(errno);
     ::unlink(temporary.c_str());

@@ -45,15 +45,15 @@ tl::unexpected<Error> invalid(std::string where, fmt::format_string<Args...> for
 #define ORIEL_CONCAT_(a, b) a##b
 #define ORIEL_CONCAT(a, b) ORIEL_CONCAT_(a, b)
 // ORIEL_TRY(x, expression): declares x as the value of a Result, or returns its Error from the enclosing function.
-#define ORIEL_TRY(declaration, expression)                     \
-  auto ORIEL_CONCAT(result_, __LINE__) = (expression);         \
-  if (!ORIEL_CONCAT(result_, __LINE__))                        \
+#define ORIEL_TRY(declaration, expression)                                                     \
+  auto ORIEL_CONCAT(result_, __LINE__) = (expression);                                         \
+  if (!ORIEL_CONCAT(result_, __LINE__))                                                        \
     return tl::unexpected<::oriel::Error>(std::move(ORIEL_CONCAT(result_, __LINE__)).error()); \
   declaration = std::move(*ORIEL_CONCAT(result_, __LINE__))
 // ORIEL_TRY_VOID(expression): the same for a Status, or for a Result whose value is not wanted.
-#define ORIEL_TRY_VOID(expression)                             \
-  do {                                                         \
-    auto oriel_status = (expression);                          \
+#define ORIEL_TRY_VOID(expression)                                                             \
+  do {                                                                                         \
+    auto oriel_status = (expression);                                                          \
     if (!oriel_status) return tl::unexpected<::oriel::Error>(std::move(oriel_status).error()); \
   } while (false)
 

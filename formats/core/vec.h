@@ -24,9 +24,15 @@ using UVec3 = glm::uvec3;
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr double kPiD = 3.14159265358979323846;
 
-inline float length2(const Vec3& v) { return glm::dot(v, v); }
-inline float max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline float length2(const Vec3& v) {
+  return glm::dot(v, v);
+}
+inline float max_component(const Vec3& v) {
+  return std::max(v.x, std::max(v.y, v.z));
+}
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // The unit vector along v, or fallback where v has no direction (zero, denormal or not finite).
 inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {

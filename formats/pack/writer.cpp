@@ -165,7 +165,8 @@ Result<Bytes> encode_pack(const Pack& pack) {
 
 Status write_pack(const std::filesystem::path& path, const Pack& pack) {
   auto bytes = encode_pack(pack);
-  if (!bytes) return invalid(path.string(), "{}", bytes.error().text());
+  // The data is ours, not the user's: a pack that cannot be written is a failure of the run.
+  if (!bytes) return fail(ErrorCode::kRuntime, path.string(), "{}", bytes.error().text());
   return write_file_atomically(path, *bytes);
 }
 

@@ -50,42 +50,47 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
            const std::string complaint = parse_exposure(text, out.ev100);
            if (!complaint.empty()) throw CLI::ValidationError("--exposure", complaint);
          },
-         "Exposure value at ISO 100: 1.2 * 2^EV cd/m2 is shown as white (a room: 5 to 9, daylight: 15). auto: the frame's "
+         "Exposure value at ISO 100: 1.2 * 2^EV cd/m2 is shown as white (a room: 5 to 9, daylight: 15). auto: the "
+         "frame's "
          "log-average luminance becomes middle grey")
       ->type_name("EV|auto")
       ->default_str("auto");
   const std::map<std::string, ToneCurve> curves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
   app.add_option("--tonemap", out.curve, "Tone curve: aces rolls highlights off like film, none clips them")
-      ->transform(CLI::CheckedTransformer(curves))
+      ->transform(CLI::CheckedTransformer(curves).description(""))
       ->type_name("aces|none")
       ->default_str("aces");
   const std::map<std::string, Show> stages{
       {"all", Show::kAll}, {"M", Show::kM}, {"MK", Show::kMK}, {"MKR", Show::kMKR}, {"D", Show::kD}};
-  app.add_option("--show", out.frame.show,
-                 "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
-                 "(MKR), the diffuse light alone (D), or the whole frame (all)")
-      ->transform(CLI::CheckedTransformer(stages))
+  app.add_option(
+         "--show", out.frame.show,
+         "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
+         "(MKR), the diffuse light alone (D), or the whole frame (all)")
+      ->transform(CLI::CheckedTransformer(stages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
-  app.add_option("--maps", out.frame.maps_per_element,
-                 "Radiance maps drawn for each reflector element in view: more fill more gaps and cost more time; 0 shows none")
+  app.add_option(
+         "--maps", out.frame.maps_per_element,
+         "Radiance maps drawn for each reflector element in view: more fill more gaps and cost more time; 0 shows none")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   const std::map<std::string, Selection> selections{{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
   app.add_option("--select", out.frame.selection,
                  "Which maps: taken from the direction nearest to the mirrored eye's, or from the nearest place")
-      ->transform(CLI::CheckedTransformer(selections))
+      ->transform(CLI::CheckedTransformer(selections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
-  const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable}, {"sphere", Reflectance::kSphereMap}};
+  const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable},
+                                                        {"sphere", Reflectance::kSphereMap}};
   app.add_option("--reflectance", out.frame.reflectance,
                  "R from the exact table by angle, or from the sphere map as Bastos et al. published it")
-      ->transform(CLI::CheckedTransformer(reflectances))
+      ->transform(CLI::CheckedTransformer(reflectances).description(""))
       ->type_name("table|sphere")
       ->default_str("table");
-  app.add_flag("!--no-mipmaps", out.frame.mipmaps,
-               "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "
-               "comparing frames");
+  app.add_flag(
+      "!--no-mipmaps", out.frame.mipmaps,
+      "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "
+      "comparing frames");
 }
 
 void add_options(CLI::App& app, PlayArguments& out) {
@@ -101,9 +106,10 @@ void add_options(CLI::App& app, PlayArguments& out) {
          "Pixels of the window or the picture")
       ->type_name("WxH")
       ->default_str("1280x720");
-  app.add_option("--camera", out.cameras,
-                 "A camera by name or by number from 0, PATH@SECONDS for a point of a path, or eye and target in world metres. "
-                 "May be repeated offscreen; all: every camera of the pack")
+  app.add_option(
+         "--camera", out.cameras,
+         "A camera by name or by number from 0, PATH@SECONDS for a point of a path, or eye and target in world metres. "
+         "May be repeated offscreen; all: every camera of the pack")
       ->type_name("NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all")
       ->allow_extra_args(false);
   add_picture_options(app, out);

@@ -21,9 +21,9 @@ struct PlayArguments {
   std::optional<float> ev100;        // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   FrameOptions frame;
-  std::string output;        // a file, or a folder
+  std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
-  int frames = -1;           // the window closes after so many; -1: never
+  int frames = -1;             // the window closes after so many; -1: never
   bool gl_debug = false;
 };
 

@@ -21,14 +21,16 @@ struct Shot {
   std::string file;
 };
 
-bool is_picture(const fs::path& path) { return path.extension() == ".png" || path.extension() == ".exr"; }
+bool is_picture(const fs::path& path) {
+  return path.extension() == ".png" || path.extension() == ".exr";
+}
 
 // A camera's name as a file name: what is not a plain character becomes '_'; repeated names are numbered.
 std::string file_name(const std::string& camera, std::set<std::string>& taken) {
   std::string name;
   for (const char c : camera) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-                       (c == '.' && !name.empty());
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                       c == '_' || (c == '.' && !name.empty());
     name += plain ? c : '_';
   }
   if (name.empty()) name = "camera";
@@ -64,7 +66,8 @@ Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArgument
                 output.extension().string());
   }
   if (shots.size() > 1 && is_picture(output)) {
-    return fail(ErrorCode::kUsage, "-o " + arguments.output, "found one file for {} cameras, expected a folder", shots.size());
+    return fail(ErrorCode::kUsage, "-o " + arguments.output, "found one file for {} cameras, expected a folder",
+                shots.size());
   }
   std::error_code error;
   fs::create_directories(output, error);
@@ -85,8 +88,9 @@ Status write_picture(Renderer& renderer, const std::string& path, int width, int
                      const std::string& camera) {
   const auto w = static_cast<std::uint32_t>(width), h = static_cast<std::uint32_t>(height);
   if (fs::path(path).extension() == ".exr") {
-    return write_exr(path, FloatImage{w, h, 3, renderer.read_light()},
-                     {{"oriel.camera", camera}, {"oriel.unit", "cd/m2"}, {"oriel.ev100", fmt::format("{:.3f}", ev100)}});
+    return write_exr(
+        path, FloatImage{w, h, 3, renderer.read_light()},
+        {{"oriel.camera", camera}, {"oriel.unit", "cd/m2"}, {"oriel.ev100", fmt::format("{:.3f}", ev100)}});
   }
   ORIEL_TRY(std::vector<std::uint8_t> pixels, renderer.read_display(ev100, curve));
   return write_png(path, ByteImage{w, h, 3, std::move(pixels)});
@@ -112,8 +116,8 @@ Status play_offscreen(Pack pack, const PlayArguments& arguments) {
     const float ev100 = arguments.ev100.value_or(metered.value_or(0.0f));
     ORIEL_TRY_VOID(
         write_picture(*renderer, shot.file, arguments.width, arguments.height, ev100, arguments.curve, shot.name));
-    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file, arguments.width, arguments.height, ms, ev100,
-               describe(stats), shot.name);
+    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file, arguments.width, arguments.height, ms,
+               ev100, describe(stats), shot.name);
   }
   return {};
 }

@@ -13,7 +13,7 @@ Status play_offscreen(Pack pack, const PlayArguments& arguments);
 std::string describe(const FrameStats& stats);
 
 // The frame that a renderer drew last, as a picture file: .png as shown, .exr linear.
-Status write_picture(class Renderer& renderer, const std::string& path, int width, int height, float ev100, ToneCurve curve,
-                     const std::string& camera);
+Status write_picture(class Renderer& renderer, const std::string& path, int width, int height, float ev100,
+                     ToneCurve curve, const std::string& camera);
 
 }  // namespace oriel

@@ -20,6 +20,8 @@ void install_stop_handler() {
   std::signal(SIGTERM, on_signal);
 }
 
-bool stop_requested() { return g_stop != 0; }
+bool stop_requested() {
+  return g_stop != 0;
+}
 
 }  // namespace oriel

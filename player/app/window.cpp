@@ -14,7 +14,9 @@ namespace oriel {
 namespace {
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // GLFW and its window, closed in the right order on every way out.
 class GlfwWindow {
@@ -85,16 +87,31 @@ void handle_key(int key, const Pack& pack, Session& session) {
     return;
   }
   switch (key) {
-    case GLFW_KEY_F: session.move.fly = !session.move.fly; break;
-    case GLFW_KEY_P: session.path_time = session.path_time >= 0 || pack.paths.empty() ? -1 : 0; break;
+    case GLFW_KEY_F:
+      session.move.fly = !session.move.fly;
+      break;
+    case GLFW_KEY_P:
+      session.path_time = session.path_time >= 0 || pack.paths.empty() ? -1 : 0;
+      break;
     case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD: brighter(1 / 3.0f); break;
+    case GLFW_KEY_KP_ADD:
+      brighter(1 / 3.0f);
+      break;
     case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT: brighter(-1 / 3.0f); break;
-    case GLFW_KEY_X: session.manual_ev100.reset(); break;
-    case GLFW_KEY_M: session.frame.show = static_cast<Show>((static_cast<int>(session.frame.show) + 1) % 5); break;
-    case GLFW_KEY_F12: session.screenshot = 1; break;
-    default: break;
+    case GLFW_KEY_KP_SUBTRACT:
+      brighter(-1 / 3.0f);
+      break;
+    case GLFW_KEY_X:
+      session.manual_ev100.reset();
+      break;
+    case GLFW_KEY_M:
+      session.frame.show = static_cast<Show>((static_cast<int>(session.frame.show) + 1) % 5);
+      break;
+    case GLFW_KEY_F12:
+      session.screenshot = 1;
+      break;
+    default:
+      break;
   }
 }
 
@@ -179,8 +196,8 @@ class Loop {
     ++rate_frames_;
     const double elapsed = seconds_since(rate_start_);
     if (elapsed < 0.5) return;
-    const std::string title = fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack, rate_frames_ / elapsed,
-                                          session_.shown_ev100, describe(stats));
+    const std::string title = fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
+                                          rate_frames_ / elapsed, session_.shown_ev100, describe(stats));
     glfwSetWindowTitle(window_.get(), title.c_str());
     rate_start_ = Clock::now();
     rate_frames_ = 0;

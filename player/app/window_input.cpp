@@ -8,13 +8,16 @@ namespace {
 
 constexpr float kTurnPixelsPerSecond = 500;  // of arrow keys, as if the mouse had moved
 
-WindowInput* self(GLFWwindow* window) { return static_cast<WindowInput*>(glfwGetWindowUserPointer(window)); }
+WindowInput* self(GLFWwindow* window) {
+  return static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+}
 
 }  // namespace
 
 WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int, int action, int mods) { self(w)->key(code, action, mods); });
+  glfwSetKeyCallback(window,
+                     [](GLFWwindow* w, int code, int, int action, int mods) { self(w)->key(code, action, mods); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int action, int) {
     if (action == GLFW_PRESS) self(w)->grab(true);
   });
@@ -54,7 +57,8 @@ void WindowInput::key(int code, int action, int mods) {
   control_ = (mods & GLFW_MOD_CONTROL) != 0;
   if (code == GLFW_KEY_Q && control_) quit_ = true;
   // Exposure keys repeat while held; others count once.
-  const bool repeats = code == GLFW_KEY_EQUAL || code == GLFW_KEY_MINUS || code == GLFW_KEY_KP_ADD || code == GLFW_KEY_KP_SUBTRACT;
+  const bool repeats =
+      code == GLFW_KEY_EQUAL || code == GLFW_KEY_MINUS || code == GLFW_KEY_KP_ADD || code == GLFW_KEY_KP_SUBTRACT;
   if (action == GLFW_PRESS || repeats) pressed_.push_back(code);
 }
 
@@ -70,7 +74,9 @@ InputFrame WindowInput::poll(float dt_s) {
   out.move.down = !control && down(GLFW_KEY_Q);
   out.move.fast = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
   const float turn = kTurnPixelsPerSecond * std::clamp(dt_s, 0.0f, 0.1f);
-  const auto axis = [&](int positive, int negative) { return turn * (static_cast<float>(down(positive)) - static_cast<float>(down(negative))); };
+  const auto axis = [&](int positive, int negative) {
+    return turn * (static_cast<float>(down(positive)) - static_cast<float>(down(negative)));
+  };
   out.move.mouse_x_px = static_cast<float>(std::exchange(moved_x_, 0.0)) + axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
   out.move.mouse_y_px = static_cast<float>(std::exchange(moved_y_, 0.0)) + axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
   out.move.wheel = static_cast<float>(std::exchange(wheel_, 0.0));

@@ -10,7 +10,8 @@ namespace oriel::gpu {
 class Buffer {
  public:
   Buffer() = default;
-  // Copies the values to the GPU as they lie in memory: scalars, or vectors of them without padding. target: GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER (then a vertex array must be bound).
+  // Copies the values to the GPU as they lie in memory: scalars, or vectors of them without padding. target:
+  // GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER (then a vertex array must be bound).
   template <class T>
   Buffer(GLenum target, std::span<const T> values) {
     GLuint name = 0;

@@ -15,12 +15,18 @@ std::string gl_text(GLenum what) {
 
 const char* error_name(GLenum error) {
   switch (error) {
-    case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-    case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-    case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-    case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-    default: return "unknown error";
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    default:
+      return "unknown error";
   }
 }
 
@@ -41,8 +47,8 @@ Result<Device> open_device() {
   device.version = gl_text(GL_VERSION);
   const bool desktop = epoxy_is_desktop_gl();
   if (version < (desktop ? 33 : 30)) {
-    return fail(ErrorCode::kRuntime, "OpenGL", "found {} on {}, expected OpenGL 3.3 core or OpenGL ES 3.0", device.version,
-                device.renderer);
+    return fail(ErrorCode::kRuntime, "OpenGL", "found {} on {}, expected OpenGL 3.3 core or OpenGL ES 3.0",
+                device.version, device.renderer);
   }
   device.dialect = desktop ? Dialect::kDesktop330 : Dialect::kEs300;
   GLint texture_size = 0;

@@ -16,8 +16,9 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, 
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     const Texture* any = color != nullptr ? color : depth;
-    return fail(ErrorCode::kRuntime, what, "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete",
-                status, any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0);
+    return fail(ErrorCode::kRuntime, what,
+                "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete", status,
+                any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0);
   }
   return framebuffer;
 }

@@ -4,13 +4,27 @@ namespace oriel::gpu {
 
 void delete_object(ObjectKind kind, GLuint name) {
   switch (kind) {
-    case ObjectKind::kBuffer: glDeleteBuffers(1, &name); break;
-    case ObjectKind::kVertexArray: glDeleteVertexArrays(1, &name); break;
-    case ObjectKind::kTexture: glDeleteTextures(1, &name); break;
-    case ObjectKind::kFramebuffer: glDeleteFramebuffers(1, &name); break;
-    case ObjectKind::kQuery: glDeleteQueries(1, &name); break;
-    case ObjectKind::kShader: glDeleteShader(name); break;
-    case ObjectKind::kProgram: glDeleteProgram(name); break;
+    case ObjectKind::kBuffer:
+      glDeleteBuffers(1, &name);
+      break;
+    case ObjectKind::kVertexArray:
+      glDeleteVertexArrays(1, &name);
+      break;
+    case ObjectKind::kTexture:
+      glDeleteTextures(1, &name);
+      break;
+    case ObjectKind::kFramebuffer:
+      glDeleteFramebuffers(1, &name);
+      break;
+    case ObjectKind::kQuery:
+      glDeleteQueries(1, &name);
+      break;
+    case ObjectKind::kShader:
+      glDeleteShader(name);
+      break;
+    case ObjectKind::kProgram:
+      glDeleteProgram(name);
+      break;
   }
 }
 

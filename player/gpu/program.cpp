@@ -57,12 +57,24 @@ GLint Program::location(const char* uniform) const {
   return at;
 }
 
-void Program::set(const char* uniform, int value) const { glUniform1i(location(uniform), value); }
-void Program::set(const char* uniform, float value) const { glUniform1f(location(uniform), value); }
-void Program::set(const char* uniform, const IVec2& value) const { glUniform2iv(location(uniform), 1, &value[0]); }
-void Program::set(const char* uniform, const Vec2& value) const { glUniform2fv(location(uniform), 1, &value[0]); }
-void Program::set(const char* uniform, const Vec3& value) const { glUniform3fv(location(uniform), 1, &value[0]); }
-void Program::set(const char* uniform, const Vec4& value) const { glUniform4fv(location(uniform), 1, &value[0]); }
+void Program::set(const char* uniform, int value) const {
+  glUniform1i(location(uniform), value);
+}
+void Program::set(const char* uniform, float value) const {
+  glUniform1f(location(uniform), value);
+}
+void Program::set(const char* uniform, const IVec2& value) const {
+  glUniform2iv(location(uniform), 1, &value[0]);
+}
+void Program::set(const char* uniform, const Vec2& value) const {
+  glUniform2fv(location(uniform), 1, &value[0]);
+}
+void Program::set(const char* uniform, const Vec3& value) const {
+  glUniform3fv(location(uniform), 1, &value[0]);
+}
+void Program::set(const char* uniform, const Vec4& value) const {
+  glUniform4fv(location(uniform), 1, &value[0]);
+}
 void Program::set(const char* uniform, const Mat4& value) const {
   glUniformMatrix4fv(location(uniform), 1, GL_FALSE, &value[0][0]);
 }

@@ -17,8 +17,8 @@ namespace oriel::gpu {
 std::string_view shader_source(std::string_view name);
 
 // The whole text that the driver compiles: version line of the dialect, default precisions, then the file with each
-// `#include "lib/…"` replaced by that file (once). origin[i] says where line i + 1 of the text comes from ("lib/color.glsl:7",
-// empty for lines of our own): drivers disagree about #line. Error kRuntime names a missing file.
+// `#include "lib/…"` replaced by that file (once). origin[i] says where line i + 1 of the text comes from
+// ("lib/color.glsl:7", empty for lines of our own): drivers disagree about #line. Error kRuntime names a missing file.
 struct ShaderText {
   std::string name;
   std::string text;

@@ -3,7 +3,9 @@
 namespace oriel::gpu {
 namespace {
 
-void enable(GLenum what, bool on) { on ? glEnable(what) : glDisable(what); }
+void enable(GLenum what, bool on) {
+  on ? glEnable(what) : glDisable(what);
+}
 
 }  // namespace
 

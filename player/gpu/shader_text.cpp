@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <regex>
+#include <charconv>
 #include <set>
 
 #include "player/gpu/program.h"
@@ -32,6 +32,37 @@ Status append_file(std::string_view name, std::set<std::string_view>& done, Shad
   return {};
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_word(char c) {
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+// A file number with a line: "0:12", "0:12(5)" or "0(12)".
+struct Place {
+  std::size_t line = 0;
+  const char* end = nullptr;  // after it; null where there is none
+};
+
+Place read_place(const char* at, const char* end) {
+  while (at != end && is_digit(*at)) ++at;
+  if (at == end || (*at != ':' && *at != '(')) return {};
+  const bool parenthesis = *at == '(';
+  Place place;
+  const auto [after, error] = std::from_chars(at + 1, end, place.line);
+  if (error != std::errc()) return {};
+  place.end = after;
+  if (parenthesis) {
+    if (after == end || *after != ')') return {};
+    place.end = after + 1;
+  } else if (after != end && *after == '(') {  // a column
+    const char* close = std::find(after, end, ')');
+    if (close != end) place.end = close + 1;
+  }
+  return place;
+}
+
 }  // namespace
 
 Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect) {
@@ -45,18 +76,21 @@ Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect) {
 }
 
 std::string name_places(const std::string& log, const ShaderText& source) {
-  static const std::regex place(R"(\b\d+(?::(\d+)(?:\(\d+\))?|\((\d+)\)))");
   std::string out;
-  std::size_t at = 0;
-  for (std::sregex_iterator i(log.begin(), log.end(), place), end; i != end; ++i) {
-    const std::string number = (*i)[1].matched ? (*i)[1] : (*i)[2];
-    const unsigned long line = number.size() < 9 ? std::stoul(number) : 0;
-    out += log.substr(at, static_cast<std::size_t>(i->position()) - at);
-    const bool known = line >= 1 && line <= source.origin.size() && !source.origin[line - 1].empty();
-    out += known ? source.origin[line - 1] : i->str();
-    at = static_cast<std::size_t>(i->position() + i->length());
+  const char* const end = log.data() + log.size();
+  for (const char* at = log.data(); at != end;) {
+    const bool starts_number = is_digit(*at) && (at == log.data() || !is_word(at[-1]));
+    const Place place = starts_number ? read_place(at, end) : Place{};
+    const bool known = place.end != nullptr && place.line >= 1 && place.line <= source.origin.size() &&
+                       !source.origin[place.line - 1].empty();
+    if (known) {
+      out += source.origin[place.line - 1];
+      at = place.end;
+    } else {
+      out += *at++;
+    }
   }
-  return out + log.substr(at);
+  return out;
 }
 
 }  // namespace oriel::gpu

@@ -19,8 +19,8 @@ inline constexpr TextureFormat kSrgbAlpha8{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED
 inline constexpr TextureFormat kRgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
 inline constexpr TextureFormat kRgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TextureFormat kRgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-inline constexpr TextureFormat kDepthStencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL,
-                                             GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
+inline constexpr TextureFormat kDepthStencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV,
+                                             8};
 inline constexpr TextureFormat kDepth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
 
 struct TextureOptions {
@@ -28,15 +28,15 @@ struct TextureOptions {
   GLenum mag_filter = GL_NEAREST;
   GLenum wrap_s = GL_CLAMP_TO_EDGE;
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
-  int levels = 1;           // mip levels that are allocated
+  int levels = 1;             // mip levels that are allocated
   bool make_mipmaps = false;  // fill the levels from level 0
 };
 
 class Texture {
  public:
   Texture() = default;
-  // pixels: rows of width texels, row 0 first (v = 0), or nullptr for undefined contents. The caller keeps width and height
-  // in [1, limits().texture_size].
+  // pixels: rows of width texels, row 0 first (v = 0), or nullptr for undefined contents. The caller keeps width and
+  // height in [1, limits().texture_size].
   Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
 
   void bind(int unit) const;
@@ -56,6 +56,8 @@ class Texture {
 // Levels of a full mip chain of that size.
 int mip_levels(int width, int height);
 // Size of a level: halves, rounded up.
-inline int level_size(int size, int level) { return (size + (1 << level) - 1) >> level; }
+inline int level_size(int size, int level) {
+  return (size + (1 << level) - 1) >> level;
+}
 
 }  // namespace oriel::gpu

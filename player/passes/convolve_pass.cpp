@@ -7,14 +7,17 @@
 namespace oriel {
 namespace {
 
-float pixels_per_tangent(const View& view) { return 0.5f * static_cast<float>(view.height) / view.tangents.y; }
+float pixels_per_tangent(const View& view) {
+  return 0.5f * static_cast<float>(view.height) / view.tangents.y;
+}
 
 }  // namespace
 
 ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View& view, int texture_limit) {
   ImageRect rect;
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-  // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before it.
+  // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before
+  // it.
   const float blur = view.orthographic ? 0.0f : 0.5f * taps.median * pixels_per_tangent(view);
   if (blur >= 6) rect.scale = 0.5f;
   if (blur >= 16) rect.scale = 0.25f;

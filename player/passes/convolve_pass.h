@@ -2,13 +2,14 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/scene/frame_options.h"
 #include "player/passes/targets.h"
+#include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 
 namespace oriel {
 
-// Where the reflected image lies in the frame, and how fine it must be for this kernel. screen: what the reflector covers.
+// Where the reflected image lies in the frame, and how fine it must be for this kernel. screen: what the reflector
+// covers.
 ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View& view, int texture_limit);
 
 class ConvolvePass {

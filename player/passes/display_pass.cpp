@@ -9,7 +9,9 @@ constexpr int kBlock = 16;  // pixels a side that one fragment of the meter adds
 
 }  // namespace
 
-float white_of_exposure(float ev100) { return 1.2f * std::exp2(ev100); }
+float white_of_exposure(float ev100) {
+  return 1.2f * std::exp2(ev100);
+}
 
 Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
   DisplayPass pass;

@@ -10,15 +10,15 @@ namespace oriel {
 
 enum class ToneCurve { kNone, kAces };
 
-// The luminance that an exposure value shows as white: 1.2 * 2^EV cd/m² (EV at ISO 100; ISO 12232's saturation-based speed
-// with a lens that passes 65 %).
+// The luminance that an exposure value shows as white: 1.2 * 2^EV cd/m² (EV at ISO 100; ISO 12232's saturation-based
+// speed with a lens that passes 65 %).
 float white_of_exposure(float ev100);
 
 class DisplayPass {
  public:
   static Result<DisplayPass> create(gpu::Dialect dialect);
-  // The exposure value that shows the frame's log-average luminance as middle grey (18 %). Pixels that are black or unlit do
-  // not count; nothing where all are. The same frame always gives the same value.
+  // The exposure value that shows the frame's log-average luminance as middle grey (18 %). Pixels that are black or
+  // unlit do not count; nothing where all are. The same frame always gives the same value.
   Result<std::optional<float>> meter(const FrameTarget& frame);
   // Into the bound framebuffer, of the frame's size, encoded as sRGB.
   void draw(const FrameTarget& frame, float ev100, ToneCurve curve) const;

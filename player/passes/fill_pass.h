@@ -2,16 +2,17 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/scene/frame_options.h"
 #include "player/passes/targets.h"
+#include "player/scene/frame_options.h"
 
 namespace oriel {
 
 class FillPass {
  public:
   static Result<FillPass> create(gpu::Dialect dialect);
-  // Fills target.filled, all levels, from level 0 of target.sharp. No pixel of the image keeps a = 0 unless all have it.
-  void draw(const ImageRect& rect, const ImageTarget& target, FrameStats& stats) const;
+  // Fills target.filled from level 0 of target.sharp: no pixel keeps a = 0 unless all have it. Its coarser levels are
+  // averages of the finer ones if with_levels, undefined else.
+  void draw(const ImageRect& rect, const ImageTarget& target, bool with_levels, FrameStats& stats) const;
 
  private:
   gpu::Program pull_, push_;

@@ -1,6 +1,5 @@
 #include "player/passes/frame.h"
 
-
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
@@ -11,10 +10,16 @@ namespace {
 // Nearer to the plane than this share of the reflector's size, an eye sees nothing in it but its edge.
 constexpr float kEdgeOn = 1e-5f;
 
-bool shows_reflectors(Show show) { return show != Show::kD; }
-bool shows_scene(Show show) { return show == Show::kAll || show == Show::kD; }
+bool shows_reflectors(Show show) {
+  return show != Show::kD;
+}
+bool shows_scene(Show show) {
+  return show == Show::kAll || show == Show::kD;
+}
 
-SceneWeights weights_of(Show show) { return show == Show::kD ? SceneWeights{1, 0, 0} : SceneWeights{1, 1, 1}; }
+SceneWeights weights_of(Show show) {
+  return show == Show::kD ? SceneWeights{1, 0, 0} : SceneWeights{1, 1, 1};
+}
 
 template <class T>
 std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
@@ -22,7 +27,8 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
   rgb.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
   for (int y = height - 1; y >= 0; --y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
+      const std::size_t at =
+          (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
       rgb.insert(rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
     }
   }
@@ -47,8 +53,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
 Status Renderer::ensure_frame(int width, int height) {
   if (frame_ && frame_->light.width() == width && frame_->light.height() == height) return {};
   if (width < 1 || height < 1 || width > device_.texture_size || height > device_.texture_size) {
-    return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height, device_.texture_size,
-                device_.texture_size, device_.renderer);
+    return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height,
+                device_.texture_size, device_.texture_size, device_.renderer);
   }
   frame_.reset();
   ORIEL_TRY(FrameTarget frame, make_frame_target(width, height));
@@ -56,8 +62,8 @@ Status Renderer::ensure_frame(int width, int height) {
   return {};
 }
 
-std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
-                                                      FrameStats& stats) {
+std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view,
+                                                      const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
   if (!shows_reflectors(options.show) || options.maps_per_element <= 0) return candidates;
   GLint next = 1;
@@ -71,7 +77,8 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     if (!see_through && next > static_cast<GLint>(kReflectorBits)) continue;  // more than the stencil counts
     if (!see_through) candidate.value = next++;
     if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
-    reflector_pass_.draw_mask(scene, reflector, view, see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
+    reflector_pass_.draw_mask(scene, reflector, view,
+                              see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
                               see_through ? kSeeThroughBit : kReflectorBits, queries_[candidate.query], stats);
     candidates.push_back(candidate);
   }
@@ -83,20 +90,20 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
   return candidates;
 }
 
-Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
-                                 FrameStats& stats) {
+Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
+                                 const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
   const KernelTaps& taps = scene.kernel_taps(scene.pack().materials[reflector.material].kernel);
   const ImageRect rect = choose_image(candidate.screen, taps, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
   reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-  fill_pass_.draw(rect, *image_, stats);
   const bool blurs = taps.taps.size() > 1 && options.show != Show::kM;
+  fill_pass_.draw(rect, *image_, blurs, stats);
   if (blurs) convolve_pass_.draw(reflector, taps, view, rect, *image_, scene.bounds().radius(), stats);
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  reflector_pass_.draw_light(scene, reflector, view, rect, getenv("SHARP") ? image_->sharp : blurs ? image_->blurred : image_->filled, candidate.value, options,
-                             stats);
+  reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
+                             options, stats);
   ++stats.reflectors;
   return {};
 }

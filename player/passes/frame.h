@@ -40,7 +40,8 @@ class Renderer {
 
   Renderer() = default;
   Status ensure_frame(int width, int height);
-  std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options, FrameStats& stats);
+  std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
+                                    FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);

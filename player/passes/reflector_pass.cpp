@@ -22,8 +22,8 @@ Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
-                              const gpu::Query& query, FrameStats& stats) const {
+void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
+                              GLuint bits, const gpu::Query& query, FrameStats& stats) const {
   gpu::RasterState state;
   state.depth_test = true;
   state.color_write = false;
@@ -40,7 +40,8 @@ void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflect
 }
 
 void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                               const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const {
+                               const gpu::Texture& image, GLint value, const FrameOptions& options,
+                               FrameStats& stats) const {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;

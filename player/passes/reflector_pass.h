@@ -2,8 +2,8 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/scene/frame_options.h"
 #include "player/passes/targets.h"
+#include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 
 namespace oriel {
@@ -12,8 +12,8 @@ class ReflectorPass {
  public:
   static Result<ReflectorPass> create(gpu::Dialect dialect);
 
-  // Marks the pixels of the reflector that the frame's depth leaves visible: `value` in the bits `bits` of the stencil. The
-  // query counts whether there are any.
+  // Marks the pixels of the reflector that the frame's depth leaves visible: `value` in the bits `bits` of the stencil.
+  // The query counts whether there are any.
   void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
                  const gpu::Query& query, FrameStats& stats) const;
   // The image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;

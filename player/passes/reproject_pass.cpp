@@ -11,16 +11,31 @@ namespace {
 int pixel_step(const RadianceMap& map, const Vec4& eye, float pixels_per_tangent, bool orthographic) {
   if (orthographic) return 1;
   const Vec2 size = map.upper - map.lower;
-  const float per_tangent = -map.eye.z * std::min(static_cast<float>(map.width) / size.x, static_cast<float>(map.height) / size.y);
+  const float per_tangent =
+      -map.eye.z * std::min(static_cast<float>(map.width) / size.x, static_cast<float>(map.height) / size.y);
   const Vec3 center(0.5f * (map.lower + map.upper), 0);
-  const float nearer = std::min(1.0f, glm::length(Vec3(eye) - center) / std::max(glm::length(map.eye - center), 1e-30f));
+  const float nearer =
+      std::min(1.0f, glm::length(Vec3(eye) - center) / std::max(glm::length(map.eye - center), 1e-30f));
   const float step = 0.6f * nearer * per_tangent / pixels_per_tangent;
   return step >= 4 ? 4 : step >= 2 ? 2 : 1;
 }
 
+// How far along the view the mirrored scene reaches: beyond the scene itself.
+float mirrored_far(const Bounds& bounds, const Mat4& view_from_mirrored, const Mat4& reflector_from_pack) {
+  float far = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner(i & 1 ? bounds.upper.x : bounds.lower.x, i & 2 ? bounds.upper.y : bounds.lower.y,
+                      i & 4 ? bounds.upper.z : bounds.lower.z);
+    far = std::max(far, -(view_from_mirrored * reflector_from_pack * Vec4(corner, 1)).z);
+  }
+  return 1.01f * far;
+}
+
 }  // namespace
 
-Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view) { return reflector.reflector_from_pack * view.eye; }
+Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view) {
+  return reflector.reflector_from_pack * view.eye;
+}
 
 Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
   ReprojectPass pass;
@@ -48,10 +63,13 @@ void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const V
   mirrored_eye.z = -mirrored_eye.z;
   Mat4 mirror(1);
   mirror[2][2] = -1;
-  const Mat4 image_from_reflector = image_from_clip(rect, view) * view.clip_from_pack * reflector.pack_from_reflector;
-  const Mat4 view_from_mirrored = view.view_from_pack * reflector.pack_from_reflector * mirror;
+  const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
+  const Mat4 view_from_mirrored = view_from_reflector * mirror;
+  const float far = std::max(view.far, mirrored_far(scene.bounds(), view_from_mirrored, reflector.reflector_from_pack));
+  const Mat4 image_from_view = image_from_clip(rect, view) * clip_from_view_to(view, far);
+  const Mat4 image_from_reflector = image_from_view * view_from_reflector;
   program_.use();
-  program_.set("u_clip_from_mirrored", image_from_reflector * mirror);
+  program_.set("u_clip_from_mirrored", image_from_view * view_from_mirrored);
   program_.set("u_mirrored_eye", mirrored_eye);
   program_.set("u_viewport", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   program_.set("u_point_max", point_max_);
@@ -63,7 +81,8 @@ void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const V
   glBindVertexArray(no_vertices_.name());
   for (const ReflectorElement& element : reflector.elements) {
     const Vec2 lower = element.lower, upper = element.upper;
-    const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0), Vec3(lower.x, upper.y, 0)};
+    const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
+                                      Vec3(lower.x, upper.y, 0)};
     if (project_polygon(image_from_reflector, corners).empty) continue;
     for (const std::uint32_t map :
          select_maps(element, scene.pack().radiance_maps, mirrored_eye, options.maps_per_element, options.selection)) {

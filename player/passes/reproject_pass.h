@@ -2,8 +2,8 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/scene/frame_options.h"
 #include "player/passes/targets.h"
+#include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 
 namespace oriel {
@@ -14,12 +14,12 @@ class ReprojectPass {
 
   // Clears the image and draws the chosen maps of all elements that it shows. The reflector's front faces the eye.
   // Holes keep a = 0.
-  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect, const ImageTarget& target,
-            const FrameOptions& options, FrameStats& stats) const;
+  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+            const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const;
 
  private:
-  void draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                FrameStats& stats) const;
+  void draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view,
+                const ImageRect& rect, FrameStats& stats) const;
   gpu::Program program_;
   gpu::VertexArray no_vertices_;
   float point_max_ = 1;

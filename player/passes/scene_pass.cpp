@@ -9,7 +9,9 @@ namespace {
 
 enum Unit { kBaseUnit = 0, kLightmapUnit = 1, kReflectanceUnit = 2 };
 
-gpu::Cull cull_of(const Material& material) { return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack; }
+gpu::Cull cull_of(const Material& material) {
+  return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack;
+}
 
 void draw_indices(std::uint32_t first, std::uint32_t count, FrameStats& stats) {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,

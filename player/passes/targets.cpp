@@ -37,12 +37,14 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   if (current && current->sharp.width() >= width && current->sharp.height() >= height) return {};
   const auto rounded = [&](int size, int had) {
     const int wanted = std::max(size, had);
-    return std::min(static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted))), limit);
+    return static_cast<int>(
+        std::min(std::bit_ceil(static_cast<unsigned>(wanted)), std::bit_floor(static_cast<unsigned>(limit))));
   };
   const int w = rounded(width, current ? current->sharp.width() : 16);
   const int h = rounded(height, current ? current->sharp.height() : 16);
   if (w < width || h < height) {
-    return fail(ErrorCode::kRuntime, "reflected image", "found {}x{} pixels, expected at most {}", width, height, limit);
+    return fail(ErrorCode::kRuntime, "reflected image", "found {}x{} pixels, expected at most {}", width, height,
+                limit);
   }
   current.reset();
   ImageTarget target;
@@ -58,7 +60,8 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   target.depth = gpu::Texture(gpu::kDepth32f, w, h, nullptr);
   ORIEL_TRY_VOID(gpu::check_gl("making the reflected image's textures"));
   ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth));
-  ORIEL_TRY(target.level_framebuffer, gpu::Framebuffer::create("levels of the reflected image", &target.filled, nullptr));
+  ORIEL_TRY(target.level_framebuffer,
+            gpu::Framebuffer::create("levels of the reflected image", &target.filled, nullptr));
   current = std::move(target);
   return {};
 }

@@ -18,8 +18,8 @@ Result<FrameTarget> make_frame_target(int width, int height);
 
 // The part of the frame that a reflected image covers, with a margin around it that may lie outside the frame.
 struct ImageRect {
-  Vec2 origin{0};           // lower left corner, frame pixels
-  float scale = 1;          // image pixels per frame pixel
+  Vec2 origin{0};             // lower left corner, frame pixels
+  float scale = 1;            // image pixels per frame pixel
   int width = 0, height = 0;  // image pixels
 };
 
@@ -29,7 +29,8 @@ Vec4 ndc_from_image(const ImageRect& rect, const View& view);
 Mat4 image_from_clip(const ImageRect& rect, const View& view);
 
 // The reflected image: rgb light, a 1 / distance (0: hole). sharp: as drawn, with its coarser levels; filled: without
-// holes, with its coarser levels; blurred: convolved. Textures are powers of two; an image uses their lower left corner.
+// holes, with its coarser levels; blurred: convolved. Textures are powers of two; an image uses their lower left
+// corner.
 struct ImageTarget {
   gpu::Texture sharp, filled, blurred, depth;
   gpu::Framebuffer sharp_framebuffer;  // with depth

@@ -12,11 +12,13 @@ Status check_mesh(const Pack& pack) {
                    mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size(), count);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!is_finite(mesh.positions[i])) return invalid(fmt::format("mesh: vertex {}", i), "found a position that is not finite");
+    if (!is_finite(mesh.positions[i]))
+      return invalid(fmt::format("mesh: vertex {}", i), "found a position that is not finite");
   }
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
     if (mesh.indices[i] >= count) {
-      return invalid(fmt::format("mesh: index {}", i), "found vertex {}, expected less than {}", mesh.indices[i], count);
+      return invalid(fmt::format("mesh: index {}", i), "found vertex {}, expected less than {}", mesh.indices[i],
+                     count);
     }
   }
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
@@ -41,11 +43,12 @@ Status check_size(const std::string& where, std::uint64_t width, std::uint64_t h
   const auto limit = static_cast<std::uint64_t>(device.texture_size);
   if (width == 0 || height == 0) return invalid(where, "found {}x{} texels, expected at least 1x1", width, height);
   if (width > limit || height > limit) {
-    return fail(ErrorCode::kRuntime, where, "found {}x{} texels, expected at most {}x{} ({})", width, height, limit, limit,
-                device.renderer);
+    return fail(ErrorCode::kRuntime, where, "found {}x{} texels, expected at most {}x{} ({})", width, height, limit,
+                limit, device.renderer);
   }
   if (found != width * height * per_texel) {
-    return invalid(where, "found {} values, expected {} for {}x{} texels", found, width * height * per_texel, width, height);
+    return invalid(where, "found {} values, expected {} for {}x{} texels", found, width * height * per_texel, width,
+                   height);
   }
   return {};
 }
@@ -94,8 +97,9 @@ Status check_materials(const Pack& pack) {
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
     const FresnelMap& f = pack.fresnel_maps[i];
     if (f.table.empty() || f.sphere.size() != std::uint64_t{f.sphere_size} * f.sphere_size) {
-      return invalid(fmt::format("Fresnel map {}", i), "found a table of {} and a sphere map of {}, expected 1 or more and {}",
-                     f.table.size(), f.sphere.size(), std::uint64_t{f.sphere_size} * f.sphere_size);
+      return invalid(fmt::format("Fresnel map {}", i),
+                     "found a table of {} and a sphere map of {}, expected 1 or more and {}", f.table.size(),
+                     f.sphere.size(), std::uint64_t{f.sphere_size} * f.sphere_size);
     }
   }
   return {};
@@ -109,7 +113,8 @@ Status check_reflectors(const Pack& pack) {
       return invalid(where, "found material {}, expected less than {}", r.material, pack.materials.size());
     }
     if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
-      return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count, pack.radiance_maps.size());
+      return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count,
+                     pack.radiance_maps.size());
     }
     if (r.indices.size() % 3 != 0) return invalid(where, "found {} indices, expected triangles", r.indices.size());
     for (const std::uint32_t index : r.indices) {

@@ -7,7 +7,8 @@
 
 namespace oriel {
 
-// The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the frame.
+// The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
+// frame.
 enum class Show { kAll, kM, kMK, kMKR, kD };
 enum class Reflectance { kTable, kSphereMap };
 
@@ -17,7 +18,7 @@ struct FrameOptions {
   Selection selection = Selection::kAngle;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
-  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
 struct FrameStats {

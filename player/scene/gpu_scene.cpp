@@ -66,7 +66,8 @@ void GpuScene::upload_geometry() {
   for (const std::uint32_t i : order) {
     const MeshPart& part = mesh.parts[i];
     if (part.index_count == 0) continue;
-    DrawRange range{static_cast<std::uint32_t>(indices.size()), part.index_count, part.material, part.lightmap_page, {}};
+    DrawRange range{
+        static_cast<std::uint32_t>(indices.size()), part.index_count, part.material, part.lightmap_page, {}};
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       indices.push_back(mesh.indices[part.first_index + k]);
       range.bounds.extend(mesh.positions[indices.back()]);

@@ -19,8 +19,9 @@ struct KernelTaps {
   float median = 0;             // tangent within which half of the energy lies
 };
 
-// `count` samples of the kernel's weights, by inverting their cumulative distribution (rows, then columns) on a Hammersley
-// set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at the centre.
+// `count` samples of the kernel's weights, by inverting their cumulative distribution (rows, then columns) on a
+// Hammersley set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at
+// the centre.
 KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count);
 
 }  // namespace oriel

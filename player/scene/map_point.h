@@ -9,8 +9,8 @@
 
 namespace oriel {
 
-// The point that a pixel saw, homogeneous: xyz / w, or the direction xyz where w = 0. on_plane: where the pixel's ray crosses
-// the plane; disparity as in RadianceMap.
+// The point that a pixel saw, homogeneous: xyz / w, or the direction xyz where w = 0. on_plane: where the pixel's ray
+// crosses the plane; disparity as in RadianceMap.
 inline Vec4 map_point(const Vec3& eye, const Vec2& on_plane, float disparity) {
   return Vec4(disparity * eye + Vec3(on_plane, 0) - eye, disparity);
 }
@@ -37,9 +37,9 @@ struct ReflectorElement {
 // The maps of `reflector`, grouped by the rectangle they look through, in their order.
 std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps);
 
-// The `count` maps of the element that suit an eye best, best first (Bastos et al. 1999, section 8.1.3, "Selection"): smallest
-// angle at the element's centre between their eyes and mirrored_eye, or smallest distance. mirrored_eye: the eye with z
-// negated (w = 1), or the direction to it (w = 0; always by angle). Ties go to the first.
+// The `count` maps of the element that suit an eye best, best first (Bastos et al. 1999, section 8.1.3, "Selection"):
+// smallest angle at the element's centre between their eyes and mirrored_eye, or smallest distance. mirrored_eye: the
+// eye with z negated (w = 1), or the direction to it (w = 0; always by angle). Ties go to the first.
 std::vector<std::uint32_t> select_maps(const ReflectorElement& element, std::span<const RadianceMap> maps,
                                        const Vec4& mirrored_eye, int count, Selection selection);
 

@@ -10,9 +10,12 @@ namespace {
 
 GLenum gl_wrap(Wrap wrap) {
   switch (wrap) {
-    case Wrap::kRepeat: return GL_REPEAT;
-    case Wrap::kClamp: return GL_CLAMP_TO_EDGE;
-    case Wrap::kMirror: return GL_MIRRORED_REPEAT;
+    case Wrap::kRepeat:
+      return GL_REPEAT;
+    case Wrap::kClamp:
+      return GL_CLAMP_TO_EDGE;
+    case Wrap::kMirror:
+      return GL_MIRRORED_REPEAT;
   }
   return GL_REPEAT;
 }
@@ -54,7 +57,8 @@ LightmapTexture upload_lightmap(const LightmapPage& page) {
 gpu::Texture upload_radiance_map(const RadianceMap& map) {
   std::vector<Vec4> texels(map.radiance.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    const bool usable = map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
+    const bool usable =
+        map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
     texels[i] = usable ? Vec4(map.radiance[i], map.valid[i] == 2 ? 0.0f : map.disparity[i]) : Vec4(0, 0, 0, -1);
   }
   return {gpu::kRgba32f, static_cast<int>(map.width), static_cast<int>(map.height), texels.data()};

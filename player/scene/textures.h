@@ -9,8 +9,8 @@ namespace oriel {
 // sRGB with mipmaps.
 gpu::Texture upload_albedo(const Texture& texture);
 
-// Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that the
-// relative error stays 2^-11 down to a billionth of it. 0: the page is black.
+// Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that
+// the relative error stays 2^-11 down to a billionth of it. 0: the page is black.
 struct LightmapTexture {
   gpu::Texture texture;
   float scale = 0;

@@ -41,28 +41,38 @@ View make_view(const Camera& camera, int width, int height, const Bounds& bounds
 
   const DepthRange range = depth_range(bounds, camera.eye, forward, view.orthographic);
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-  const float depth = range.far - range.near;
-  Mat4 clip(0);
+  view.near = range.near;
+  view.far = range.far;
   if (view.orthographic) {
     const float half = camera.half_height > 0 ? camera.half_height : std::max(bounds.radius(), 1e-6f);
     view.tangents = Vec2(half * aspect, half);
-    clip[2][2] = -2.0f / depth;
-    clip[3][2] = -(range.far + range.near) / depth;
-    clip[3][3] = 1;
     view.eye = Vec4(-forward, 0);
   } else {
     const float half = std::tan(0.5f * std::clamp(camera.vertical_fov_rad, 1e-3f, 3.1f));
     view.tangents = Vec2(half * aspect, half);
-    clip[2][2] = -(range.far + range.near) / depth;
-    clip[3][2] = -2.0f * range.far * (range.near / depth);
-    clip[2][3] = -1;
     view.eye = Vec4(camera.eye, 1);
   }
+  view.clip_from_view = clip_from_view_to(view, view.far);
+  view.clip_from_pack = view.clip_from_view * view.view_from_pack;
+  return view;
+}
+
+Mat4 clip_from_view_to(const View& view, float far) {
+  far = std::max(far, view.near + 1e-3f * std::max(std::fabs(view.near), 1e-20f));
+  const float depth = far - view.near;
+  Mat4 clip(0);
   clip[0][0] = 1 / view.tangents.x;
   clip[1][1] = 1 / view.tangents.y;
-  view.clip_from_view = clip;
-  view.clip_from_pack = clip * view.view_from_pack;
-  return view;
+  if (view.orthographic) {
+    clip[2][2] = -2.0f / depth;
+    clip[3][2] = -(far + view.near) / depth;
+    clip[3][3] = 1;
+  } else {
+    clip[2][2] = -(far + view.near) / depth;
+    clip[3][2] = -2.0f * far * (view.near / depth);
+    clip[2][3] = -1;
+  }
+  return clip;
 }
 
 }  // namespace oriel

@@ -94,10 +94,10 @@ Camera initial_camera(const CameraChoices& choices, const Vec3& lower, const Vec
   if (!choices.cameras.empty()) return choices.cameras.front();
   if (!choices.paths.empty()) return camera_on_path(choices.paths.front(), 0);
   const Vec3 size = upper - lower, centre = lower + 0.5f * size;
-  const Vec3 ahead = size.x > size.z ? Vec3(1, 0, 0) : Vec3(0, 0, -1);
-  Camera camera = look_at(Vec3(0), ahead, kDefaultFovRad);
-  camera.eye = centre - 0.35f * std::max(size.x, size.z) * ahead;
-  return camera;
+  // From outside, a little above, with the whole scene in view: one-sided walls are not seen from behind, so that rooms
+  // open.
+  const float distance = 0.55f * glm::length(size) / std::sin(0.5f * kDefaultFovRad);
+  return look_at(centre + distance * glm::normalize(Vec3(0.5f, 0.45f, 0.85f)), centre, kDefaultFovRad);
 }
 
 }  // namespace oriel

@@ -9,7 +9,7 @@ layout(location = 0) out vec4 o_light;
 void main() {
   vec2 offset = vec2(gl_PointCoord.x - 0.5, 0.5 - gl_PointCoord.y);
   vec2 cell = vec2(dot(v_cell.xz, offset), dot(v_cell.yw, offset));
-  //X
+  if (any(greaterThan(abs(cell), v_margin))) discard;
   gl_FragDepth = clamp(v_depth.x + dot(v_depth.yz, clamp(cell, -0.5, 0.5)), 0.0, 0.9999999);
   o_light = v_light;
 }

@@ -23,7 +23,7 @@ flat out vec2 v_margin;  // half a cell and a little, so that neighbours leave n
 
 const float kConnected = 0.2;  // neighbours whose disparities differ by more, relatively, lie on different surfaces
 const float kStretch = 3.0;    // a surface seen steeply by the map is magnified by at most this over eq. (3)
-const float kOverlap = 0.4;  // pixels
+const float kOverlap = 0.08;  // pixels
 const float kBias = 0.03;      // a point seen by its map from one radian off loses against points 3 % farther away
 
 // Change of the disparity over one pixel along an axis of the map (x). y: 1 if a neighbour lies on the same surface, 0 if

@@ -1,5 +1,5 @@
-// How near the radiosity stage comes to the physical limit: its rays per second beside those of bare queries on the same
-// scene, measured back to back.
+// How near the radiosity stage comes to the physical limit: its rays per second beside those of bare queries on the
+// same scene, measured back to back.
 #include <chrono>
 #include <cstdio>
 
@@ -56,7 +56,8 @@ int bench(const char* file) {
     const auto start = std::chrono::steady_clock::now();
     const auto baked = bake_radiosity({*accel, lights, {}}, *atlas, *map, {16, 4}, context);
     const double rate = static_cast<double>(baked->report.rays) / seconds_since(start);
-    std::printf("%s: bare closest-hit %.2f Mray/s, radiosity %.2f Mray/s, ratio %.2f\n", file, bare * 1e-6, rate * 1e-6, rate / bare);
+    std::printf("%s: bare closest-hit %.2f Mray/s, radiosity %.2f Mray/s, ratio %.2f\n", file, bare * 1e-6, rate * 1e-6,
+                rate / bare);
   }
   return 0;
 }

@@ -11,8 +11,8 @@ namespace oriel {
 namespace {
 namespace fs = std::filesystem;
 
-// Closes the box's open front (its smallest z, where the camera stands) with a black surface: it absorbs what would escape
-// and changes nothing else.
+// Closes the box's open front (its smallest z, where the camera stands) with a black surface: it absorbs what would
+// escape and changes nothing else.
 void add_portal(Scene& scene) {
   const Vec3 lo = scene.lower, hi = scene.upper;
   SceneMaterial black;
@@ -63,14 +63,15 @@ TEST(CornellEnergy, EmittedIsAbsorbedOrEscapes) {
       double area = 0;
       for (std::uint32_t f = map[p].first[i]; f < map[p].first[i + 1]; ++f) area += map[p].fragments[f].area;
       const std::uint32_t triangle = map[p].fragments[map[p].first[i]].triangle;
-      const DVec3 flux = DVec3(baked.pages[p].irradiance[map[p].texel[i]]) * (baked.visible[p][i] * area * atlas.texel_m * atlas.texel_m);
+      const DVec3 flux = DVec3(baked.pages[p].irradiance[map[p].texel[i]]) *
+                         (baked.visible[p][i] * area * atlas.texel_m * atlas.texel_m);
       const bool portal = scene.surfaces[scene.triangle_surface[triangle]].name == "portal";
       (portal ? escaped : absorbed) += flux * DVec3(Vec3(1) - shade_point(scene, triangle, Vec2(1.0f / 3)).diffuse);
     }
   for (int c = 0; c < 3; ++c) {
     const double emitted = lights.power()[c];
-    std::printf("cornell, channel %d: emitted %.4f lm, absorbed %.4f, escaped %.4f, balance %+.3f %%\n", c, emitted, absorbed[c],
-                escaped[c], 100 * ((absorbed[c] + escaped[c]) / emitted - 1));
+    std::printf("cornell, channel %d: emitted %.4f lm, absorbed %.4f, escaped %.4f, balance %+.3f %%\n", c, emitted,
+                absorbed[c], escaped[c], 100 * ((absorbed[c] + escaped[c]) / emitted - 1));
     EXPECT_NEAR((absorbed[c] + escaped[c]) / emitted, 1, 0.005);
   }
 }

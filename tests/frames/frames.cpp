@@ -25,7 +25,9 @@ FloatImage shrink(const FloatImage& image, std::uint32_t n) {
   return out;
 }
 
-double FrameError::net() const { return std::sqrt(std::max(0.0, rel_rmse * rel_rmse - noise * noise)); }
+double FrameError::net() const {
+  return std::sqrt(std::max(0.0, rel_rmse * rel_rmse - noise * noise));
+}
 
 FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, const std::vector<Vec3>& noise) {
   DVec3 mean(0), mean_frame(0);
@@ -49,9 +51,12 @@ FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, 
   return e;
 }
 
-double psnr_srgb(const FloatImage& frame, const std::vector<Vec3>& reference, float exposure, const std::vector<char>& mask) {
+double psnr_srgb(const FloatImage& frame, const std::vector<Vec3>& reference, float exposure,
+                 const std::vector<char>& mask) {
   double squares = 0, count = 0;
-  const auto shown = [&](float radiance) { return srgb_from_linear(std::min(1.0f, std::max(0.0f, exposure * radiance))); };
+  const auto shown = [&](float radiance) {
+    return srgb_from_linear(std::min(1.0f, std::max(0.0f, exposure * radiance)));
+  };
   for (std::size_t i = 0; i < reference.size(); ++i) {
     if (!mask[i]) continue;
     for (int c = 0; c < 3; ++c) {

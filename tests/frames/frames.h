@@ -16,7 +16,8 @@ int run(const std::filesystem::path& folder, const std::string& command);
 // Means over n × n pixels of an RGB image.
 FloatImage shrink(const FloatImage& image, std::uint32_t n);
 
-// Root of the mean of |x - r|² / (r² + (0.01 mean r)²) over pixels and channels, and the same of the reference's own noise.
+// Root of the mean of |x - r|² / (r² + (0.01 mean r)²) over pixels and channels, and the same of the reference's own
+// noise.
 struct FrameError {
   double rel_rmse = 0, noise = 0;
   double net() const;  // with the noise removed in quadrature
@@ -24,7 +25,9 @@ struct FrameError {
 };
 FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, const std::vector<Vec3>& noise);
 
-// Peak signal-to-noise ratio in dB of tone-mapped values (sRGB of exposure * radiance, clamped to [0,1]) where mask is set.
-double psnr_srgb(const FloatImage& frame, const std::vector<Vec3>& reference, float exposure, const std::vector<char>& mask);
+// Peak signal-to-noise ratio in dB of tone-mapped values (sRGB of exposure * radiance, clamped to [0,1]) where mask is
+// set.
+double psnr_srgb(const FloatImage& frame, const std::vector<Vec3>& reference, float exposure,
+                 const std::vector<char>& mask);
 
 }  // namespace oriel::test

@@ -20,7 +20,7 @@ constexpr int kSupersampling = 4;  // player frames are rendered larger and aver
 struct Reference {
   Scene scene;
   ReferenceFrame frame;
-  std::vector<char> mirror;                       // pixels whose first surface is a mirror
+  std::vector<char> mirror;  // pixels whose first surface is a mirror
 };
 
 class Frames : public testing::Test {
@@ -41,8 +41,10 @@ class Frames : public testing::Test {
 
   FloatImage play(const std::string& scene, const std::string& camera, const std::string& show) {
     const std::string out = scene + "-" + show + ".exr";
-    EXPECT_EQ(test::run(folder_, "oriel-play " + scene + ".oriel --offscreen --size " + std::to_string(kSupersampling * kWidth) + "x" + std::to_string(kSupersampling * kHeight) +
-                                     " --camera " + camera + " --show " + show + " -o " + out),
+    EXPECT_EQ(test::run(folder_, "oriel-play " + scene + ".oriel --offscreen --size " +
+                                     std::to_string(kSupersampling * kWidth) + "x" +
+                                     std::to_string(kSupersampling * kHeight) + " --camera " + camera + " --show " +
+                                     show + " -o " + out),
               0)
         << log();
     auto image = read_exr(folder_ / out);
@@ -63,8 +65,10 @@ class Frames : public testing::Test {
     r.frame = *render_reference({accel, lights, {}}, *camera, {kWidth, kHeight, samples}, context);
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
-        const Hit hit = accel.intersect(camera_ray(*camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, kWidth, kHeight));
-        const SceneMaterial* m = hit ? &r.scene.materials[r.scene.surfaces[r.scene.triangle_surface[hit.triangle]].material] : nullptr;
+        const Hit hit = accel.intersect(
+            camera_ray(*camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, kWidth, kHeight));
+        const SceneMaterial* m =
+            hit ? &r.scene.materials[r.scene.surfaces[r.scene.triangle_surface[hit.triangle]].material] : nullptr;
         r.mirror.push_back(m && m->roughness == 0 && m->metallic == 1 && hit.front);
       }
     return r;
@@ -87,8 +91,8 @@ TEST(Compare, SeesADarkerFrame) {
 }
 
 void report(const char* what, const test::FrameError& e) {
-  std::printf("%s: relRMSE %.2f %% (net of the reference's noise %.2f %%: %.2f %%), bias %+.2f %%\n", what, 100 * e.rel_rmse,
-              100 * e.noise, 100 * e.net(), 100 * e.bias);
+  std::printf("%s: relRMSE %.2f %% (net of the reference's noise %.2f %%: %.2f %%), bias %+.2f %%\n", what,
+              100 * e.rel_rmse, 100 * e.noise, 100 * e.net(), 100 * e.bias);
 }
 
 TEST_F(Frames, CornellDiffuseAgreesWithTheReference) {
@@ -98,11 +102,10 @@ TEST_F(Frames, CornellDiffuseAgreesWithTheReference) {
   report("cornell D", d);
   EXPECT_LE(d.net(), 0.05);
   EXPECT_LE(std::abs(d.bias), 0.01);
-
 }
 
 TEST_F(Frames, GalleryDiffuseAndMirrorAgreeWithTheReference) {
-  bake("gallery", "--samples 256");
+  bake("gallery", "--samples 512");
   const Reference r = reference("gallery", "mirror", 1024);
   const test::FrameError d = test::compare(play("gallery", "mirror", "D"), r.frame.diffuse, r.frame.diffuse_noise);
   report("gallery D", d);
@@ -112,7 +115,8 @@ TEST_F(Frames, GalleryDiffuseAndMirrorAgreeWithTheReference) {
   ASSERT_GT(pixels, kWidth * kHeight / 50) << "the camera 'mirror' must show the mirror";
   double mean = 0;
   for (const Vec3& v : r.frame.total) mean += luminance(v) / static_cast<double>(r.frame.total.size());
-  const double psnr = test::psnr_srgb(play("gallery", "mirror", "all"), r.frame.total, static_cast<float>(0.18 / mean), r.mirror);
+  const double psnr =
+      test::psnr_srgb(play("gallery", "mirror", "all"), r.frame.total, static_cast<float>(0.18 / mean), r.mirror);
   std::printf("gallery mirror: PSNR %.1f dB over %ld pixels\n", psnr, static_cast<long>(pixels));
   EXPECT_GE(psnr, 25);
 }

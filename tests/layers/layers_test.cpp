@@ -37,7 +37,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"] = plus(assets, {"bake/jobs", "bake/scene"});
   m["bake/atlas"] = m["bake/trace"];
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
-  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"}) m[name] = stage;
+  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
+    m[name] = stage;
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
@@ -64,7 +65,9 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
 };
 
-bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+bool is_source(const fs::path& path) {
+  return path.extension() == ".h" || path.extension() == ".cpp";
+}
 
 std::string folder_of(const std::string& include) {
   const std::size_t slash = include.rfind('/');

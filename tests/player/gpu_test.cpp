@@ -83,6 +83,18 @@ TEST(Programs, ErrorsNameTheFileAndTheLine) {
   EXPECT_FALSE(gpu::Program::create("no_such_pass", Dialect::kDesktop330));
 }
 
+TEST(Programs, PlacesOfEveryDriverAreNamed) {
+  gpu::ShaderText source;
+  source.origin = {"", "a.frag:1", "b.glsl:7"};
+  EXPECT_EQ(gpu::name_places("0:3(5): error: x", source), "b.glsl:7: error: x");                          // Mesa
+  EXPECT_EQ(gpu::name_places("0(2) : error C1\n0(3) : y", source), "a.frag:1 : error C1\nb.glsl:7 : y");  // NVIDIA
+  EXPECT_EQ(gpu::name_places("ERROR: 0:2: 'x'", source), "ERROR: a.frag:1: 'x'");                         // others
+  for (const char* other : {"", "0:1 0:99 0:x v0:2 0(2", "99999999999999999999:3x", "0:99999999999999999999999"}) {
+    const std::string kept = gpu::name_places(other, gpu::ShaderText{});
+    EXPECT_EQ(kept, other);
+  }
+}
+
 TEST(Framebuffers, AnImpossibleOneIsRefused) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context);

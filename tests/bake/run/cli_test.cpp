@@ -61,6 +61,12 @@ TEST_F(BakeCli, ExitCodesAndMessages) {
   write("empty.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
   EXPECT_EQ(run("oriel-bake empty.gltf -o a.oriel"), 3);
   EXPECT_NE(log().find("mesh"), std::string::npos) << log();
+  const auto scene_bytes = fs::file_size(folder_ / "cornell.glb");
+  EXPECT_EQ(run("oriel-bake cornell.glb -o ./cornell.glb"), 1) << "the scene must not be overwritten";
+  EXPECT_EQ(fs::file_size(folder_ / "cornell.glb"), scene_bytes);
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --report a.oriel"), 1);
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --report no/such/folder/a.json"), 2);
+  EXPECT_EQ(run("oriel-bake cornell.glb -o /proc/1/root/nowhere/a.oriel"), 2) << log();
   EXPECT_FALSE(fs::exists(folder_ / "a.oriel"));
 }
 
@@ -91,7 +97,9 @@ TEST_F(BakeCli, OmissionsAreSaidAndRecorded) {
   EXPECT_EQ(provenance["options"]["samples"], 4);
   EXPECT_EQ(provenance["inputs"][0]["name"], "cornell.glb");
   const Bytes report = *read_file(folder_ / "a.json");
-  EXPECT_TRUE(nlohmann::json::parse(reinterpret_cast<const char*>(report.data()), reinterpret_cast<const char*>(report.data() + report.size())).contains("stages"));
+  EXPECT_TRUE(nlohmann::json::parse(reinterpret_cast<const char*>(report.data()),
+                                    reinterpret_cast<const char*>(report.data() + report.size()))
+                  .contains("stages"));
 }
 
 TEST_F(BakeCli, NoLightBakesToBlackWithAWarning) {
@@ -115,7 +123,8 @@ TEST_F(BakeCli, JsonLogIsJson) {
   EXPECT_GT(events, 2);
 }
 
-// SIGINT in the middle of the work: ends soon, with 130, and leaves neither a pack nor a temporary file.
+// SIGINT in the middle of the work: ends within a second (two on a busy machine), with 130, and leaves neither a pack
+// nor a temporary file.
 TEST_F(BakeCli, InterruptLeavesNothing) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -123,13 +132,15 @@ TEST_F(BakeCli, InterruptLeavesNothing) {
     const int null = ::open("/dev/null", O_WRONLY);
     ::dup2(null, STDERR_FILENO);
     const std::string program = std::string(ORIEL_BIN_DIR) + "/oriel-bake";
-    ::execl(program.c_str(), "oriel-bake", "cornell.glb", "-o", "a.oriel", "--texel", "2mm", "--samples", "65536", static_cast<char*>(nullptr));
+    ::execl(program.c_str(), "oriel-bake", "cornell.glb", "-o", "a.oriel", "--texel", "2mm", "--samples", "65536",
+            static_cast<char*>(nullptr));
     ::_exit(98);
   }
   std::this_thread::sleep_for(std::chrono::seconds(3));
   ASSERT_EQ(::kill(child, SIGINT), 0) << "the bake ended before it could be interrupted";
   int status = 0;
-  for (int tenths = 0; tenths < 100 && ::waitpid(child, &status, WNOHANG) == 0; ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  for (int tenths = 0; tenths < 20 && ::waitpid(child, &status, WNOHANG) == 0; ++tenths)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   for (const auto& entry : fs::directory_iterator(folder_))
@@ -138,9 +149,9 @@ TEST_F(BakeCli, InterruptLeavesNothing) {
 
 TEST(Quantities, ParseAndRefuse) {
   EXPECT_FLOAT_EQ(*parse_length("5cm"), 0.05f);
-  EXPECT_FLOAT_EQ(*parse_length("0.1"), 0.1f);
   EXPECT_FLOAT_EQ(*parse_length("20 mm"), 0.02f);
-  for (const char* bad : {"", "cm", "-5cm", "0", "nan", "inf", "5 miles", "1e400m"}) EXPECT_FALSE(parse_length(bad)) << bad;
+  for (const char* bad : {"", "cm", "5", "-5cm", "0", "nan", "inf", "5 miles", "1e400m"})
+    EXPECT_FALSE(parse_length(bad)) << bad;
   EXPECT_EQ(*parse_bytes("64MiB"), 64u << 20);
   EXPECT_FALSE(parse_bytes("many"));
   EXPECT_EQ(*parse_color("5"), Vec3(5));

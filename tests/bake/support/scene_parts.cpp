@@ -50,7 +50,8 @@ void SceneParts::quad(const std::string& name, std::uint32_t material, const Vec
   for (std::uint32_t i = 0; i < 4; ++i) scene_.uv0[first + i] = scene_.uv1[first + i] = corners[i];
 }
 
-void SceneParts::box(const std::string& name, std::uint32_t material, const Vec3& lower, const Vec3& upper, bool inwards) {
+void SceneParts::box(const std::string& name, std::uint32_t material, const Vec3& lower, const Vec3& upper,
+                     bool inwards) {
   std::vector<Vec3> positions, normals;
   std::vector<UVec3> triangles;
   for (int axis = 0; axis < 3; ++axis)
@@ -75,17 +76,20 @@ void SceneParts::box(const std::string& name, std::uint32_t material, const Vec3
   mesh(name, material, positions, normals, triangles);
 }
 
-void SceneParts::sphere(const std::string& name, std::uint32_t material, const Vec3& centre, float radius, int levels, bool inwards) {
+void SceneParts::sphere(const std::string& name, std::uint32_t material, const Vec3& centre, float radius, int levels,
+                        bool inwards) {
   const float g = 0.5f * (1 + std::sqrt(5.0f));
-  std::vector<Vec3> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                           {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  std::vector<UVec3> faces{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                           {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Vec3> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                           {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<UVec3> faces{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                           {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                           {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vec3& p : points) p = glm::normalize(p);
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [at, added] = middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(points.size()));
+      const auto [at, added] =
+          middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(points.size()));
       if (added) points.push_back(glm::normalize(points[a] + points[b]));
       return at->second;
     };

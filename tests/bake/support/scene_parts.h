@@ -17,9 +17,10 @@ class SceneParts {
   // Axis-aligned box; front outwards, or inwards (a room).
   void box(const std::string& name, std::uint32_t material, const Vec3& lower, const Vec3& upper, bool inwards = false);
   // Icosphere with 20 * 4^levels faces, smooth normals.
-  void sphere(const std::string& name, std::uint32_t material, const Vec3& centre, float radius, int levels, bool inwards = false);
-  void mesh(const std::string& name, std::uint32_t material, const std::vector<Vec3>& positions, const std::vector<Vec3>& normals,
-            const std::vector<UVec3>& triangles);
+  void sphere(const std::string& name, std::uint32_t material, const Vec3& centre, float radius, int levels,
+              bool inwards = false);
+  void mesh(const std::string& name, std::uint32_t material, const std::vector<Vec3>& positions,
+            const std::vector<Vec3>& normals, const std::vector<UVec3>& triangles);
 
   Scene& scene() { return scene_; }
   Scene finish();

@@ -45,8 +45,8 @@ TEST_P(Furnace, HoldsTheSeries) {
   EXPECT_NEAR(e.direct.g / (kPi * 2), 1, 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, Furnace,
-                         testing::Values(std::pair{0.0f, 1.0f}, std::pair{0.5f, 1.0f}, std::pair{0.8f, 1.0f}, std::pair{0.95f, 1.0f},
-                                         std::pair{0.5f, 1e-4f}, std::pair{0.5f, 1e6f}));
+                         testing::Values(std::pair{0.0f, 1.0f}, std::pair{0.5f, 1.0f}, std::pair{0.8f, 1.0f},
+                                         std::pair{0.95f, 1.0f}, std::pair{0.5f, 1e-4f}, std::pair{0.5f, 1e6f}));
 
 TEST(Path, PointSpotAndDirectionalLights) {
   SceneParts parts;
@@ -98,11 +98,14 @@ TEST_P(CloseLamp, IsNotHiddenByItself) {
   const float scale = GetParam();
   for (const float height : {3.0f, 0.1f}) {
     SceneParts parts;
-    parts.quad("floor", parts.diffuse(Vec3(0)), Vec3(-200, 0, 200) * scale, Vec3(400, 0, 0) * scale, Vec3(0, 0, -400) * scale);
-    parts.quad("light", parts.diffuse(Vec3(0), Vec3(100)), Vec3(-0.5f, height, -0.5f) * scale, Vec3(1, 0, 0) * scale, Vec3(0, 0, 1) * scale);
+    parts.quad("floor", parts.diffuse(Vec3(0)), Vec3(-200, 0, 200) * scale, Vec3(400, 0, 0) * scale,
+               Vec3(0, 0, -400) * scale);
+    parts.quad("light", parts.diffuse(Vec3(0), Vec3(100)), Vec3(-0.5f, height, -0.5f) * scale, Vec3(1, 0, 0) * scale,
+               Vec3(0, 0, 1) * scale);
     const float x = 0.5f / height, root = std::sqrt(1 + x * x);
     const float factor = 4 * (1 / (2 * kPi)) * (2 * x / root * std::atan(x / root));
-    EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 16384).direct.g / (kPi * 100 * factor), 1, 0.01) << height;
+    EXPECT_NEAR(irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 16384).direct.g / (kPi * 100 * factor), 1, 0.01)
+        << height;
   }
 }
 INSTANTIATE_TEST_SUITE_P(Scales, CloseLamp, testing::Values(1e-3f, 1.0f, 1e3f));
@@ -138,7 +141,7 @@ TEST(Path, LightFindsItsWayOverAMirror) {
   SceneMaterial mirror;
   mirror.metallic = 1;
   mirror.roughness = 0;
-  parts.quad("mirror", parts.add(mirror), {-50, 2, -50}, {100, 0, 0}, {0, 0, 100});  // faces down
+  parts.quad("mirror", parts.add(mirror), {-50, 2, -50}, {100, 0, 0}, {0, 0, 100});                 // faces down
   parts.quad("panel", parts.diffuse(Vec3(0), Vec3(100)), {-0.5f, 1, 0.5f}, {1, 0, 0}, {0, 0, -1});  // faces up
   // The mirrored panel lies at height 3 and faces down; the panel itself (one-sided, black) hides a square of half side
   // 0.5 at height 1, that is of half side 1.5 at height 3: all of it.

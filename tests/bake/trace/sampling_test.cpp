@@ -50,16 +50,19 @@ double chi2_excess(const Draw& draw, const Pdf& pdf) {
     const auto w = draw(u(0), Vec2(u(1), u(2)));
     if (!w || w->z <= 0) continue;
     const double phi = std::atan2(w->y, w->x) / (2 * kPiD) + 0.5;
-    const int row = std::min(kRows - 1, static_cast<int>(w->z * kRows)), column = std::min(kColumns - 1, static_cast<int>(phi * kColumns));
+    const int row = std::min(kRows - 1, static_cast<int>(w->z * kRows)),
+              column = std::min(kColumns - 1, static_cast<int>(phi * kColumns));
     found[row * kColumns + column] += 1;
   }
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column)
       for (int a = 0; a < kSub; ++a)
         for (int b = 0; b < kSub; ++b) {
-          const double z = (row + (a + 0.5) / kSub) / kRows, phi = 2 * kPiD * ((column + (b + 0.5) / kSub) / kColumns - 0.5);
+          const double z = (row + (a + 0.5) / kSub) / kRows,
+                       phi = 2 * kPiD * ((column + (b + 0.5) / kSub) / kColumns - 0.5);
           const double r = std::sqrt(1 - z * z);
-          expected[row * kColumns + column] += pdf(Vec3(r * std::cos(phi), r * std::sin(phi), z)) * kSamples * 2 * kPiD / (kRows * kColumns * kSub * kSub);
+          expected[row * kColumns + column] += pdf(Vec3(r * std::cos(phi), r * std::sin(phi), z)) * kSamples * 2 *
+                                               kPiD / (kRows * kColumns * kSub * kSub);
         }
   double chi2 = 0;
   int cells = 0;
@@ -106,7 +109,8 @@ TEST_P(BsdfAlpha, SamplingMatchesPdf) {
   };
   EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return bsdf_pdf(point, wo, wi); }), 6);
 }
-INSTANTIATE_TEST_SUITE_P(Lobes, BsdfAlpha, testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
+INSTANTIATE_TEST_SUITE_P(Lobes, BsdfAlpha,
+                         testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
 
 // A white surface under uniform light never sends out more than it receives: lobes and albedo table agree.
 TEST(Bsdf, FurnaceNeverExceedsOne) {
@@ -157,7 +161,8 @@ TEST(Ggx, IsFiniteAndNormalised) {
       const double x = (i + 0.5) / kSteps, t = x / (1 - x);
       const double tan2 = t * alpha * alpha, cosine = 1 / std::sqrt(1 + tan2);
       // dω cosθ = π dtan² cos⁴
-      sum += ggx_d(static_cast<float>(cosine), alpha) * kPiD * std::pow(cosine, 4) * alpha * alpha / ((1 - x) * (1 - x)) / kSteps;
+      sum += ggx_d(static_cast<float>(cosine), alpha) * kPiD * std::pow(cosine, 4) * alpha * alpha /
+             ((1 - x) * (1 - x)) / kSteps;
     }
     EXPECT_NEAR(sum, 1, alpha < 0.01f ? 2e-2 : 2e-3) << alpha;
   }
