@@ -13,7 +13,7 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --list                              which cameras and paths it has\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror -o mirror.png\n"
     "  oriel-play gallery.oriel --offscreen --camera all -o pictures\n"
-    "  oriel-play gallery.oriel --offscreen --camera walk@3.5 --show M -o M.exr\n";
+    "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n";
 
 constexpr const char* kFooter =
     "In the window:\n"
