@@ -32,7 +32,8 @@ std::string name_places(const std::string& log, const ShaderText& source);
 class Program {
  public:
   Program() = default;
-  // passes/<name>.vert with passes/<name>.frag. Error kRuntime holds the driver's log with files and lines.
+  // passes/<name>.vert with passes/<name>.frag; the passes over a whole image, "screen/…", share
+  // passes/screen/fullscreen.vert. Error kRuntime holds the driver's log with files and lines.
   static Result<Program> create(std::string_view name, Dialect dialect);
   // For tests: a program of two texts as assemble_shader gives them.
   static Result<Program> create_from(std::string_view name, const ShaderText& vertex, const ShaderText& fragment);

@@ -36,7 +36,7 @@ ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View
 
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
-  ORIEL_TRY(pass.program_, gpu::Program::create("convolve", dialect));
+  ORIEL_TRY(pass.program_, gpu::Program::create("screen/convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

@@ -15,8 +15,8 @@ float white_of_exposure(float ev100) {
 
 Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
   DisplayPass pass;
-  ORIEL_TRY(pass.luminance_, gpu::Program::create("luminance", dialect));
-  ORIEL_TRY(pass.tonemap_, gpu::Program::create("tonemap", dialect));
+  ORIEL_TRY(pass.luminance_, gpu::Program::create("screen/luminance", dialect));
+  ORIEL_TRY(pass.tonemap_, gpu::Program::create("screen/tonemap", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

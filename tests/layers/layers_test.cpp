@@ -125,6 +125,10 @@ TEST(Layers, FilesAndFoldersStaySmall) {
     EXPECT_LE(lines, 400) << path << " is two concepts";
   });
   for (const auto& [folder, count] : sources) EXPECT_LE(count, 16) << folder << " holds more than 16 sources";
+  std::map<fs::path, int> shaders;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "shaders"))
+    if (entry.is_regular_file()) ++shaders[entry.path().parent_path()];
+  for (const auto& [folder, count] : shaders) EXPECT_LE(count, 16) << folder;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
     if (is_source(entry.path())) {
       std::ifstream in(entry.path());

@@ -16,8 +16,9 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {"depth", "mask",     "scene",   "transparent", "reproject", "pull",
-                                   "push",  "convolve", "compose", "luminance",   "tonemap"};
+constexpr const char* kPasses[] = {"depth",         "mask",        "scene",           "transparent", "reproject",
+                                   "screen/pull",   "screen/push", "screen/convolve", "compose",     "screen/luminance",
+                                   "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();
@@ -64,22 +65,22 @@ TEST(Programs, CompileInBothDialects) {
 TEST(Programs, ErrorsNameTheFileAndTheLine) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context);
-  auto vertex = gpu::assemble_shader("passes/tonemap.vert", Dialect::kDesktop330);
-  auto fragment = gpu::assemble_shader("passes/tonemap.frag", Dialect::kDesktop330);
+  auto vertex = gpu::assemble_shader("passes/screen/fullscreen.vert", Dialect::kDesktop330);
+  auto fragment = gpu::assemble_shader("passes/screen/tonemap.frag", Dialect::kDesktop330);
   ASSERT_TRUE(vertex && fragment);
   // In the middle of an included file, and in the file itself after two inclusions.
   const auto broken_at = [&](const char* before, const char* expected) {
     gpu::ShaderText broken = *fragment;
     broken.text.insert(broken.text.find(before), "nothing_of_the_kind ");
-    const auto program = gpu::Program::create_from("tonemap", *vertex, broken);
+    const auto program = gpu::Program::create_from("screen/tonemap", *vertex, broken);
     ASSERT_FALSE(program);
     EXPECT_EQ(program.error().code, ErrorCode::kRuntime);
     const std::string text = program.error().text();
-    EXPECT_NE(text.find("passes/tonemap.frag: does not compile"), std::string::npos) << text;
+    EXPECT_NE(text.find("passes/screen/tonemap.frag: does not compile"), std::string::npos) << text;
     EXPECT_NE(text.find(expected), std::string::npos) << text;
   };
   broken_at("vec3 srgb_from_linear", "lib/color.glsl:6");
-  broken_at("void main()", "passes/tonemap.frag:10");
+  broken_at("void main()", "passes/screen/tonemap.frag:10");
   EXPECT_FALSE(gpu::Program::create("no_such_pass", Dialect::kDesktop330));
 }
 
@@ -108,7 +109,7 @@ TEST(Framebuffers, AnImpossibleOneIsRefused) {
 // Runs `body`, which turns vec4 a, vec4 b of a row of inputs into o_value, on the GPU.
 std::vector<Vec4> run_shader(const std::string& library, const std::string& body, const std::vector<Vec4>& a,
                              const std::vector<Vec4>& b) {
-  const gpu::ShaderText vertex = *gpu::assemble_shader("passes/tonemap.vert", Dialect::kDesktop330);
+  const gpu::ShaderText vertex = *gpu::assemble_shader("passes/screen/fullscreen.vert", Dialect::kDesktop330);
   gpu::ShaderText fragment;
   fragment.text = "#version 330 core\n";
   EXPECT_FALSE(gpu::shader_source(library).empty()) << library;

@@ -1,3 +1,0 @@
-#include "lib/fullscreen.glsl"
-
-void main() { gl_Position = fullscreen_position(gl_VertexID); }
