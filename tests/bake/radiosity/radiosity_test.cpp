@@ -151,7 +151,7 @@ TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
   parts.quad("floor", black, {0, 0, 1}, {2, 0, 0}, {0, 0, -1});
   parts.quad("wall", black, {-0.001f, 0, -10}, {0, 0, 20}, {0, 10, 0});  // faces -x, away from the floor
   parts.scene().sky = Vec3(1);
-  const Baked b = bake(parts.finish(), 0.25f, 256);
+  const Baked b = bake(parts.finish(), 0.25f, 1024);
   int seen = 0;
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
@@ -160,7 +160,8 @@ TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
       if (b.scene.surfaces[b.scene.triangle_surface[triangle]].name != "floor") continue;
       const Vec3 at = point_on(b.scene, triangle, sample_texel(b.atlas, b.texel_map[p], i, Vec3(0.5f)).barycentric);
       if (at.x < 0.25f) {
-        EXPECT_NEAR(b.radiosity.pages[p].irradiance[texel].g, kPi / 2, 0.08) << "half of the sky";
+        EXPECT_NEAR(b.radiosity.pages[p].irradiance[texel].g, kPi / 2, 0.04)
+            << "half of the sky, less what passes over and beside the wall: under 1 %";
         ++seen;
       }
     }
