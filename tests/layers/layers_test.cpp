@@ -40,6 +40,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
+  m["bake/radiosity"].insert("bake/radiosity/cached");
+  m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity"});  // the cached estimator's pieces
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
