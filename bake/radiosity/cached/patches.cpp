@@ -46,7 +46,7 @@ class Solver {
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
     const DirectionSets sets(seed, options_.rays_per_patch);
-    return parallel_for(context, "", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
+    return parallel_for(context, "bounces", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
       const std::size_t first = g * kGroup, end = std::min(patches_.size(), first + kGroup);
       for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, sets);
       for (std::size_t p = first; p < end; ++p) patches_[p].links.shrink_to_fit();
