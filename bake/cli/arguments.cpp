@@ -60,7 +60,7 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
 }
 
-void add_light_options(CLI::App& app, Texts& texts) {
+void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option(
          "--estimator", texts.estimator,
          "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred "
@@ -76,6 +76,17 @@ void add_light_options(CLI::App& app, Texts& texts) {
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
       ->check(CLI::Range(1u, 1u << 24))
       ->excludes(error);
+  app.add_option(
+         "--bounces", bake.radiosity.bounces,
+         "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that "
+         "stop there")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  app.add_flag_callback(
+      "--hidden-black", [&bake] { bake.radiosity.hidden = Hidden::kBlack; },
+      "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
+      "out: "
+      "dark rims, but comparable");
   app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")
       ->check(checked(parse_color, "L|R,G,B"))
       ->capture_default_str();
@@ -159,7 +170,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures")->required();
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all")->required();
   add_atlas_options(app, texts, args.bake);
-  add_light_options(app, texts);
+  add_light_options(app, texts, args.bake);
   add_reflection_options(app, texts, args.bake);
   app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
   app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The bytes of the pack do not depend on it")

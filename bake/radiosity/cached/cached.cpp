@@ -34,10 +34,15 @@ class CachedBake {
   Status run(Radiosity& result) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
     ORIEL_TRY_VOID(first_direct());
-    ORIEL_TRY(Sweeps sweeps,
-              sweep(texels_, around_, direct_.value, {256, kTailShare * std::max(target(), 1e-3)}, context_, rays_));
+    Sweeps sweeps;
+    if (options_.bounces != 1) {  // the gather itself is one
+      const SweepOptions how{256, options_.bounces > 0 ? options_.bounces - 1 : 0,
+                             kTailShare * std::max(target(), 1e-3)};
+      ORIEL_TRY(sweeps, sweep(texels_, around_, direct_.value, how, context_, rays_));
+    }
     irradiance_ = direct_.value;
-    for (std::size_t i = 0; i < texels_.count(); ++i) irradiance_[i] += sweeps.gathered[i];
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if (!sweeps.gathered.empty()) irradiance_[i] += sweeps.gathered[i];
     ORIEL_TRY_VOID(gather_to_target());
     ORIEL_TRY_VOID(refine_direct());
     store(result);

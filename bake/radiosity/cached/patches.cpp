@@ -147,6 +147,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
     result.tail = q < 1 ? change / scale * q / (1 - q) : change / scale;
     before = change;
     if (q < 1 && result.tail < options_.tolerance) break;
+    if (result.count == options_.most) break;
     if (result.count >= kMaxSweeps) return tl::unexpected(no_end(solution_));
   }
   return {};
