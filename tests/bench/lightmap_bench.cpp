@@ -1,4 +1,5 @@
 // Error against time of both estimators on one scene, against a converged reference of our own.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -75,6 +76,33 @@ Errors compare(const Radiosity& x, const Radiosity& r, std::span<const TexelMapP
   return e;
 }
 
+// Where the means differ most: by surface, in the scene's light.
+void print_biases(const Scene& scene, const Radiosity& x, const Radiosity& r, std::span<const TexelMapPage> map) {
+  struct Sum {
+    double difference = 0, reference = 0, noise = 0;
+  };
+  std::vector<Sum> sums(scene.surfaces.size());
+  for (std::size_t p = 0; p < map.size(); ++p)
+    for (std::size_t i = 0; i < map[p].texel.size(); ++i) {
+      const std::uint32_t t = map[p].texel[i];
+      if (r.pages[p].state[t] != TexelState::kValid) continue;
+      Sum& sum = sums[scene.triangle_surface[map[p].fragments[map[p].first[i]].triangle]];
+      sum.difference += x.pages[p].irradiance[t].g - r.pages[p].irradiance[t].g;
+      sum.reference += r.pages[p].irradiance[t].g;
+      sum.noise += std::pow(r.pages[p].standard_error[t].g, 2);
+    }
+  std::vector<std::size_t> order(sums.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(sums[a].difference) > std::abs(sums[b].difference);
+  });
+  for (std::size_t k = 0; k < std::min<std::size_t>(16, order.size()); ++k) {
+    const Sum& sum = sums[order[k]];
+    std::printf("    %-24s bias %+.2f %% ± %.2f\n", scene.surfaces[order[k]].name.c_str(),
+                100 * sum.difference / sum.reference, 196 * std::sqrt(sum.noise) / sum.reference);
+  }
+}
+
 int bench(int argc, char** argv) {
   const char* file = argv[1];
   const int reference = argc > 2 ? std::atoi(argv[2]) : 1024;
@@ -122,6 +150,7 @@ int bench(int argc, char** argv) {
         100 * baked->report.relative_error, 100 * e.net, 100 * e.n, 100 * e.bias, 100 * e.covered, baked->report.sweeps,
         100 * baked->report.filter_drift);
     phases.print();
+    print_biases(scene, *baked, *truth, *map);
   };
   for (const std::uint32_t samples : {16u, 256u}) {
     RadiosityOptions o = options;
