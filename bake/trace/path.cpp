@@ -101,7 +101,8 @@ class Walk {
       const Hit hit = t_.accel.intersect(ray);
       Vec3& sink = first ? light.emitted : light.scattered;
       if (!hit) {
-        sink += throughput_ * t_.accel.scene().sky;
+        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
+        sink += throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         break;
       }
       const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
