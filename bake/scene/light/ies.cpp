@@ -77,10 +77,7 @@ Result<std::string_view> read_header(Reader& in) {
     return in.error("found '{}', expected IESNA:LM-63-2002, IESNA:LM-63-1995 or IESNA91", line.substr(0, 40));
   constexpr std::string_view kTilt = "TILT=";
   while (in.line(line))
-    if (line.starts_with(kTilt)) {
-      in.start_numbers();
-      return line.substr(kTilt.size());
-    }
+    if (line.starts_with(kTilt)) return line.substr(kTilt.size());
   return in.error("found the end of the file, expected a line TILT=NONE or TILT=INCLUDE");
 }
 
@@ -150,11 +147,12 @@ Result<IesFile> parse_ies(std::string_view text, const std::string& name) {
   LightProfile& profile = file.profile;
   profile.name = name;
   ORIEL_TRY(const std::string_view tilt, read_header(in));
+  if (tilt != "NONE" && tilt != "INCLUDE")
+    return in.error("found TILT={}, expected TILT=NONE or TILT=INCLUDE", tilt.substr(0, 40));
+  in.start_numbers();
   if (tilt == "INCLUDE") {
     ORIEL_TRY_VOID(skip_tilt(in));
     file.warnings.push_back(fmt::format("{}: TILT=INCLUDE is left out: the luminaire shines as if not tilted", name));
-  } else if (tilt != "NONE") {
-    return in.error("found TILT={}, expected TILT=NONE or TILT=INCLUDE", tilt.substr(0, 40));
   }
   ORIEL_TRY(const Heading heading, read_heading(in));
   ORIEL_TRY(profile.vertical_deg, read_angles(in, heading.verticals, "vertical"));
