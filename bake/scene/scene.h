@@ -102,6 +102,7 @@ struct Scene {
   std::vector<Vec2> uv0, uv1;
   std::vector<std::uint32_t> colors;  // RGBA8 linear; empty when the whole scene has none
   std::vector<UVec3> triangles;       // counter-clockwise seen from the front; never degenerate
+  std::vector<Vec3> face_normals;     // of each triangle, kept for geometric_normal(); empty: computed when asked
   std::vector<std::uint32_t> triangle_surface;
   std::vector<Surface> surfaces;
   std::vector<SceneMaterial> materials;
