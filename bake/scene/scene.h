@@ -102,7 +102,8 @@ struct Scene {
   std::vector<Vec2> uv0, uv1;
   std::vector<std::uint32_t> colors;  // RGBA8 linear; empty when the whole scene has none
   std::vector<UVec3> triangles;       // counter-clockwise seen from the front; never degenerate
-  std::vector<Vec3> face_normals;     // of each triangle, kept for geometric_normal(); empty: computed when asked
+  // geometric_normal() of the first triangles, kept; it computes those of the others. Who moves vertices clears it.
+  std::vector<Vec3> face_normals;
   std::vector<std::uint32_t> triangle_surface;
   std::vector<Surface> surfaces;
   std::vector<SceneMaterial> materials;

@@ -33,7 +33,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/jobs"] = core;
   m["bake/scene"] = plus(assets, {"bake/jobs"});
   m["bake/scene/gltf"] = plus(assets, {"bake/jobs", "bake/scene"});  // the file format apart from the scene
-  m["bake/scene/light"] = m["bake/scene/gltf"];
+  m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
   m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light"});
   m["bake/trace"] = m["bake/atlas"] = plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light"});
   m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
