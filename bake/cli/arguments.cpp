@@ -13,6 +13,7 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, reflections, 256 paths a texel
   oriel-bake house.glb -o house.oriel --texel 5cm --samples 1024     finer and with half the noise
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
+  oriel-bake house.glb -o house.oriel --sky noon.exr --sky-scale 1000 --ies "lamp=downlight.ies"  measured light
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
 
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
@@ -34,6 +35,7 @@ constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the erro
 struct Texts {
   std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", only, estimator = "cached", error = "2%";
   std::uint32_t samples = 0;
+  std::vector<std::string> ies;
   bool quiet = false, json_log = false;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -87,9 +89,29 @@ void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
       "out: "
       "dark rims, but comparable");
-  app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")
-      ->check(checked(parse_color, "L|R,G,B"))
+  app.add_option(
+         "--sky", texts.sky,
+         "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or "
+         ".exr whose centre is +X and whose right is +Z, as in Blender")
+      ->check(checked(parse_sky, "L|R,G,B|FILE"))
       ->capture_default_str();
+  app.add_option("--sky-scale", bake.import.sky_scale, "Radiance in cd/m² of a 1 in the sky's file")
+      ->check(CLI::Range(0.0f, 1e30f))
+      ->capture_default_str();
+  app.add_option("--sky-rotation", bake.import.sky_rotation_deg,
+                 "Turns the sky's file, counter-clockwise seen from above, degrees")
+      ->check(CLI::Range(-360.0f, 360.0f))
+      ->capture_default_str();
+  app.add_option("--sun-angle", bake.import.sun_angle_deg,
+                 "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as "
+                 "the file says (extras.oriel.angular_diameter_deg), which is a point")
+      ->check(CLI::Range(0.0f, 180.0f));
+  app.add_option(
+         "--ies", texts.ies,
+         "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity "
+         "and cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated")
+      ->check(checked(parse_ies_option, "NODE=FILE"))
+      ->take_all();
 }
 
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
@@ -118,7 +140,13 @@ Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
-  ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
+  ORIEL_TRY(SkyChoice sky, parse_sky(texts.sky));
+  bake.import.sky = sky.radiance;
+  bake.import.sky_file = std::move(sky.file);
+  for (const std::string& text : texts.ies) {
+    ORIEL_TRY(auto profile, parse_ies_option(text));
+    bake.import.ies.push_back(std::move(profile));
+  }
   bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;

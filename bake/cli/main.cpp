@@ -57,8 +57,8 @@ int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinte
   return static_cast<int>(error.code);
 }
 
-// Fails before hours of work where their result could not be written, or would replace the scene.
-Status check_output(const std::filesystem::path& output, const std::filesystem::path& scene) {
+// Fails before hours of work where their result could not be written, or would replace what is read.
+Status check_output(const std::filesystem::path& output, const BakeOptions& options) {
   namespace fs = std::filesystem;
   std::error_code ec;
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
@@ -68,9 +68,11 @@ Status check_output(const std::filesystem::path& output, const std::filesystem::
     return fail(ErrorCode::kIo, output.string(), "the folder {} cannot be written: {}", folder.string(),
                 std::strerror(errno));
   if (fs::is_directory(output, ec)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
-  if (fs::equivalent(output, scene, ec))
-    return fail(ErrorCode::kUsage, output.string(),
-                "is the scene itself, which would be overwritten: expected another name");
+  std::vector<fs::path> inputs = {options.scene, options.import.sky_file};
+  for (const auto& [node, file] : options.import.ies) inputs.push_back(file);
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(output, input, ec))
+      return fail(ErrorCode::kUsage, output.string(), "is an input, which would be overwritten: expected another name");
   return {};
 }
 
@@ -83,9 +85,9 @@ void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter&
 }
 
 Status run_checked(const Arguments& args, Context& context, ProgressPrinter& printer) {
-  ORIEL_TRY_VOID(check_output(args.bake.output, args.bake.scene));
+  ORIEL_TRY_VOID(check_output(args.bake.output, args.bake));
   if (!args.report.empty()) {
-    ORIEL_TRY_VOID(check_output(args.report, args.bake.scene));
+    ORIEL_TRY_VOID(check_output(args.report, args.bake));
     if (args.report.lexically_normal() == args.bake.output.lexically_normal())
       return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
   }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/report.h"
@@ -84,8 +85,9 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
   ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
-  ORIEL_TRY(const Accel accel,
-            timed("accelerator", [&](auto&) { return Accel::build(scene, {options.reproducible}); }));
+  ORIEL_TRY(const Accel accel, timed("accelerator", [&](auto&) {
+              return Accel::build(scene, {options.reproducible, thread_count(context)});
+            }));
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 

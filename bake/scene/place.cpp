@@ -236,7 +236,8 @@ Status reserve(const Document& document, std::span<const LoadedMesh> meshes, std
     return invalid(document.file, "found no mesh with a triangle in the scene, expected at least one");
   if (triangles > (1u << 30))
     return invalid(document.file, "found {} triangles with all instances, expected at most {}", triangles, 1u << 30);
-  ORIEL_TRY_VOID(budget.take(triangles * (sizeof(UVec3) + sizeof(std::uint32_t)) + vertices * 44, document.file));
+  ORIEL_TRY_VOID(
+      budget.take(triangles * (sizeof(UVec3) + sizeof(Vec3) + sizeof(std::uint32_t)) + vertices * 44, document.file));
   scene.triangles.reserve(triangles);
   scene.triangle_surface.reserve(triangles);
   scene.positions.reserve(vertices);
@@ -306,6 +307,10 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
     scene.lower = glm::min(scene.lower, p);
     scene.upper = glm::max(scene.upper, p);
   }
+  std::vector<Vec3> normals;
+  normals.reserve(scene.triangles.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
+  scene.face_normals = std::move(normals);
   return {};
 }
 

@@ -102,6 +102,27 @@ TEST_F(BakeCli, OmissionsAreSaidAndRecorded) {
                   .contains("stages"));
 }
 
+TEST_F(BakeCli, SkiesAndProfilesAreInputs) {
+  write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n@@@\x81@@@\x81");  // (0.5, 0.5, 0.5)
+  const std::string bake = "oriel-bake cornell.glb -o a.oriel --texel 20cm --samples 4 --only radiosity ";
+  ASSERT_EQ(run(bake + "--sky sky.hdr --sky-scale 100 --sky-rotation 30 --sun-angle 0.53"), 0) << log();
+  const Pack pack = *read_pack(folder_ / "a.oriel");
+  EXPECT_NEAR(pack.sky.g, 50, 1e-3);
+  const auto provenance = nlohmann::json::parse(pack.provenance);
+  EXPECT_EQ(provenance["inputs"].back()["name"], "sky.hdr");
+  EXPECT_EQ(provenance["options"]["sky_file"], "sky.hdr");
+  EXPECT_EQ(provenance["options"]["sky_scale"], 100);
+  EXPECT_NEAR(provenance["options"]["sun_angle_deg"].get<double>(), 0.53, 1e-6);
+  EXPECT_EQ(run(bake + "--sky missing.exr"), 2);
+  EXPECT_EQ(run(bake + "--sky cornell.glb"), 1) << "neither a radiance nor a name of a sky";
+  EXPECT_EQ(run(bake + "--sky sky.hdr --sky-scale -1"), 1);
+  EXPECT_EQ(run(bake + "--sun-angle 200"), 1);
+  EXPECT_EQ(run(bake + "--ies lamp"), 1);
+  EXPECT_EQ(run(bake + "--ies lamp=sky.hdr"), 1);
+  EXPECT_NE(log().find("\"lamp\""), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake cornell.glb -o sky.hdr --sky sky.hdr"), 1) << "the sky must not be overwritten";
+}
+
 TEST_F(BakeCli, NoLightBakesToBlackWithAWarning) {
   write("dark.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -157,6 +178,12 @@ TEST(Quantities, ParseAndRefuse) {
   EXPECT_EQ(*parse_color("5"), Vec3(5));
   EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
   for (const char* bad : {"", "1,2", "1,2,3,4", "-1", "a", "1,,2"}) EXPECT_FALSE(parse_color(bad)) << bad;
+  EXPECT_EQ(parse_sky("2000")->radiance, Vec3(2000));
+  EXPECT_EQ(parse_sky("skies/Noon.EXR")->file, "skies/Noon.EXR");
+  for (const char* bad : {"", "sky.png", "-1", "a"}) EXPECT_FALSE(parse_sky(bad)) << bad;
+  EXPECT_EQ(parse_ies_option("a lamp=x=y.ies")->first, "a lamp");
+  EXPECT_EQ(parse_ies_option("a lamp=x=y.ies")->second, "x=y.ies");
+  for (const char* bad : {"", "lamp", "=a.ies", "lamp="}) EXPECT_FALSE(parse_ies_option(bad)) << bad;
 }
 
 }  // namespace
