@@ -36,6 +36,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene"].insert("bake/scene/gltf");
   m["bake/trace"] = plus(assets, {"bake/jobs", "bake/scene"});
   m["bake/atlas"] = m["bake/trace"];
+  m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
+  m["bake/atlas"].insert("bake/atlas/chart");
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
@@ -58,7 +60,8 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"tbb/", {"bake/jobs"}},
     {"OpenImageIO/", {"bake/scene"}},
     {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas"}},
+    {"OpenMesh/", {"bake/atlas/chart"}},
+    {"Eigen/", {"bake/atlas/chart"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},
