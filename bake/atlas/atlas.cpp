@@ -12,6 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr int kMaxSide = 16384;
+constexpr double kLargeShare = 1.0 / 256;  // of all charts' area in one whose shape matters for packing
 constexpr double kMergedShare = 1.0 / 24;  // of all charts' area in a merged one: a few large round charts would leave
                                            // much of a page empty between them
 
@@ -87,6 +88,7 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
                                    glm::radians(static_cast<double>(options.curved_angle_deg)),
                                    static_cast<double>(options.max_stretch),
                                    kMergedShare * area,
+                                   kLargeShare * area,
                                    &deadline};
   std::vector<ChartSet> sets(surfaces.size());
   ORIEL_TRY_VOID(parallel_for(context, "atlas", surfaces.size(), [&](std::size_t i) {

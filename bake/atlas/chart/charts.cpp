@@ -15,6 +15,8 @@ constexpr double kFlatTexels = 64;     // a flat region of less area (texels²) 
 constexpr double kSmoothFactor = 4;    // a neighbour within so many flat angles continues a surface smoothly
 constexpr int kRegrowths = 4;          // of a curved chart, around the mean normal found so far, while it helps
 constexpr double kLargestStretch = 2;  // L∞ of a chart
+constexpr double kBoxFill = 0.6;       // of a large curved chart
+constexpr double kTinyTexels = 16;     // a chart of less area (texels²) may join one beyond a sharp edge
 constexpr int kSweeps = 8;             // that straighten outlines
 constexpr std::uint32_t kNoRegion = ~0u;
 constexpr std::uint32_t kFree = 0, kTried = 1, kDone = 2;  // a face: free; no seed of a flat region; in a region
@@ -284,7 +286,7 @@ void straighten(const MergeSurface& surface, std::vector<Region>& regions, std::
       std::array<std::uint32_t, 3> beside{kNoRegion, kNoRegion, kNoRegion};
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t edge = surface.across[3 * std::size_t{face} + k];
-        if (edge != kNoEdge && surface.smooth(face, edge / 3)) beside[k] = owner[edge / 3];
+        if (edge != kNoEdge && surface.cosine(face, edge / 3) >= surface.smooth_cos) beside[k] = owner[edge / 3];
       }
       const std::uint32_t most = beside[0] == beside[1] || beside[0] == beside[2] ? beside[0] : beside[1];
       const bool twice = std::count(beside.begin(), beside.end(), most) > 1;
@@ -315,6 +317,7 @@ std::vector<GrownChart> flatten_regions(const Scene& scene, std::uint32_t first,
                              [&](std::uint32_t face) { return owner[face] == static_cast<std::uint32_t>(r); });
     FlattenLimits own = limits;
     own.conformal = regions[r].conformal;
+    if (regions[r].exact) own.box_fill = 0;
     parts[r] = flatten_parts(scene, first, std::move(patch), own, options, context);
   });
   std::vector<GrownChart> charts;
@@ -335,14 +338,18 @@ ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOpti
     frames[i] = {Vec3(frame.normal), static_cast<float>(frame.area)};
   }
   std::vector<Region> regions = Grower(scene, surface, options, across, frames, context).run();
-  const FlattenLimits limits{options.texel_m, options.stretch, kLargestStretch, true};
-  const float smooth_cos = static_cast<float>(std::cos(options.curved_rad));
-  const MergeSurface whole{across, [&](std::uint32_t face) { return triangle_corners(scene, first + face); },
-                           [&](std::uint32_t a, std::uint32_t b) {
-                             return frames[a].area == 0 || frames[b].area == 0 ||
-                                    glm::dot(frames[a].normal, frames[b].normal) >= smooth_cos;
-                           },
-                           [&] { return options.deadline->passed(); }, options.merged_area_m2};
+  const FlattenLimits limits{options.texel_m, options.stretch, kLargestStretch, options.large_m2, kBoxFill, true};
+  MergeSurface whole;
+  whole.across = across;
+  whole.corners = [&](std::uint32_t face) { return triangle_corners(scene, first + face); };
+  whole.cosine = [&](std::uint32_t a, std::uint32_t b) {
+    if (frames[a].area == 0 || frames[b].area == 0) return 1.0;
+    return static_cast<double>(glm::dot(frames[a].normal, frames[b].normal));
+  };
+  whole.smooth_cos = std::cos(options.curved_rad);
+  whole.tiny_area = kTinyTexels * options.texel_m * options.texel_m;
+  whole.expired = [&] { return options.deadline->passed(); };
+  whole.largest_area = options.merged_area_m2;
   std::vector<GrownChart> charts = flatten_regions(scene, first, whole, regions, limits, options, context);
   merge_charts(whole, limits, context, charts);
   return make_set(first, std::move(charts));

@@ -26,6 +26,7 @@ struct ChartOptions {
   double flat_rad = 0, curved_rad = 0;  // AtlasOptions
   double stretch = 1;                   // largest L2 stretch of a chart
   double merged_area_m2 = 0;            // charts are not merged into larger ones
+  double large_m2 = 0;                  // curved charts of more area are cut where they leave much of their box empty
   const Deadline* deadline = nullptr;
 };
 

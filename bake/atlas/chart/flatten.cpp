@@ -172,6 +172,9 @@ std::optional<FlatChart> flatten(const Patch& patch, std::span<const Triangle3> 
   const StretchSum stretch = stretch_of(corners, projected);
   const auto accept = [&](std::vector<Triangle2>& points) -> std::optional<FlatChart> {
     const DVec2 size = turn_into_box(points);
+    double area = 0;
+    for (const Triangle2& t : points) area += std::abs(signed_area(t));
+    if (patch.size() > 2 && area > limits.large_m2 && area < limits.box_fill * size.x * size.y) return std::nullopt;
     if (overlaps(patch, points, size.x, limits.texel_m)) return std::nullopt;
     return FlatChart{patch.faces, std::move(points), size};
   };

@@ -12,6 +12,8 @@ namespace oriel {
 struct FlattenLimits {
   double texel_m = 0;       // the scale of what overlap matters
   double l2 = 1, linf = 1;  // largest stretch of a chart, StretchSum's; a single triangle has none
+  double large_m2 = 1e300;  // a chart of more area than this has to fill its box by box_fill, or would leave holes in
+  double box_fill = 0;      // a page that only small charts fit in
   bool conformal = true;    // false: projections only, quick, and held to no stretch
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kWork = 16;  // triangles laid flat, over those of the surface
 constexpr int kRounds = 48;
+constexpr double kTinyCos = 0.26;        // 75°: the corners of a box stay
 constexpr std::size_t kMostLeaves = 64;  // of a group
 constexpr std::size_t kLeaf = 8;         // the centre of a group of several has so many times a leaf's triangles
 constexpr double kLeastCommon = 0.1;     // of the shorter outline; charts that hardly touch make a worse shape
@@ -75,6 +76,10 @@ class Merger {
     return glm::length(t[(edge + 1) % 3] - t[edge % 3]);
   }
 
+  bool joins(std::uint32_t a, std::uint32_t b, double cosine) const {
+    return cosine >= (std::min(area_[a], area_[b]) < surface_.tiny_area ? kTinyCos : surface_.smooth_cos);
+  }
+
   // Pairs of charts that adjoin smoothly, with the share of common outline, in order of (a, b).
   std::vector<Pair> adjoining() const {
     std::vector<double> outline(charts_.size(), 0);
@@ -86,7 +91,7 @@ class Merger {
       if (a == b) continue;
       const double length = edge_length(e);
       outline[a] += length;
-      if (b != kNoChart && a < b && !charts_[b].exact && surface_.smooth(e / 3, other / 3))
+      if (b != kNoChart && a < b && !charts_[b].exact && joins(a, b, surface_.cosine(e / 3, other / 3)))
         pairs.push_back({a, b, length});
     }
     std::stable_sort(pairs.begin(), pairs.end(),
