@@ -30,7 +30,7 @@ CLI::Validator checked(Parser parse, const char* name) {
 }
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", only;
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, sky = "0", atlas = "auto", only;
   bool quiet = false, json_log = false;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -54,6 +54,15 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option("--max-page", bake.atlas.max_page,
                  "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
       ->check(CLI::Range(64, 16384))
+      ->capture_default_str();
+  app.add_option("--lightmap-memory", texts.lightmap_memory,
+                 "Limit of what the lightmap may need while it is baked; a texel too fine for it is an error that says "
+                 "which one fits. Default: none")
+      ->check(checked(parse_bytes, "SIZE"));
+  app.add_option("--atlas-time-limit", bake.atlas.time_limit_s,
+                 "Seconds after which what is left gets plain charts, quickly; the pack then depends on how fast the "
+                 "machine is. 0: none")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
 
@@ -94,6 +103,9 @@ Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
+  if (!texts.lightmap_memory.empty()) {
+    ORIEL_TRY(bake.atlas.memory_bytes, parse_bytes(texts.lightmap_memory));
+  }
   ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
   bake.atlas.resolution = texts.resolution;
   if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)

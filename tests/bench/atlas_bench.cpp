@@ -1,6 +1,7 @@
 // Quality, time and memory of automatic atlases: one line a scene.
 #include <sys/resource.h>
 
+#include <bit>
 #include <chrono>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -21,6 +22,17 @@ struct Arguments {
   std::string pictures;
   int threads = 0;
 };
+
+// Of all coordinates: equal where two runs made the same atlas.
+std::uint64_t fingerprint(const Atlas& atlas) {
+  std::uint64_t h = 14695981039346656037u;
+  const auto add = [&](std::uint64_t value) { h = (h ^ value) * 1099511628211u; };
+  for (std::size_t t = 0; t < atlas.uv.size(); ++t) {
+    add(static_cast<std::uint32_t>(atlas.page[t]));
+    for (const Vec2& uv : atlas.uv[t]) add(std::bit_cast<std::uint32_t>(uv.x)), add(std::bit_cast<std::uint32_t>(uv.y));
+  }
+  return h;
+}
 
 double peak_gib() {
   rusage usage{};
@@ -60,7 +72,29 @@ Status write_picture(const Atlas& atlas, const TexelMapPage& page, const std::st
   return write_png(path, image);
 }
 
+// One mesh of about so many triangles: waves of 5 m on a square of 100 m.
+Scene dunes(double triangles) {
+  const auto side = static_cast<std::uint32_t>(std::sqrt(triangles / 2));
+  std::vector<Vec3> p;
+  std::vector<UVec3> t;
+  for (std::uint32_t i = 0; i <= side; ++i)
+    for (std::uint32_t j = 0; j <= side; ++j) {
+      const float x = 100.0f * static_cast<float>(i) / static_cast<float>(side);
+      const float z = 100.0f * static_cast<float>(j) / static_cast<float>(side);
+      p.push_back({x, 0.8f * std::sin(1.2f * x) * std::cos(0.9f * z), z});
+    }
+  for (std::uint32_t i = 0; i < side; ++i)
+    for (std::uint32_t j = 0; j < side; ++j) {
+      const std::uint32_t a = i * (side + 1) + j;
+      t.insert(t.end(), {{a, a + 1, a + side + 2}, {a, a + side + 2, a + side + 1}});
+    }
+  Scene scene = shapes::empty_scene();
+  shapes::add(scene, "dunes", p, t);
+  return scene;
+}
+
 Result<Scene> load(const std::string& name, Context& context) {
+  if (name.starts_with("dunes:")) return dunes(std::strtod(name.c_str() + 6, nullptr));
   if (name == "icosphere") {
     Scene scene = shapes::empty_scene();
     shapes::add_icosphere(scene, name, 1, 6);
@@ -84,10 +118,10 @@ Status bench(const std::string& name, const Arguments& args, Context& context) {
   fmt::print(
       "{:<16} {:>9} triangles, {:.4g} m, {}: {} charts, fill {:.1f} %, L2 {:.4f}, Linf {:.2f}, angle {:.4f}, area "
       "{:.4f}, "
-      "overlapping texels {}, pages with overlaps {}, {:.2f} s, peak {:.2f} GiB (scene {:.2f})\n",
+      "overlapping texels {}, pages with overlaps {}, {:.2f} s, peak {:.2f} GiB (scene {:.2f}), {:016x}\n",
       label, scene.triangles.size(), atlas.texel_m, size, atlas.chart_count, 100 * atlas.covered_share, r.l2_stretch,
       r.linf_stretch, r.angle_distortion, r.area_distortion, r.overlapping_texels, pages_with_overlaps(atlas), seconds,
-      after, before);
+      after, before, fingerprint(atlas));
   std::fflush(stdout);
   if (args.pictures.empty()) return {};
   ORIEL_TRY(const auto map, build_texel_map(atlas, context));
@@ -114,7 +148,8 @@ int run(const Arguments& args) {
 int main(int argc, char** argv) {
   oriel::Arguments args;
   CLI::App app("Quality, time and memory of automatic atlases.", "atlas_bench");
-  app.add_option("SCENE", args.scenes, "glTF files, or icosphere (81 920 triangles)")->required();
+  app.add_option("SCENE", args.scenes, "glTF files; icosphere (81 920 triangles) or dunes:N (one mesh of N)")
+      ->required();
   app.add_option("--resolution", args.atlas.resolution, "Side of the one page");
   app.add_option("--texel", args.atlas.texel_m, "Metres a texel");
   app.add_option("--time-limit", args.atlas.time_limit_s, "Seconds");

@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr double kFlatTexels = 64;     // a flat region of less area (texels²) may join its neighbours
-constexpr double kSmoothFactor = 4;    // a neighbour within so many flat angles continues a surface smoothly
+constexpr double kSmoothCos = 0.966;   // 15°: a neighbour within it continues a surface smoothly
 constexpr int kRegrowths = 4;          // of a curved chart, around the mean normal found so far, while it helps
 constexpr double kLargestStretch = 2;  // L∞ of a chart
 constexpr double kBoxFill = 0.6;       // of a large curved chart
@@ -127,7 +127,6 @@ class Grower {
 
   // True where along most of the outline a neighbour goes on at nearly the same angle.
   bool continues_smoothly(const Faces& region, const DVec3& normal) const {
-    const double smooth_cos = std::cos(std::min(kSmoothFactor * options_.flat_rad, kPiD / 4));
     double outline = 0, smooth = 0;
     for (const std::uint32_t face : region) {
       for_neighbours(face, [&](int neighbour, std::uint32_t edge) {
@@ -135,7 +134,7 @@ class Grower {
         const double length =
             glm::length(corner(face, static_cast<int>((edge + 1) % 3)) - corner(face, static_cast<int>(edge % 3)));
         outline += length;
-        if (neighbour >= 0 && glm::dot(normal_of(static_cast<std::uint32_t>(neighbour)), normal) >= smooth_cos)
+        if (neighbour >= 0 && glm::dot(normal_of(static_cast<std::uint32_t>(neighbour)), normal) >= kSmoothCos)
           smooth += length;
       });
     }

@@ -9,6 +9,7 @@ namespace oriel {
 namespace {
 
 constexpr double kIsometry = 1.005;     // L2 stretch of a projection beyond which a conformal map is better
+constexpr double kFlatScale = 1e-4;     // a projection so near to scale is of something flat, and stays exact
 constexpr double kLeastCos = 0.2;       // of a projected triangle's normal to the direction of projection
 constexpr double kFlatRatio = 1e-9;     // twice the area over the longest side squared: a line, whatever its sign
 constexpr double kUprightSlack = 1.02;  // an upright box may be so much larger than the smallest
@@ -128,6 +129,7 @@ StretchSum stretch_of(std::span<const Triangle3> corners, std::span<const Triang
 void keep_area(const StretchSum& stretch, std::span<Triangle2> points) {
   if (!(stretch.plane_area() > 0)) return;
   const double scale = std::sqrt(stretch.surface_area() / stretch.plane_area());
+  if (std::abs(scale - 1) < kFlatScale) return;
   for (Triangle2& t : points)
     for (DVec2& p : t) p *= scale;
 }
@@ -181,6 +183,7 @@ std::optional<FlatChart> flatten(const Patch& patch, std::span<const Triangle3> 
   const bool isometric = patch.size() == 1 || !limits.conformal || stretch.l2() <= kIsometry;
   if (forward && isometric) {
     std::vector<Triangle2> points = projected;
+    keep_area(stretch, points);
     if (auto chart = accept(points)) return chart;
   }
   if (!limits.conformal) return std::nullopt;
