@@ -33,7 +33,7 @@ CLI::Validator checked(Parser parse, const char* name) {
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", only, estimator = "cached", error = "2%";
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, sky = "0", atlas = "auto", only, estimator = "cached", error = "2%";
   std::uint32_t samples = 0;
   std::vector<std::string> ies;
   bool quiet = false, json_log = false;
@@ -59,6 +59,15 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option("--max-page", bake.atlas.max_page,
                  "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
       ->check(CLI::Range(64, 16384))
+      ->capture_default_str();
+  app.add_option("--lightmap-memory", texts.lightmap_memory,
+                 "Limit of what the lightmap may need while it is baked; a texel too fine for it is an error that says "
+                 "which one fits. Default: none")
+      ->check(checked(parse_bytes, "SIZE"));
+  app.add_option("--atlas-time-limit", bake.atlas.time_limit_s,
+                 "Seconds after which what is left gets plain charts, quickly; the pack then depends on how fast the "
+                 "machine is. 0: none")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
 
@@ -154,6 +163,9 @@ Status resolve(const Texts& texts, Arguments& args) {
   } else {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
     bake.radiosity.samples = kMostSamples;
+  }
+  if (!texts.lightmap_memory.empty()) {
+    ORIEL_TRY(bake.atlas.memory_bytes, parse_bytes(texts.lightmap_memory));
   }
   bake.atlas.resolution = texts.resolution;
   if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)

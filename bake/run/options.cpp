@@ -108,6 +108,8 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"resolution", o.atlas.resolution},
       {"max_page", o.atlas.max_page},
       {"padding", o.atlas.padding},
+      {"lightmap_memory", o.atlas.memory_bytes},
+      {"atlas_time_limit_s", o.atlas.time_limit_s},
       {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},
       {"error", o.radiosity.error},
