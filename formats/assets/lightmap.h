@@ -1,6 +1,7 @@
 // Radiosity textures: irradiance per texel, with its error.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "formats/core/vec.h"
@@ -21,6 +22,16 @@ struct LightmapPage {
   std::vector<Vec3>
       standard_error;  // lux per channel: one standard deviation of the estimate's own noise; 0 where not baked
   std::vector<TexelState> state;
+  // Of a directional lightmap, else empty: the L1 band of the incident luminance over its L0 band, d = v / m with
+  // m = ∫ L dω / 4π and v = ∫ L ω dω / 4π above the texel; pack space, |d| <= 1. Where the back of a double-sided
+  // surface was baked it is negated: what front and back show is then one function of the front's normals.
+  std::vector<Vec3> direction{};
 };
+
+// E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit), by linear spherical
+// harmonics (docs/conventions.md, "Directional lightmaps"). In [0, 3].
+inline float directional_ratio(const Vec3& d, const Vec3& n, const Vec3& g) {
+  return std::max(1 + 2 * glm::dot(d, n), 0.0f) / std::max(1 + 2 * glm::dot(d, g), 1.0f);
+}
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// Textures, lightmaps, radiance maps, kernels and Fresnel maps.
+// Textures, lightmaps with their directions, radiance maps, kernels and Fresnel maps.
 #include <algorithm>
 
 #include "formats/core/half.h"
@@ -12,6 +12,7 @@ namespace {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 using Half3 = std::array<std::uint16_t, 3>;
+using Snorm3 = std::array<std::int8_t, 3>;
 
 float largest_channel(std::span<const Vec3> values) {
   float largest = 0;
@@ -104,6 +105,30 @@ Status decode(ByteReader& in, LightmapPage& page) {
   ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
   ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
   return get_texel_states(in, texels, page.state);
+}
+
+void encode(ByteWriter& out, const DirectionPage& page) {
+  out.put(page.page);
+  out.put(page.width);
+  out.put(page.height);
+  std::vector<Snorm3> codes(page.direction.size());
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    for (int c = 0; c < 3; ++c) codes[i][static_cast<std::size_t>(c)] = snorm8_from_float(page.direction[i][c]);
+  put_planes(out, std::span<const Snorm3>(codes));
+}
+
+Status decode(ByteReader& in, DirectionPage& page) {
+  page.page = in.get<std::uint32_t>();
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  const auto codes = get_planes<Snorm3>(in, std::uint64_t{page.width} * page.height);
+  page.direction.resize(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::int8_t code = codes[i][static_cast<std::size_t>(c)];
+      if (code == -128) return invalid("", "found direction code -128 at texel {}, expected -127 to 127", i);
+      page.direction[i][c] = float_from_snorm8(code);
+    }
+  return {};
 }
 
 void encode(ByteWriter& out, const RadianceMap& map) {
