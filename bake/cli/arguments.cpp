@@ -30,7 +30,7 @@ CLI::Validator checked(Parser parse, const char* name) {
 }
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", only;
+  std::string texel = "10cm", memory = "128MiB", sky = "0", atlas = "auto", directional = "auto", only;
   bool quiet = false, json_log = false;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -62,6 +62,11 @@ void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "Paths a texel, best a power of two. The error falls with the square root; each texel's standard "
                  "error is stored")
       ->check(CLI::Range(1u, 1u << 24))
+      ->capture_default_str();
+  app.add_option("--directional", texts.directional,
+                 "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material "
+                 "has a normal map), on, off. Costs a tenth more noise and about 2 bytes a texel")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")
       ->check(checked(parse_color, "L|R,G,B"))
@@ -96,6 +101,9 @@ Status resolve(const Texts& texts, Arguments& args) {
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
   ORIEL_TRY(bake.import.sky, parse_color(texts.sky));
   bake.atlas.resolution = texts.resolution;
+  bake.directional = texts.directional == "on"    ? Directional::kOn
+                     : texts.directional == "off" ? Directional::kOff
+                                                  : Directional::kAuto;
   if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)
     return fail(ErrorCode::kUsage, "",
                 "found both --texel and --resolution, expected one: with --atlas auto each follows from the other");

@@ -10,6 +10,7 @@ namespace oriel {
 struct RadiosityOptions {
   std::uint32_t samples = 256;  // paths a texel, best a power of two; the error falls as 1/√samples
   int dilation = 4;             // texels by which charts are extended beyond their border
+  bool directional = false;     // fill LightmapPage::direction
 };
 
 struct RadiosityReport {

@@ -24,6 +24,10 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
   return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
 }
 
+const char* directional_name(Directional directional) {
+  return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
+}
+
 }  // namespace
 
 Result<float> parse_length(const std::string& text) {
@@ -72,6 +76,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"padding", o.atlas.padding},
       {"samples", o.radiosity.samples},
       {"dilation", o.radiosity.dilation},
+      {"directional", directional_name(o.directional)},
       {"radiance", o.with_radiance},
       {"material", o.with_material},
       {"max_reflectors", o.reflectors.max_reflectors},

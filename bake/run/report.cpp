@@ -42,6 +42,7 @@ std::string plan_json(const BakeFacts& f) {
         {"covered_share", f.atlas.covered_share}}},
       {"radiosity",
        {{"estimator", "reference"},
+        {"directional", !f.pack.lightmaps.empty() && !f.pack.lightmaps[0].direction.empty()},
         {"texels", f.radiosity.texels},
         {"buried_texels", f.radiosity.buried},
         {"back_side_charts", f.radiosity.back_charts},

@@ -29,9 +29,10 @@ struct LightmapPage {
 };
 
 // E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit), by linear spherical
-// harmonics (docs/conventions.md, "Directional lightmaps"). In [0, 3].
+// harmonics: (1 + 2 d·n) / (1 + 2 d·g), written so that it is exactly 1 for n = g, and guarded (docs/conventions.md,
+// "Directional lightmaps"). 0 up; at most 3 for normals and light above the surface.
 inline float directional_ratio(const Vec3& d, const Vec3& n, const Vec3& g) {
-  return std::max(1 + 2 * glm::dot(d, n), 0.0f) / std::max(1 + 2 * glm::dot(d, g), 1.0f);
+  return std::max(1 + 2 * glm::dot(d, n - g) / std::max(1 + 2 * glm::dot(d, g), 1.0f), 0.0f);
 }
 
 }  // namespace oriel

@@ -37,7 +37,7 @@ struct Material {
   std::int32_t kernel = -1;       // into Pack::kernels: K, for reflective materials
   std::int32_t fresnel_map = -1;  // into Pack::fresnel_maps: R
   std::int32_t normal_texture = -1;  // into Pack::normal_textures
-  float normal_scale = 1;            // of the map's x and y
+  float normal_scale = 1;            // of the map's x and y, within ±1e6
 };
 
 }  // namespace oriel

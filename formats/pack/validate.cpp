@@ -153,10 +153,10 @@ void validate_materials(const Pack& pack, IssueList& list) {
     if (!optional_index(m.fresnel_map, pack.fresnel_maps.size()))
       list.error(205, "material {} ('{}'): found Fresnel map {}, expected -1 or less than {}", i, m.name, m.fresnel_map,
                  pack.fresnel_maps.size());
-    if (!optional_index(m.normal_texture, pack.normal_textures.size()) || !std::isfinite(m.normal_scale))
+    if (!optional_index(m.normal_texture, pack.normal_textures.size()) || !within(m.normal_scale, -1e6f, 1e6f))
       list.error(206,
                  "material {} ('{}'): found normal texture {} of scale {}, expected -1 or less than {}, and a "
-                 "finite scale",
+                 "scale within 1e6",
                  i, m.name, m.normal_texture, m.normal_scale, pack.normal_textures.size());
     if (m.normal_texture >= 0 && pack.mesh.normal_uvs.empty() && !pack.mesh.positions.empty())
       list.error(207, "material {} ('{}') has a normal texture, but the mesh no coordinates for it", i, m.name);
