@@ -65,7 +65,7 @@ void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
   app.add_option("--directional", texts.directional,
                  "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material "
-                 "has a normal map), on, off. Costs a tenth more noise and about 2 bytes a texel")
+                 "has a normal map), on, off. Costs a tenth more variance and about 4 bytes a texel")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "formats/core/vec.h"
@@ -28,11 +29,21 @@ struct LightmapPage {
   std::vector<Vec3> direction{};
 };
 
-// E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit), by linear spherical
-// harmonics: (1 + 2 d·n) / (1 + 2 d·g), written so that it is exactly 1 for n = g, and guarded (docs/conventions.md,
-// "Directional lightmaps"). 0 up; at most 3 for normals and light above the surface.
+// E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit). d is read as an even
+// hemisphere of light together with one distant lamp: the share of the lamp and its direction follow from d, and the
+// irradiance of both is closed (docs/conventions.md, "Directional lightmaps"). Finite and not negative; 1 for n = g.
 inline float directional_ratio(const Vec3& d, const Vec3& n, const Vec3& g) {
-  return std::max(1 + 2 * glm::dot(d, n - g) / std::max(1 + 2 * glm::dot(d, g), 1.0f), 0.0f);
+  const Vec3 off = d - 0.5f * g;  // d = (1 - lamp) g / 2 + lamp ω, |ω| = 1
+  const float h = 0.5f - glm::dot(d, g);
+  const float lamp = std::clamp((std::sqrt(h * h + 3 * length2(off)) - h) / 1.5f, 0.0f, 1.0f);
+  const Vec3 towards = off + 0.5f * lamp * g;  // lamp ω
+  const auto light_on = [&](const Vec3& normal) {
+    const Vec3 mirrored =
+        normal - 2 * glm::dot(normal, g) * g;  // what of the lobe is below the surface counts above it
+    return 1 - lamp + 2 * (std::max(glm::dot(towards, normal), 0.0f) + std::max(glm::dot(towards, mirrored), 0.0f));
+  };
+  const float untilted = light_on(g);
+  return std::max(1 + (light_on(n) - untilted) / std::max(untilted, 0.1f), 0.0f);
 }
 
 }  // namespace oriel

@@ -12,7 +12,6 @@ namespace {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 using Half3 = std::array<std::uint16_t, 3>;
-using Snorm3 = std::array<std::int8_t, 3>;
 
 float largest_channel(std::span<const Vec3> values) {
   float largest = 0;
@@ -111,22 +110,23 @@ void encode(ByteWriter& out, const DirectionPage& page) {
   out.put(page.page);
   out.put(page.width);
   out.put(page.height);
-  std::vector<Snorm3> codes(page.direction.size());
-  for (std::size_t i = 0; i < codes.size(); ++i)
-    for (int c = 0; c < 3; ++c) codes[i][static_cast<std::size_t>(c)] = snorm8_from_float(page.direction[i][c]);
-  put_planes(out, std::span<const Snorm3>(codes));
+  std::vector<Half3> halves(page.direction.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(page.direction[i][c]);
+  put_planes(out, std::span<const Half3>(halves));
 }
 
 Status decode(ByteReader& in, DirectionPage& page) {
   page.page = in.get<std::uint32_t>();
   ORIEL_TRY_VOID(get_size(in, page.width, page.height));
-  const auto codes = get_planes<Snorm3>(in, std::uint64_t{page.width} * page.height);
-  page.direction.resize(codes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i)
+  const auto halves = get_planes<Half3>(in, std::uint64_t{page.width} * page.height);
+  page.direction.resize(halves.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
     for (int c = 0; c < 3; ++c) {
-      const std::int8_t code = codes[i][static_cast<std::size_t>(c)];
-      if (code == -128) return invalid("", "found direction code -128 at texel {}, expected -127 to 127", i);
-      page.direction[i][c] = float_from_snorm8(code);
+      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
+      if ((half & 0x7c00) == 0x7c00)
+        return invalid("", "found direction half {:#06x} at texel {}, expected a finite one", half, i);
+      page.direction[i][c] = float_from_half(half);
     }
   return {};
 }

@@ -135,9 +135,8 @@ void validate_lightmaps(const Pack& pack, IssueList& list) {
     list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
     list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
     if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) continue;
-    // Each of three codes of 8 bits may be rounded away from zero by 1/254.
     list.each(
-        304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.014f; }, text3,
+        304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
         "length 1 at most");
   }
 }

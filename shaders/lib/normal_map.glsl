@@ -24,7 +24,19 @@ vec3 tilted_normal(vec3 n, vec4 tangent, vec3 texel, float scale) {
   return size2 > 1e-12 ? tilted / sqrt(size2) : n;
 }
 
+// Irradiance over 2 pi m under an even hemisphere and a lamp in direction `towards`, whose length is its share. The part of
+// a tilted lobe that is below the surface counts above it.
+float light_on(vec3 normal, vec3 g, float lamp, vec3 towards) {
+  vec3 mirrored = normal - 2.0 * dot(normal, g) * g;
+  return 1.0 - lamp + 2.0 * (max(dot(towards, normal), 0.0) + max(dot(towards, mirrored), 0.0));
+}
+
 // E(n) / E(g) of a directional lightmap's d (formats/assets/lightmap.h).
 float directional_ratio(vec3 d, vec3 n, vec3 g) {
-  return max(1.0 + 2.0 * dot(d, n - g) / max(1.0 + 2.0 * dot(d, g), 1.0), 0.0);
+  vec3 off = d - 0.5 * g;
+  float h = 0.5 - dot(d, g);
+  float lamp = clamp((sqrt(h * h + 3.0 * dot(off, off)) - h) / 1.5, 0.0, 1.0);
+  vec3 towards = off + 0.5 * lamp * g;
+  float untilted = light_on(g, g, lamp, towards);
+  return max(1.0 + (light_on(n, g, lamp, towards) - untilted) / max(untilted, 0.1), 0.0);
 }

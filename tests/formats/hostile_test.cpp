@@ -210,7 +210,8 @@ TEST(Hostile, DirectionsAndNormalMapping) {
   expect_refusal(with_raw(kDirectionSection, 4, ~0u), page + "element 0: found 4294967295 x 4 texels");
   expect_refusal(with_raw(kDirectionSection, 4, 32768u), page + "its counts need more");
   expect_refusal(with_raw(kDirectionSection, 4, std::uint64_t{8} << 32 | 4u), page + "found 4 x 8 texels");
-  expect_refusal(with_raw(kDirectionSection, 12, std::uint8_t{128}), "found direction code -128 at texel 0");
+  expect_refusal(with_raw(kDirectionSection, 12 + 32, std::uint8_t{0xfc}),
+                 page + "element 0: found direction half 0xfc");
   Forge twice = Forge::from(tiny_file());
   const auto copy = twice.find(kDirectionSection);
   twice.sections.push_back(copy);

@@ -44,7 +44,7 @@ void expect_light(const Vec3& found, const Vec3& expected, float relative) {
 
 class NormalMaps : public FrameTest {};
 
-TEST_F(NormalMaps, DiffuseFollowsTheLinearModel) {
+TEST_F(NormalMaps, DiffuseFollowsTheModel) {
   const std::array<std::uint8_t, 3> texels[] = {{200, 128, 220}, {128, 220, 200}, {60, 80, 210}};
   for (const bool tangents : {false, true})
     for (const auto& rgb : texels)
@@ -53,17 +53,21 @@ TEST_F(NormalMaps, DiffuseFollowsTheLinearModel) {
           Pack pack = mapped_quad(Vec3(256, 128, 64), d, rgb, tangents);
           pack.materials[0].normal_scale = scale;
           const float ratio = directional_ratio(d, normal_of(rgb, scale), kFacing);
-          for (const Vec3& eye : {Vec3(0, 0, 2), Vec3(1.5f, -0.5f, 1)})
-            expect_light(draw(pack, camera_at(eye), 8, 8).at(4, 4), ratio * Vec3(256, 128, 64) / kPi, 2e-3f);
+          for (const Vec3& eye : {Vec3(0, 0, 2), Vec3(1.5f, -0.5f, 1)}) {
+            const Vec3 found = draw(pack, camera_at(eye), 8, 8).at(4, 4);
+            const Vec3 whole = Vec3(256, 128, 64) / kPi;
+            EXPECT_LT(glm::length(found / whole - ratio), 1e-3f * (1 + ratio)) << ratio;  // d in halves
+          }
         }
 }
 
-// (0.5, 0.5, 1), as near as 8 bits come to it, and a lightmap of every direction: the picture stays within a code.
+// (0.5, 0.5, 1), as near as 8 bits come to it (a tilt of 0.3 degrees), and lamps 45 degrees high all around: the
+// picture stays within a code.
 TEST_F(NormalMaps, FlatMapChangesNothing) {
   Pack pack = mapped_quad(Vec3(256, 128, 64), Vec3(0), {128, 128, 255}, false);
   for (std::size_t i = 0; i < 16; ++i) {
     const float angle = static_cast<float>(i);
-    pack.lightmaps[0].direction[i] = normalize_or({std::sin(angle), std::cos(angle), 0.4f}, kFacing);
+    pack.lightmaps[0].direction[i] = normalize_or({std::sin(angle), std::cos(angle), 1}, kFacing);
   }
   Pack plain = pack;
   plain.materials[0].normal_texture = -1;

@@ -44,14 +44,6 @@ Vec3 normal_from_octahedral(std::uint32_t code) {
   return Vec3(n / glm::length(n));
 }
 
-std::int8_t snorm8_from_float(float value) {
-  return static_cast<std::int8_t>(std::lround(std::clamp(value, -1.0f, 1.0f) * 127));
-}
-
-float float_from_snorm8(std::int8_t code) {
-  return static_cast<float>(code) / 127;
-}
-
 int disparity_shift(float largest) {
   int shift = 0;
   const auto fits = [largest](int s) { return std::ldexp(static_cast<double>(largest), s) * 65535 < 65535.5; };

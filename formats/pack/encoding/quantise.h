@@ -21,10 +21,6 @@ int scale_exponent(float largest, int mantissa_bits);
 std::uint32_t octahedral_from_normal(const Vec3& normal);
 Vec3 normal_from_octahedral(std::uint32_t code);  // unit for every code
 
-// [-1, 1] in 8 bits; the error is at most 1/254. -1, 0 and 1 are exact.
-std::int8_t snorm8_from_float(float value);
-float float_from_snorm8(std::int8_t code);  // code from -127
-
 // Disparities in [0, 1] as code / 65535 / 2^shift; the shift fits the map's largest one, and is in [0, 30]. 0 and 1
 // are exact; the error is at most 1/131070 of 2^-shift.
 inline constexpr int kMaxDisparityShift = 30;

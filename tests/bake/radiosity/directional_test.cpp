@@ -63,6 +63,7 @@ TEST(Directional, EvenSkyIsHalfTheNormal) {
     // The length of d - g/2 of independent samples has a standard deviation of 0.03.
     EXPECT_LT(glm::length(d - 0.5f * g), 4 * 0.03f);
     squares += length2(d - 0.5f * g);
+    EXPECT_NEAR(directional_ratio(0.5f * g, u, g), 1, 1e-5f) << "an even sky shows no tilt";
   });
   EXPECT_LT(std::sqrt(squares / texels), 0.03);
 }
@@ -82,10 +83,14 @@ TEST(Directional, DistantLightIsItsDirection) {
     each_texel(b, "plane", [&](const Vec3& e, const Vec3& d) {
       EXPECT_NEAR(e.r, 100 * towards.y, 1e-3f);
       EXPECT_LT(glm::length(d - towards), 1e-5f);
-      // A normal that the map turns by 30 degrees towards the light: the closed form of linear harmonics.
+      // A normal that the map turns by 30 degrees, towards the light or away from it: the ratio of the cosines, with
+      // what of the lobe is below the surface mirrored above it.
       const Vec3 g(0, 1, 0), across = glm::normalize(towards - towards.y * g);
-      const Vec3 n = std::cos(kPi / 6) * g + std::sin(kPi / 6) * across;
-      EXPECT_NEAR(directional_ratio(d, n, g), (1 + 2 * glm::dot(towards, n)) / (1 + 2 * towards.y), 1e-5f);
+      for (const float side : {1.0f, -1.0f}) {
+        const Vec3 n = std::cos(kPi / 6) * g + side * std::sin(kPi / 6) * across, mirrored(n.x, -n.y, n.z);
+        const float truth = std::max(glm::dot(towards, n), 0.0f) + std::max(glm::dot(towards, mirrored), 0.0f);
+        EXPECT_NEAR(directional_ratio(d, n, g), truth / towards.y, 1e-3f * truth / towards.y) << height;
+      }
       EXPECT_EQ(directional_ratio(d, g, g), 1);
     });
   }
