@@ -33,7 +33,8 @@ CLI::Validator checked(Parser parse, const char* name) {
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", lightmap_memory, sky = "0", atlas = "auto", only, estimator = "cached", error = "2%";
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", sky = "0", atlas = "auto", only,
+              estimator = "cached", error = "2%";
   std::uint32_t samples = 0;
   std::vector<std::string> ies;
   bool quiet = false, json_log = false;
@@ -98,6 +99,11 @@ void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
       "out: "
       "dark rims, but comparable");
+  app.add_option("--directional", texts.directional,
+                 "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material "
+                 "has a normal map), on, off. Costs a tenth more variance and about 4 bytes a texel")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str();
   app.add_option(
          "--sky", texts.sky,
          "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or "
@@ -168,6 +174,9 @@ Status resolve(const Texts& texts, Arguments& args) {
     ORIEL_TRY(bake.atlas.memory_bytes, parse_bytes(texts.lightmap_memory));
   }
   bake.atlas.resolution = texts.resolution;
+  bake.directional = texts.directional == "on"    ? Directional::kOn
+                     : texts.directional == "off" ? Directional::kOff
+                                                  : Directional::kAuto;
   if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)
     return fail(ErrorCode::kUsage, "",
                 "found both --texel and --resolution, expected one: with --atlas auto each follows from the other");

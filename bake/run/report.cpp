@@ -52,6 +52,7 @@ std::string plan_json(const BakeFacts& f) {
       {"atlas", atlas_json(f.atlas)},
       {"radiosity",
        {{"estimator", f.cached ? "cached" : "reference"},
+        {"directional", !f.pack.lightmaps.empty() && !f.pack.lightmaps[0].direction.empty()},
         {"texels", f.radiosity.texels},
         {"buried_texels", f.radiosity.buried},
         {"back_side_charts", f.radiosity.back_charts},

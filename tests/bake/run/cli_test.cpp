@@ -123,6 +123,37 @@ TEST_F(BakeCli, SkiesAndProfilesAreInputs) {
   EXPECT_EQ(run("oriel-bake cornell.glb -o sky.hdr --sky sky.hdr"), 1) << "the sky must not be overwritten";
 }
 
+TEST_F(BakeCli, DirectionalWhereANormalMapWantsIt) {
+  ASSERT_EQ(run("oriel-bake cornell.glb -o plain.oriel --texel 20cm --samples 1"), 0) << log();
+  EXPECT_NE(log().find("omitted: directional lightmaps: no material has a normal map"), std::string::npos) << log();
+  EXPECT_TRUE(read_pack(folder_ / "plain.oriel")->lightmaps[0].direction.empty());
+  ASSERT_EQ(run("oriel-bake cornell.glb -o on.oriel --texel 20cm --samples 1 --directional on"), 0) << log();
+  EXPECT_FALSE(read_pack(folder_ / "on.oriel")->lightmaps[0].direction.empty());
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --directional up"), 1);
+
+  write("bumpy.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "material": 0}]}],
+    "materials": [{"normalTexture": {"index": 0, "scale": 0.5}}], "textures": [{"source": 0}], "images": [{"uri":
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGO41XALAARsAjUQ4/RCAAAAAElFTkSuQmCC"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 96}], "buffers": [{"byteLength": 96,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAgD8AAIA/AACAPwAAAAAAAAAA"}]})");
+  ASSERT_EQ(run("oriel-bake bumpy.gltf -o auto.oriel --sky 100 --samples 4"), 0) << log();
+  EXPECT_EQ(log().find("directional"), std::string::npos) << log();
+  const Pack pack = *read_pack(folder_ / "auto.oriel");
+  EXPECT_FALSE(pack.lightmaps[0].direction.empty());
+  EXPECT_EQ(pack.materials[0].normal_texture, 0);
+  EXPECT_EQ(pack.materials[0].normal_scale, 0.5f);
+  EXPECT_EQ(pack.normal_textures.size(), 1u);
+  EXPECT_EQ(pack.mesh.normal_uvs.size(), pack.mesh.positions.size());
+  EXPECT_TRUE(nlohmann::json::parse(pack.plan)["radiosity"]["directional"]);
+  ASSERT_EQ(run("oriel-bake bumpy.gltf -o off.oriel --sky 100 --samples 4 --directional off"), 0) << log();
+  EXPECT_NE(log().find("left out by --directional off"), std::string::npos) << log();
+  EXPECT_TRUE(read_pack(folder_ / "off.oriel")->lightmaps[0].direction.empty());
+}
+
 TEST_F(BakeCli, NoLightBakesToBlackWithAWarning) {
   write("dark.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
