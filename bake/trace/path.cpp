@@ -103,7 +103,7 @@ class Walk {
     pdf_ = bsdf_pdf;
     int passes = 0;
     bool first = true;
-    for (; bounce < t_.options.max_bounces && passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
+    for (; passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
       Vec3& sink = first ? light.emitted : light.scattered;
       if (!hit) {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
@@ -126,6 +126,7 @@ class Walk {
         light.back_face = first && passes == 0;
         break;
       }
+      if (bounce >= t_.options.max_bounces) break;
       const Step step = scatter(surface, ray, light);
       if (step == Step::kEnd) break;
       if (step == Step::kPassed) {

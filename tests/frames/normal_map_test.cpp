@@ -58,7 +58,8 @@ class NormalMappedFrames : public testing::Test {
     const LightSet lights(scene);
     Pack pack;
     pack.provenance = "{}";
-    pack.lightmaps = bake_radiosity({accel, lights, {}}, atlas, map, {512, 4, directional}, context)->pages;
+    pack.lightmaps =
+        bake_radiosity({accel, lights, {}}, atlas, map, {.samples = 512, .directional = directional}, context)->pages;
     pack.mesh = assemble_mesh(scene, atlas).mesh;
     assemble_materials(scene, *bake_materials(scene, {}, context), pack);
     pack.cameras = {facing_wall()};

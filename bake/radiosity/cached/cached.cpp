@@ -14,6 +14,8 @@ constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr double kDirectShare = 0.3;                    // of the squared error asked for
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
+constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
+constexpr std::size_t kMaxLinks = 64u << 20;            // between patches: 1 GiB
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedBake {
@@ -36,8 +38,11 @@ class CachedBake {
     ORIEL_TRY_VOID(first_direct());
     Sweeps sweeps;
     if (options_.bounces != 1) {  // the gather itself is one
-      const SweepOptions how{256, options_.bounces > 0 ? options_.bounces - 1 : 0,
-                             kTailShare * std::max(target(), 1e-3)};
+      SweepOptions how;
+      how.most = std::max(0, options_.bounces - 1);
+      how.tolerance = kTailShare * std::max(target(), 1e-3);
+      how.side = target() >= kCoarseTarget ? 2 : 1;
+      while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
       ORIEL_TRY(sweeps, sweep(texels_, around_, direct_.value, how, context_, rays_));
     }
     irradiance_ = direct_.value;
@@ -61,11 +66,20 @@ class CachedBake {
     ORIEL_TRY_VOID(direct_light_.estimate(order_, kFirstDirect, context_, direct_, rays_));
     std::vector<std::uint32_t> edges;
     for (const std::uint32_t i : order_) {
-      bool edge = max_component(direct_.variance[i]) > 0;
+      bool edge = max_component(direct_.variance[i] + direct_.sampled[i]) > 0;
       for (const std::uint32_t j : graph_.of(i)) edge |= max_component(direct_.variance[j]) > 0;
       if (edge) edges.push_back(i);
     }
-    return direct_light_.estimate(edges, 4 * kFirstDirect, context_, direct_, rays_);
+    // A fixed number of gather rays brings a fixed number of shadow rays with it.
+    const std::uint32_t per_half = options_.error > 0 ? 0 : options_.samples / (4 * kHalves);
+    return direct_light_.estimate(edges, std::max(4 * kFirstDirect, per_half), context_, direct_, rays_);
+  }
+
+  // Of the direct light.
+  std::vector<Vec3> direct_variance() {
+    std::vector<Vec3> variance = pooled(graph_, direct_.sampled, kPoolPasses, context_);
+    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += direct_.variance[i];
+    return variance;
   }
 
   // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
@@ -153,7 +167,7 @@ class CachedBake {
     if (options_.error <= 0) return {};
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
-      const double now = mean_squares(direct_.variance), goal = kDirectShare * target() * target();
+      const double now = mean_squares(direct_variance()), goal = kDirectShare * target() * target();
       if (now <= goal || context_.stopped()) return {};
       std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
       if (list.empty()) return {};
@@ -168,7 +182,8 @@ class CachedBake {
     }
   }
 
-  void store(Radiosity& result) const {
+  void store(Radiosity& result) {
+    const std::vector<Vec3> of_direct = direct_variance();
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       LightmapPage& page = result.pages[texels_.page[i]];
       const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
@@ -176,7 +191,7 @@ class CachedBake {
       page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
       if (texels_.visible[i] == 0) continue;
       page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
-      page.standard_error[texel] = glm::sqrt(direct_.variance[i] + estimate_.variance[i]);
+      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i]);
     }
   }
 

@@ -40,6 +40,7 @@ class DirectGroup {
     for (std::size_t i = 0; i < list_.size(); ++i) {
       sums.value[list_[i]] = tallies_[i].total;
       sums.variance[list_[i]] = tallies_[i].variance;
+      sums.sampled[list_[i]] = tallies_[i].sampled;
       sums.per_half[list_[i]] = per_half_;
     }
   }
@@ -59,7 +60,7 @@ class DirectGroup {
   // By texel. Of the light at hand: Σ unoccluded irradiance, and by half Σ weights, Σ weights * transmittance.
   struct Tally {
     Vec3 open{0}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
-    Vec3 total{0}, variance{0};  // of all lights so far
+    Vec3 total{0}, variance{0}, sampled{0};  // of all lights so far
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const {
@@ -175,7 +176,7 @@ class DirectGroup {
     for (Tally& t : tallies_) {
       t.total += (t.passed[0] + t.passed[1]) / (kHalves * n);
       const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
-      t.variance += 0.25f * difference * difference;
+      t.sampled += 0.25f * difference * difference;
       forget_light(t);
     }
   }

@@ -8,10 +8,11 @@ namespace oriel {
 // What the direct estimate of a texel knows. Lux.
 struct DirectSums {
   std::vector<Vec3> value;
-  std::vector<Vec3> variance;           // of value, predicted from the mix of lit and dark samples
+  std::vector<Vec3> variance;           // of value's closed forms, predicted from the mix of lit and dark samples
+  std::vector<Vec3> sampled;            // of the rest, from one difference of halves: to be pooled over neighbours
   std::vector<std::uint32_t> per_half;  // samples of each half for each light
 
-  explicit DirectSums(std::size_t texels) : value(texels), variance(texels), per_half(texels) {}
+  explicit DirectSums(std::size_t texels) : value(texels), variance(texels), sampled(texels), per_half(texels) {}
 };
 
 class DirectLight {

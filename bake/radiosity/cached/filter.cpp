@@ -6,7 +6,6 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kRun = 1024;
-constexpr int kPoolPasses = 4;
 
 // body(i) for every texel, in parallel.
 template <class Body>

@@ -21,6 +21,7 @@ struct Estimate {
 Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
                 Context& context);
 
+inline constexpr int kPoolPasses = 4;  // over which errors are pooled: about 33 texels
 // The mean of a quantity over each texel's surroundings, `passes` wide.
 std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context);
 

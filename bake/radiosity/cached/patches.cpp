@@ -8,8 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kSide = 4;  // texels
-constexpr std::size_t kGroup = 16;  // patches whose rays of one number are traced together
+constexpr std::size_t kGroup = 64;  // patches whose rays of one number are traced together
 constexpr int kMaxSweeps = 20000;
 
 struct PatchLink {
@@ -25,9 +24,9 @@ struct Patch {
   double area_m2 = 0;
 };
 
-std::uint64_t block_key(const Texels& t, std::size_t i) {
+std::uint64_t block_key(const Texels& t, std::size_t i, std::uint32_t side) {
   return mix64(std::uint64_t{t.page[i]} << 48 ^ std::uint64_t{t.chart[i]} << 24) ^
-         (std::uint64_t{t.y[i] / kSide} << 32 | t.x[i] / kSide);
+         (std::uint64_t{t.y[i] / side} << 32 | t.x[i] / side);
 }
 
 class Solver {
@@ -37,10 +36,11 @@ class Solver {
     patch_of_.assign(texels.count(), ~0u);
     for (const std::uint32_t i : coherent_order(texels)) {
       if (texels.visible[i] == 0) continue;
-      const auto [at, added] = number_.try_emplace(block_key(texels, i), static_cast<std::uint32_t>(patches_.size()));
+      const auto [at, added] =
+          number_.try_emplace(block_key(texels, i, options.side), static_cast<std::uint32_t>(patches_.size()));
       if (added) patches_.emplace_back();
       patches_[at->second].texels.push_back(i);
-      patches_[at->second].area_m2 += texels.area_m2[i];
+      patches_[at->second].area_m2 += shown_m2(i);
       patch_of_[i] = at->second;
     }
   }
@@ -59,15 +59,24 @@ class Solver {
   void interpolate(Context& context, Sweeps& result);
 
  private:
+  // Texels take turns in proportion to the surface that they show.
+  std::uint32_t texel_for(const Patch& patch, std::uint32_t turn) const {
+    const double target = (turn + 0.5) / (options_.rays_per_patch / kSites) * patch.area_m2;
+    double sum = 0;
+    for (const std::uint32_t t : patch.texels)
+      if ((sum += shown_m2(t)) >= target) return t;
+    return patch.texels.back();
+  }
+  double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
+
   std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, const DirectionSets& sets) {
     std::vector<Ray> batch;
     std::vector<GatherRay> about(end - first);
     for (std::size_t p = first; p < end; ++p) {
-      const auto& own = patches_[p].texels;
-      const std::uint32_t t = own[(k / kSites) % own.size()];
+      const std::uint32_t t = texel_for(patches_[p], k / kSites);
       // Patches stand side by side as texels do: the same pattern of sets.
       const std::uint32_t set =
-          DirectionSets::set_of(texels_.page[t], texels_.x[own[0]] / kSide, texels_.y[own[0]] / kSide);
+          DirectionSets::set_of(texels_.page[t], texels_.x[t] / options_.side, texels_.y[t] / options_.side);
       GatherRay& ray = about[p - first];
       batch.push_back(gather_ray(texels_.site[t][k % kSites], sets.local(set, 0, k), ray.incidence));
       ray.stream = ~std::uint64_t{p};
@@ -177,10 +186,10 @@ void Solver::interpolate(Context& context, Sweeps& result) {
   (void)parallel_for(context, "", (texels_.count() + kRun - 1) / kRun, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(texels_.count(), (run + 1) * kRun); ++i) {
       if (patch_of_[i] == ~0u) continue;
-      const std::uint64_t chart =
-          block_key(texels_, i) ^ (std::uint64_t{texels_.y[i] / kSide} << 32 | texels_.x[i] / kSide);
-      const float fx = (static_cast<float>(texels_.x[i]) + 0.5f) / kSide - 0.5f;
-      const float fy = (static_cast<float>(texels_.y[i]) + 0.5f) / kSide - 0.5f;
+      const std::uint64_t chart = block_key(texels_, i, options_.side) ^
+                                  (std::uint64_t{texels_.y[i] / options_.side} << 32 | texels_.x[i] / options_.side);
+      const float fx = (static_cast<float>(texels_.x[i]) + 0.5f) / options_.side - 0.5f;
+      const float fy = (static_cast<float>(texels_.y[i]) + 0.5f) / options_.side - 0.5f;
       const float bx = std::floor(fx), by = std::floor(fy);
       Vec3 sum(0);
       float weights = 0;

@@ -1,4 +1,4 @@
-// Bounces: a coarser radiosity problem over patches of 4 × 4 texels, whose answer the final gather refines.
+// Bounces: a coarse radiosity problem over patches of a few texels, whose answer the final gather refines.
 #pragma once
 
 #include "bake/radiosity/cached/directions.h"
@@ -7,7 +7,10 @@
 namespace oriel {
 
 struct SweepOptions {
-  std::uint32_t rays_per_patch = 256;
+  // Patches are squares of so many texels. What is dark because it is hidden is hardly seen either; patches that mix it
+  // with what is lit and seen lose light: 0.25 % a bounce with 2, 0.5 % with 4 in a furnished room of 13 cm texels.
+  std::uint32_t side = 1;
+  std::uint32_t rays_per_patch = 64;
   int most = 0;             // sweeps; 0: until the tolerance holds
   double tolerance = 1e-3;  // of the mean: bound on what further sweeps could add
 };

@@ -35,7 +35,7 @@ TEST_P(CachedFurnace, EveryTexelIsTheSeries) {
     parts.sphere("sphere", wall, Vec3(0), 1, 2, true);
   else
     parts.box("box", wall, Vec3(-1), Vec3(1), true);
-  const Baked b = bake(parts.finish(), 0.15f, cached(64));
+  const Baked b = bake(parts.finish(), 0.15f, cached(1024));
   double worst = 0, sum = 0;
   int count = 0;
   b.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {

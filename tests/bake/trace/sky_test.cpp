@@ -123,7 +123,7 @@ struct UnderSky {
       Sampler sampler(1, 0, i);
       const Vec3 up = frame_from_normal(p.normal) * square_to_cosine_hemisphere(sampler.next2());
       const double e = mis ? sample_irradiance(transport, p, sampler, rays).direct.g
-                           : kPi * trace_path(transport, {spawn_origin(p, up), up}, 0, sampler, rays).emitted.g;
+                           : kPi * trace_path(transport, {spawn_origin(p, up), up}, 0, sampler, rays).sky.g;
       sum += e;
       squares += e * e;
     }
