@@ -6,6 +6,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kRun = 1024;
+constexpr int kPoolPasses = 4;
 
 // body(i) for every texel, in parallel.
 template <class Body>
@@ -60,8 +61,7 @@ std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const C
   return values;
 }
 
-}  // namespace
-
+// The mean of a quantity over each texel's surroundings, `passes` wide.
 std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context) {
   std::vector<Vec3> next(values.size());
   for (int pass = 0; pass < passes; ++pass) {
@@ -75,6 +75,21 @@ std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int 
   return values;
 }
 
+}  // namespace
+
+std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
+                                const std::vector<Vec3>& light, Context& context) {
+  DVec3 mean(0);
+  double seen = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) mean += DVec3(light[i]), seen += texels.visible[i] > 0;
+  const Vec3 floor = Vec3(mean / std::max(1.0, seen)) * 0.01f;
+  const auto scale = [&](std::size_t i) { return light[i] * light[i] + floor * floor + Vec3(1e-30f); };
+  each_texel(context, squares.size(), [&](std::size_t i) { squares[i] /= scale(i); });
+  squares = pooled(graph, std::move(squares), kPoolPasses, context);
+  each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
+  return squares;
+}
+
 Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
                 Context& context) {
   const std::size_t n = texels.count();
@@ -86,7 +101,9 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
     mean[i] = 0.5f * (half[0][i] + half[1][i]);
     noise[i] = 0.5f * d * d;  // variance of one half
   });
-  noise = pooled(graph, std::move(noise), kPoolPasses, context);
+  // The guide is itself smoothed a little, so that its noise does not choose whom to join.
+  const std::vector<Vec3> guide = pooled(graph, mean, 1, context);
+  noise = pooled_errors(texels, graph, std::move(noise), guide, context);
 
   Estimate result;
   if (options.strength <= 0 || options.passes <= 0) {
@@ -95,8 +112,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
     for (Vec3& v : result.variance) v *= 0.5f;
     return result;
   }
-  // The guide is itself smoothed a little, so that its noise does not choose whom to join.
-  std::vector<Vec3> guide = pooled(graph, mean, 1, context), guide_variance = noise;
+  std::vector<Vec3> guide_variance = noise;
   for (Vec3& v : guide_variance) v *= 0.5f / 3;
   const Conductance c = conductances(texels, graph, guide, guide_variance, options.strength, context);
   std::vector<Vec3> smooth[kHalves];
@@ -113,8 +129,8 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
     const Vec3 d = smooth[0][i] - smooth[1][i];
     of_both[i] = 0.25f * d * d;  // noise of the mean of both
   });
-  of_one = pooled(graph, std::move(of_one), kPoolPasses, context);
-  of_both = pooled(graph, std::move(of_both), kPoolPasses, context);
+  of_one = pooled_errors(texels, graph, std::move(of_one), guide, context);
+  of_both = pooled_errors(texels, graph, std::move(of_both), guide, context);
   each_texel(context, n, [&](std::size_t i) {
     // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
     const Vec3 error = of_one[i] - noise[i];

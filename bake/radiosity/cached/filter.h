@@ -21,8 +21,9 @@ struct Estimate {
 Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
                 Context& context);
 
-inline constexpr int kPoolPasses = 4;  // over which errors are pooled: about 33 texels
-// The mean of a quantity over each texel's surroundings, `passes` wide.
-std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context);
+// Squared errors pooled over each texel's surroundings (about 33 texels), relative to its light: a dark texel beside
+// bright ones has their relative error, not their absolute one. `light`: lux.
+std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
+                                const std::vector<Vec3>& light, Context& context);
 
 }  // namespace oriel
