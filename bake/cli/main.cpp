@@ -1,4 +1,4 @@
-// oriel-bake: a glTF scene into one .oriel pack.
+// oriel-bake: a glTF scene into one .oriel pack, or into a table of illuminance.
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/cli/arguments.h"
+#include "bake/lux/table.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
 #include "formats/pack/writer.h"
@@ -37,7 +38,7 @@ void on_stop(int) {
 
 void install_signal_handlers(Context& context, const std::filesystem::path& output) {
   g_context = &context;
-  const std::string temporary = temporary_name(output).string();
+  const std::string temporary = output.empty() ? "" : temporary_name(output).string();
   if (temporary.size() < sizeof(g_temporary)) std::copy(temporary.begin(), temporary.end(), g_temporary);
   std::signal(SIGALRM, on_alarm);
   std::signal(SIGINT, on_stop);
@@ -82,7 +83,21 @@ void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter&
     printer.note(fmt::format("omitted: {} more, see oriel-inspect info or --report", omissions.size() - kShown));
 }
 
-Status run_checked(const Arguments& args, Context& context, ProgressPrinter& printer) {
+Status run_lux(const Arguments& args, Context& context) {
+  if (!args.lux_output.empty()) {
+    ORIEL_TRY_VOID(check_output(args.lux_output, args.lux.scene));
+    if (std::error_code ec; std::filesystem::equivalent(args.lux_output, args.lux.points, ec))
+      return fail(ErrorCode::kUsage, args.lux_output.string(), "is the table of points itself: expected another name");
+  }
+  ORIEL_TRY(const Measurement measured, measure(args.lux, context));
+  const std::string csv = lux_csv(measured.points, measured.results);
+  if (!args.lux_output.empty()) return write_file_atomically(args.lux_output, std::as_bytes(std::span(csv)));
+  if (std::fwrite(csv.data(), 1, csv.size(), stdout) != csv.size() || std::fflush(stdout) != 0)
+    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
+  return {};
+}
+
+Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {
   ORIEL_TRY_VOID(check_output(args.bake.output, args.bake.scene));
   if (!args.report.empty()) {
     ORIEL_TRY_VOID(check_output(args.report, args.bake.scene));
@@ -108,8 +123,9 @@ Status run_checked(const Arguments& args, Context& context, ProgressPrinter& pri
 // Our code throws nothing, but the libraries and the allocator may.
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   try {
-    return run_checked(args, context, printer);
+    return args.wants_lux ? run_lux(args, context) : run_bake(args, context, printer);
   } catch (const std::bad_alloc&) {
+    if (args.wants_lux) return fail(ErrorCode::kRuntime, "", "not enough memory: try a larger spacing of --grid");
     return fail(ErrorCode::kRuntime, "",
                 "not enough memory: try a larger --texel, fewer --views or a smaller --memory");
   } catch (const std::exception& error) {
@@ -126,7 +142,7 @@ int main_of_bake(int argc, char** argv) {
   ProgressPrinter printer(args.style);
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
-  install_signal_handlers(context, args.bake.output);
+  install_signal_handlers(context, args.wants_lux ? args.lux_output : args.bake.output);
   const Status status = run(args, context, printer);
   ::alarm(0);
   return status ? 0 : print_error(status.error(), args.style, printer);

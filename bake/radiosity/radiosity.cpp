@@ -5,7 +5,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/sides.h"
-#include "bake/trace/warp.h"
+#include "bake/trace/buried.h"
 
 namespace oriel {
 namespace {
@@ -64,23 +64,11 @@ class Baker {
     return false;
   }
 
-  // Inside a closed body nearly every direction meets the back of its faces. Random numbers of its own: a point is left
-  // out whatever light its path would have found, so that leaving out does not favour bright paths.
+  // Random numbers of its own: a point is left out whatever light its path would have found, so that leaving out does
+  // not favour bright paths.
   bool buried(const SurfacePoint& surface, std::uint32_t sample, std::uint64_t stream, std::uint64_t& rays) const {
-    const Scene& scene = t_.accel.scene();
     Sampler sampler(context_.seed + 0x5eed, stream, sample);
-    const Mat3 frame = frame_from_normal(surface.geometric_normal);
-    const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-    int missed = 0;
-    for (int probe = 0; probe < 6; ++probe) {
-      const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
-      ++rays;
-      const Hit hit = t_.accel.intersect({origin, direction});
-      const bool back = hit && !hit.front &&
-                        !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
-      if (!back && (probe == 0 || ++missed > 1)) return false;
-    }
-    return true;
+    return is_buried(t_.accel, surface, 6, sampler, rays);
   }
 
   const Transport& t_;

@@ -40,6 +40,11 @@ Result<std::uint64_t> parse_bytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+Result<double> parse_percent(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"%", 0.01}};
+  return parse_quantity(text, kUnits, "percentage", "1% or 0.5%");
+}
+
 Result<Vec3> parse_color(const std::string& text) {
   Vec3 color(0);
   const char* at = text.data();

@@ -62,13 +62,12 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
   return {};
 }
 
+}  // namespace
+
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
   if (lights.empty() && luminance(scene.sky) <= 0)
-    context.warning(
-        "the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it bakes to black");
+    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
 }
-
-}  // namespace
 
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;

@@ -39,8 +39,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
+  m["bake/lux"] = plus(m["bake/trace"], {"bake/trace"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
   m["player/gpu"] = core;
   m["player/walk"] = assets;

@@ -1,0 +1,23 @@
+#include "bake/trace/buried.h"
+
+#include "bake/trace/warp.h"
+
+namespace oriel {
+
+bool is_buried(const Accel& accel, const SurfacePoint& surface, int probes, Sampler& sampler, std::uint64_t& rays) {
+  const Scene& scene = accel.scene();
+  const Mat3 frame = frame_from_normal(surface.geometric_normal);
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  int missed = 0;
+  for (int probe = 0; probe < probes; ++probe) {
+    const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
+    ++rays;
+    const Hit hit = accel.intersect({origin, direction});
+    const bool back = hit && !hit.front &&
+                      !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+    if (!back && (probe == 0 || ++missed > 1)) return false;
+  }
+  return true;
+}
+
+}  // namespace oriel
