@@ -36,10 +36,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene"].insert("bake/scene/gltf");
   m["bake/trace"] = plus(assets, {"bake/jobs", "bake/scene"});
   m["bake/atlas"] = m["bake/trace"];
-  const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas"});
+  m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});  // what the stages that compute irradiance share
+  const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/lux"] = plus(m["bake/trace"], {"bake/trace"});
+  m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});

@@ -1,0 +1,242 @@
+#include "bake/direct/polygon_light.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+// As seen from a point, a polygon this many of its radii away is a point: the closed form then errs by less than 1e-4,
+// and floats no longer cancel in the sum over its edges.
+constexpr float kFar = 60;
+// Triangles that fill less than this of the sphere are sampled by area, sr.
+constexpr float kSmallSolidAngle = 0.02f;
+
+// Lambert's edge vector: the angle under which the edge is seen, along the normal of the plane through eye and edge.
+Vec3 edge_vector(const Vec3& a, const Vec3& b) {
+  const Vec3 normal = glm::cross(a, b);
+  const float sine = glm::length(normal);
+  return sine > 0 ? normal * (std::atan2(sine, glm::dot(a, b)) / sine) : Vec3(0);
+}
+
+// A triangle clipped by up to two planes through the eye.
+struct ClippedPolygon {
+  std::array<Vec3, 6> v;
+  int count = 0;
+};
+
+ClippedPolygon clip(const ClippedPolygon& in, const Vec3& n) {
+  ClippedPolygon out;
+  for (int i = 0; i < in.count; ++i) {
+    const Vec3 &a = in.v[i], &b = in.v[i + 1 == in.count ? 0 : i + 1];
+    const float da = glm::dot(a, n), db = glm::dot(b, n);
+    if (da >= 0) out.v[out.count++] = a;
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) out.v[out.count++] = a + (b - a) * (da / (da - db));
+  }
+  return out;
+}
+
+Vec3 polygon_vector(const ClippedPolygon& p) {
+  Vec3 sum(0);
+  for (int i = 0; i < p.count; ++i) sum += edge_vector(p.v[i], p.v[i + 1 == p.count ? 0 : i + 1]);
+  return 0.5f * sum;
+}
+
+Vec3 mirrored(const Vec3& n, const Vec3& plane) {
+  return n - 2 * glm::dot(n, plane) * plane;
+}
+
+// Signed: positive where the receiver is on the front side.
+float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver& r) {
+  ClippedPolygon all{{corners[0] - r.position, corners[1] - r.position, corners[2] - r.position}, 3};
+  const ClippedPolygon above = clip(all, r.geometric_normal);
+  if (above.count < 3) return 0;
+  if (r.normal == r.geometric_normal) return -glm::dot(polygon_vector(above), r.normal);
+  float sum = 0;
+  for (const Vec3& n : {r.normal, mirrored(r.normal, r.geometric_normal)}) {
+    const ClippedPolygon part = clip(above, n);
+    if (part.count >= 3) sum -= glm::dot(polygon_vector(part), n);
+  }
+  return sum;
+}
+
+// Arvo 1995, "Stratified Sampling of Spherical Triangles". a, b, c: unit; angles at the corners.
+Vec3 sample_spherical_triangle(const Vec3& a, const Vec3& b, const Vec3& c, float alpha, float area, const Vec2& u) {
+  const float phi = area * u.x - alpha;
+  const float s = std::sin(phi), t = std::cos(phi);
+  const float cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
+  const float cos_c = glm::dot(a, b);
+  const float k1 = t - cos_alpha, k2 = s + sin_alpha * cos_c;
+  const float numerator = (k2 * t - k1 * s) * cos_alpha - k2;
+  const float denominator = (k2 * s + k1 * t) * sin_alpha;
+  const float q = std::clamp(denominator != 0 ? numerator / denominator : 1.0f, -1.0f, 1.0f);
+  const Vec3 towards_c = normalize_or(c - glm::dot(c, a) * a, a);
+  const Vec3 on_edge = q * a + std::sqrt(1 - q * q) * towards_c;
+  const float z = 1 - u.y * (1 - glm::dot(on_edge, b));
+  const Vec3 from_b = normalize_or(on_edge - glm::dot(on_edge, b) * b, b);
+  return glm::normalize(z * b + std::sqrt(std::max(0.0f, 1 - z * z)) * from_b);
+}
+
+float corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = glm::cross(at, b), ac = glm::cross(at, c);
+  return std::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
+}
+
+// Edges as ordered pairs of positions; triangles of one polygon that share an edge run along it in opposite directions.
+struct Less {
+  bool operator()(const Vec3& a, const Vec3& b) const { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+  bool operator()(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b) const {
+    return (*this)(a[0], b[0]) || (a[0] == b[0] && (*this)(a[1], b[1]));
+  }
+};
+
+void finish(PolygonLight& light) {
+  std::map<std::array<Vec3, 2>, int, Less> edges;
+  for (const auto& t : light.corners)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<Vec3, 2> edge{t[i], t[(i + 1) % 3]};
+      if (const auto twin = edges.find({edge[1], edge[0]}); twin != edges.end() && twin->second > 0)
+        --twin->second;
+      else
+        ++edges[edge];
+    }
+  for (const auto& [edge, count] : edges)
+    for (int i = 0; i < count; ++i) light.boundary.push_back(edge);
+  Vec3 lower = light.corners[0][0], upper = lower;
+  double area = 0;
+  for (const auto& t : light.corners) {
+    for (const Vec3& v : t) lower = glm::min(lower, v), upper = glm::max(upper, v);
+    area += 0.5 * glm::length(glm::cross(DVec3(t[1]) - DVec3(t[0]), DVec3(t[2]) - DVec3(t[0])));
+    light.cumulative_area.push_back(area);
+  }
+  light.center = 0.5f * (lower + upper);
+  light.radius = 0.5f * glm::length(upper - lower);
+  light.magnitude = max_component(glm::max(glm::abs(lower), glm::abs(upper)));
+}
+
+// Whether a triangle lies in the polygon's plane and looks the same way.
+bool coplanar(const PolygonLight& light, const Vec3& normal, const std::array<Vec3, 3>& corners) {
+  if (glm::dot(light.normal, normal) < 1 - 1e-6f) return false;
+  const float reach = std::sqrt(std::max(glm::dot(corners[1] - corners[0], corners[1] - corners[0]),
+                                         glm::dot(corners[2] - corners[0], corners[2] - corners[0])));
+  return std::abs(glm::dot(light.normal, corners[0] - light.corners[0][0])) <= 1e-4f * reach;
+}
+
+bool shares_edge(const PolygonLight& light, const std::array<Vec3, 3>& corners) {
+  const auto& last = light.corners;
+  const std::size_t first = last.size() > 64 ? last.size() - 64 : 0;  // neighbours are near in every exporter's order
+  for (std::size_t k = first; k < last.size(); ++k) {
+    int shared = 0;
+    for (const Vec3& a : last[k])
+      for (const Vec3& b : corners) shared += a == b;
+    if (shared >= 2) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<PolygonLight> find_polygon_lights(const Scene& scene) {
+  std::vector<PolygonLight> lights;
+  for (const Surface& surface : scene.surfaces) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    if (material.unlit || material.emission_texture.image >= 0 || !(max_component(material.emission) > 0)) continue;
+    const std::size_t first_of_surface = lights.size();
+    for (std::uint32_t k = 0; k < surface.triangle_count; ++k) {
+      const std::uint32_t t = surface.first_triangle + k;
+      const UVec3& index = scene.triangles[t];
+      const std::array<Vec3, 3> corners{scene.positions[index.x], scene.positions[index.y], scene.positions[index.z]};
+      const Vec3 normal = geometric_normal(scene, t);
+      const bool grows = lights.size() > first_of_surface && coplanar(lights.back(), normal, corners) &&
+                         shares_edge(lights.back(), corners);
+      if (!grows) {
+        lights.emplace_back();
+        lights.back().radiance = material.emission;
+        lights.back().normal = normal;
+        lights.back().double_sided = material.double_sided;
+      }
+      lights.back().triangles.push_back(t);
+      lights.back().corners.push_back(corners);
+    }
+  }
+  for (PolygonLight& light : lights) finish(light);
+  return lights;
+}
+
+float incidence(const Receiver& r, const Vec3& direction) {
+  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
+  const float straight = std::max(0.0f, glm::dot(r.normal, direction));
+  if (r.normal == r.geometric_normal) return straight;
+  return straight + std::max(0.0f, glm::dot(mirrored(r.normal, r.geometric_normal), direction));
+}
+
+float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
+  const Vec3 to = light.center - r.position;
+  const float height = -glm::dot(light.normal, to);  // of the receiver over the light's plane
+  if (light.double_sided ? height == 0 : height <= 0) return 0;
+  const float above = glm::dot(r.geometric_normal, to);
+  if (above <= -light.radius) return 0;
+  const float d2 = glm::dot(to, to);
+  if (above > light.radius && d2 > kFar * kFar * light.radius * light.radius) {
+    const float d = std::sqrt(d2);
+    return incidence(r, to / d) * (static_cast<float>(light.area_m2()) * std::abs(height) / (d2 * d));
+  }
+  float sum = 0;
+  if (above > light.radius && r.normal == r.geometric_normal) {
+    Vec3 vector(0);
+    for (const auto& edge : light.boundary) vector += edge_vector(edge[0] - r.position, edge[1] - r.position);
+    sum = -0.5f * glm::dot(vector, r.normal);
+  } else {
+    for (const auto& corners : light.corners) sum += irradiance_of_triangle(corners, r);
+  }
+  return std::clamp(height > 0 ? sum : -sum, 0.0f, kPi);
+}
+
+std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Vec3& p, const Vec2& u) {
+  // One triangle by its area, with what remains of u.x used again.
+  const double target = static_cast<double>(u.x) * light.area_m2();
+  const auto& cumulative = light.cumulative_area;
+  const std::size_t k = std::min<std::size_t>(
+      std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin(), cumulative.size() - 1);
+  const double before = k > 0 ? cumulative[k - 1] : 0, area = cumulative[k] - before;
+  const Vec2 rest(std::clamp(static_cast<float>((target - before) / area), 0.0f, 0x1.fffffep-1f), u.y);
+  const auto& t = light.corners[k];
+  const float height = glm::dot(light.normal, p - light.center);
+  if (light.double_sided ? height == 0 : height <= 0) return std::nullopt;
+
+  PolygonSample s;
+  const Vec3 to[3] = {t[0] - p, t[1] - p, t[2] - p};
+  const float d[3] = {glm::length(to[0]), glm::length(to[1]), glm::length(to[2])};
+  const double share = area / light.area_m2();
+  if (d[0] > 0 && d[1] > 0 && d[2] > 0) {
+    const Vec3 a = to[0] / d[0], b = to[1] / d[1], c = to[2] / d[2];
+    const float triple = std::abs(glm::dot(a, glm::cross(b, c)));  // Van Oosterom & Strackee 1983
+    const float solid = 2 * std::atan2(triple, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+    if (solid > kSmallSolidAngle) {
+      s.direction = sample_spherical_triangle(a, b, c, corner_angle(a, b, c), solid, rest);
+      const float cosine = std::abs(glm::dot(light.normal, s.direction));
+      if (!(cosine > 0)) return std::nullopt;
+      s.distance = std::abs(height) / cosine;
+      s.solid_angle = static_cast<float>(solid / share);
+    }
+  }
+  if (s.solid_angle == 0) {
+    const Vec2 w = square_to_triangle(rest);
+    const Vec3 on = to[0] + w.x * (to[1] - to[0]) + w.y * (to[2] - to[0]);
+    s.distance = glm::length(on);
+    if (!(s.distance > 0)) return std::nullopt;
+    s.direction = on / s.distance;
+    s.solid_angle =
+        static_cast<float>(light.area_m2()) * std::abs(glm::dot(light.normal, s.direction)) / (s.distance * s.distance);
+  }
+  if (!(s.solid_angle > 0) || !is_finite(s.direction)) return std::nullopt;
+  // Stop short of the emitter itself, as far as rounding may put its points off its plane.
+  const float cosine = std::abs(glm::dot(light.normal, s.direction));
+  s.distance -= s.distance * 0x1p-14f + light.magnitude * (32 * 0x1p-24f) / std::max(cosine, 1e-6f);
+  return s;
+}
+
+}  // namespace oriel

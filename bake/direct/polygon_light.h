@@ -1,0 +1,57 @@
+// Flat, uniformly emitting polygons: their irradiance in closed form, and points on them for shadow rays.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+// Coplanar, connected emissive triangles of one surface with one radiance.
+struct PolygonLight {
+  Vec3 radiance{0};  // cd/m²
+  Vec3 normal{0, 0, 1};
+  bool double_sided = false;
+  std::vector<std::uint32_t> triangles;       // into Scene::triangles
+  std::vector<std::array<Vec3, 3>> corners;   // by triangle, counter-clockwise seen from the front, scene space
+  std::vector<std::array<Vec3, 2>> boundary;  // directed edges that no two triangles share
+  std::vector<double> cumulative_area;        // by triangle, m²
+  Vec3 center{0};
+  float radius = 0;     // of the sphere around center that holds it, metres
+  float magnitude = 0;  // largest |coordinate|: what a point's rounding error is relative to
+
+  double area_m2() const { return cumulative_area.back(); }
+};
+
+// All emissive triangles whose emission is not textured, as polygons, in order of their first triangle.
+std::vector<PolygonLight> find_polygon_lights(const Scene& scene);
+
+// Where light is received: a point, its shading normal and the normal of the real surface there (both unit). Incidence
+// is weighted by both cosines as the path tracer does it: max(0, n·ω) + max(0, n·ω') for ω above the real surface, ω'
+// its mirror image below (docs/conventions.md); with n = g that is plain irradiance.
+struct Receiver {
+  Vec3 position{0};
+  Vec3 normal{0, 0, 1};
+  Vec3 geometric_normal{0, 0, 1};
+};
+
+// The weight of light from ω (unit, above the real surface).
+float incidence(const Receiver& receiver, const Vec3& direction);
+
+// Unoccluded irradiance from a polygon over its radiance, steradians times cosine: [0, π]. Lambert's formula for the
+// polygon clipped at the horizon (Lambert 1760; Baum et al. 1989).
+float polygon_irradiance(const PolygonLight& light, const Receiver& receiver);
+
+// A point of a polygon as seen from p.
+struct PolygonSample {
+  Vec3 direction{0, 0, 1};  // unit, towards the light
+  float distance = 0;       // that a shadow ray must go; <= 0 where the light touches the point
+  float solid_angle = 0;    // 1 / pdf per steradian
+};
+// Uniform in solid angle where the triangle is large as seen from p (Arvo 1995), else uniform in area. Nothing where
+// the point sees the polygon edge-on or from behind. u in [0,1)².
+std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Vec3& p, const Vec2& u);
+
+}  // namespace oriel
