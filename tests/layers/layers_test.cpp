@@ -50,7 +50,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/passes"] = plus(m["player/scene"], {"player/scene"});
   m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
   m["scenes/kit"] = core;
-  m["scenes"] = plus(core, {"scenes/kit"});
+  m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;
 }();
 
