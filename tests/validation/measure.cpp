@@ -1,0 +1,210 @@
+#include "tests/validation/measure.h"
+
+#include <algorithm>
+
+#include "bake/lux/illuminance.h"
+#include "bake/run/baked_light.h"
+#include "formats/core/check.h"
+
+namespace oriel::validation {
+namespace {
+
+// Nodes and weights of Gauss and Legendre's rule on [0,1].
+std::vector<std::pair<double, double>> gauss_legendre(int n) {
+  std::vector<std::pair<double, double>> rule;
+  for (int i = 0; i < n; ++i) {
+    double x = std::cos(kPiD * (i + 0.75) / (n + 0.5)), slope = 1;
+    for (int iteration = 0; iteration < 50; ++iteration) {
+      double p = 1, before = 0;
+      for (int k = 1; k <= n; ++k) before = std::exchange(p, ((2 * k - 1) * x * p - (k - 1) * before) / k);
+      slope = n * (x * p - before) / (x * x - 1);
+      x -= p / slope;
+    }
+    rule.emplace_back(0.5 * (1 + x), 1 / ((1 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+bool named(const Reading& r, const Surface& surface) {
+  return std::find(r.nodes.begin(), r.nodes.end(), surface.name) != r.nodes.end();
+}
+
+// Points all over a reading's surfaces, weights adding up to 1: a product rule on quads, centroids on other meshes.
+std::vector<Probe> spread(const Scene& scene, const Reading& r) {
+  const auto rule = gauss_legendre(r.over == Over::kMean ? 16 : 6);
+  std::vector<Probe> probes;
+  double area = 0;
+  const auto place = [&](const DVec3& p, std::uint32_t triangle, double share) {
+    probes.push_back({scene.origin + p, DVec3(geometric_normal(scene, triangle)), share});
+    area += share;
+  };
+  for (const Surface& s : scene.surfaces) {
+    if (!named(r, s)) continue;
+    const auto corner = [&](std::uint32_t i) { return DVec3(scene.positions[s.first_vertex + i]); };
+    if (s.vertex_count == 4 && s.triangle_count == 2) {
+      const DVec3 u = corner(1) - corner(0), v = corner(3) - corner(0);
+      for (const auto& [x, wx] : rule)
+        for (const auto& [y, wy] : rule)
+          place(corner(0) + x * u + y * v, s.first_triangle, wx * wy * glm::length(glm::cross(u, v)));
+    } else {
+      for (std::uint32_t t = s.first_triangle; t < s.first_triangle + s.triangle_count; ++t)
+        place(DVec3(point_on(scene, t, Vec2(1.0f / 3))), t, triangle_area(scene, t));
+    }
+  }
+  ORIEL_CHECK(area > 0);
+  for (Probe& p : probes) p.weight /= area;
+  return probes;
+}
+
+double part_of(const PointIlluminance& e, const Reading& r) {
+  DVec3 light(0);
+  if (r.part != Part::kIndirect) light += e.direct;
+  if (r.part != Part::kDirect) light += e.indirect;
+  return light[r.channel];
+}
+
+// The value farthest from what a reading expects.
+void take_worst(const Reading& r, const Measured& m, Measured& worst, bool& first) {
+  if (first || std::abs(m.value - r.expected) > std::abs(worst.value - r.expected)) worst = m;
+  first = false;
+}
+
+// Triangle under a point of the scene, whose front is on the probe's side: nearest plane within rounding.
+std::uint32_t triangle_at(const Accel& accel, const Probe& p) {
+  const Scene& scene = accel.scene();
+  const Vec3 normal(p.normal), position(p.position - scene.origin);
+  const float step = 1e-4f * scene.radius();
+  const Hit hit = accel.intersect({position + step * normal, -normal, 2 * step});
+  ORIEL_CHECK(static_cast<bool>(hit));
+  return hit.triangle;
+}
+
+Vec2 barycentric_of(const Scene& scene, std::uint32_t triangle, const DVec3& p) {
+  const UVec3& t = scene.triangles[triangle];
+  const DVec3 a(scene.positions[t.x]), u = DVec3(scene.positions[t.y]) - a, v = DVec3(scene.positions[t.z]) - a;
+  const DVec3 n = glm::cross(u, v), w = p - scene.origin - a;
+  return Vec2(glm::dot(glm::cross(w, v), n), glm::dot(glm::cross(u, w), n)) / static_cast<float>(glm::dot(n, n));
+}
+
+// A baked scene, and readings from it.
+class BakedTexture {
+ public:
+  BakedTexture(const Case& c, const RadiosityOptions& options, std::uint64_t seed)
+      : scene_(c.scene), accel_(*Accel::build(scene_)), lights_(scene_) {
+    Context context;
+    context.seed = seed;
+    AtlasOptions atlas;
+    atlas.texel_m = static_cast<float>(c.texel_m);
+    atlas_ = *build_atlas(scene_, atlas, context);
+    map_ = *build_texel_map(atlas_, context);
+    radiosity_ = *bake_radiosity({accel_, lights_, {}}, atlas_, map_, options, context);
+    errors_ = radiosity_.pages;
+    for (LightmapPage& page : errors_) page.irradiance = page.standard_error;
+  }
+
+  Measured read(const Reading& r) const {
+    Measured m{0, 0};
+    if (r.over == Over::kPoints) {
+      for (const Probe& p : r.probes) {
+        const std::uint32_t triangle = triangle_at(accel_, p);
+        const Vec2 at = barycentric_of(scene_, triangle, p.position);
+        m.value += p.weight * baked_irradiance(atlas_, radiosity_.pages, triangle, at)[r.channel];
+        m.error += p.weight * baked_irradiance(atlas_, errors_, triangle, at)[r.channel];
+      }
+    } else {
+      m = over_texels(r);
+    }
+    if (r.over == Over::kWorst) return m;
+    return {r.offset + r.scale * m.value, std::abs(r.scale) * m.error};
+  }
+
+ private:
+  // The texel's surface that belongs to the reading, m².
+  double area_of(const Reading& r, const TexelMapPage& page, std::size_t i) const {
+    double area = 0;
+    for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) {
+      const auto& [triangle, texels] = page.fragments[f];
+      if (!named(r, scene_.surfaces[scene_.triangle_surface[triangle]])) continue;
+      const auto corners = texel_triangle(atlas_, triangle);
+      const DVec2 u = corners[1] - corners[0], v = corners[2] - corners[0];
+      area += texels / (0.5 * std::abs(u.x * v.y - u.y * v.x)) * triangle_area(scene_, triangle);
+    }
+    return area;
+  }
+
+  Measured over_texels(const Reading& r) const {
+    double area = 0, sum = 0, squares = 0;
+    Measured worst;
+    bool first = true;
+    for (std::size_t p = 0; p < map_.size(); ++p)
+      for (std::size_t i = 0; i < map_[p].texel.size(); ++i) {
+        const double a = area_of(r, map_[p], i);
+        const LightmapPage& page = radiosity_.pages[p];
+        if (a <= 0 || page.state[map_[p].texel[i]] != TexelState::kValid) continue;
+        const double e = page.irradiance[map_[p].texel[i]][r.channel];
+        const double error = page.standard_error[map_[p].texel[i]][r.channel];
+        area += a;
+        sum += a * e;
+        squares += a * a * error * error;
+        take_worst(r, {r.offset + r.scale * e, std::abs(r.scale) * error}, worst, first);
+      }
+    ORIEL_CHECK(area > 0);
+    return r.over == Over::kWorst ? worst : Measured{sum / area, std::sqrt(squares) / area};
+  }
+
+  const Scene& scene_;
+  Accel accel_;
+  LightSet lights_;
+  Atlas atlas_;
+  std::vector<TexelMapPage> map_;
+  Radiosity radiosity_;
+  std::vector<LightmapPage> errors_;
+};
+
+}  // namespace
+
+Measurements measure_by_lux(const Case& c, std::uint64_t seed) {
+  std::vector<MeasurePoint> points;
+  std::vector<std::vector<Probe>> probes;
+  for (const Reading& r : c.readings) {
+    probes.push_back(r.over == Over::kPoints ? r.probes : spread(c.scene, r));
+    for (const Probe& p : probes.back()) points.push_back({p.position, p.normal, 0});
+  }
+  Context context;
+  context.seed = seed;
+  const Accel accel = *Accel::build(c.scene);
+  const LightSet lights(c.scene);
+  LuxOptions options;
+  options.relative_error = c.lux_error;
+  const auto results = *illuminance_at({accel, lights, {}}, points, options, context);
+
+  Measurements out;
+  auto at = results.begin();
+  for (std::size_t i = 0; i < c.readings.size(); ++i) {
+    const Reading& r = c.readings[i];
+    Measured sum{r.offset, 0}, worst;
+    bool first = true;
+    for (const Probe& p : probes[i]) {
+      const double error = std::abs(r.scale) * at->standard_error[r.channel];
+      sum.value += r.scale * p.weight * part_of(*at, r);
+      sum.error += p.weight * p.weight * error * error;
+      take_worst(r, {r.offset + r.scale * part_of(*at, r), error}, worst, first);
+      ++at;
+    }
+    sum.error = std::sqrt(sum.error);
+    out.push_back(r.over == Over::kWorst ? worst : sum);
+  }
+  return out;
+}
+
+Measurements measure_by_texture(const Case& c, const RadiosityOptions& options, std::uint64_t seed) {
+  const BakedTexture baked(c, options, seed);
+  Measurements out;
+  for (const Reading& r : c.readings) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    out.push_back(r.part == Part::kTotal ? baked.read(r) : Measured{kNone, 0});
+  }
+  return out;
+}
+
+}  // namespace oriel::validation
