@@ -15,8 +15,11 @@ constexpr const char* kFooter = R"(Examples:
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
 130 stopped by the user (nothing half-written is left).)";
 
+constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
+
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", atlas = "auto", only;
+  std::string texel = "10cm", memory = "128MiB", atlas = "auto", only, estimator = "cached", error = "2%";
+  std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
 };
@@ -42,12 +45,22 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
 }
 
-void add_radiosity_options(CLI::App& app, BakeOptions& bake) {
-  app.add_option("--samples", bake.radiosity.samples,
-                 "Paths a texel, best a power of two. The error falls with the square root; each texel's standard "
-                 "error is stored")
-      ->check(CLI::Range(1u, 1u << 24))
+void add_radiosity_options(CLI::App& app, Texts& texts) {
+  app.add_option(
+         "--estimator", texts.estimator,
+         "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred "
+         "times less work) or reference (unbiased paths from every texel, to check the other against)")
+      ->check(CLI::IsMember({"cached", "reference"}))
       ->capture_default_str();
+  auto* error = app.add_option("--error", texts.error,
+                               "The error asked for: root mean square over texels and channels, relative, dark texels "
+                               "by 1 % of the mean. Work stops there")
+                    ->check(checked(parse_fraction, "SHARE"))
+                    ->capture_default_str();
+  app.add_option("--samples", texts.samples,
+                 "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
+      ->check(CLI::Range(1u, 1u << 24))
+      ->excludes(error);
 }
 
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
@@ -76,6 +89,14 @@ Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
+  bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
+  if (texts.samples > 0) {
+    bake.radiosity.samples = texts.samples;
+    bake.radiosity.error = 0;
+  } else {
+    ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
+    bake.radiosity.samples = kMostSamples;
+  }
   bake.atlas.resolution = texts.resolution;
   if (texts.atlas == "auto" && texts.resolution > 0 && texts.texel_option->count() > 0)
     return fail(ErrorCode::kUsage, "",
@@ -128,7 +149,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_atlas_options(app, texts, args.bake);
-  add_radiosity_options(app, args.bake);
+  add_radiosity_options(app, texts);
   add_light_options(app, shared);
   add_reflection_options(app, texts, args.bake);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");

@@ -28,7 +28,7 @@ CLI::App* add_lux(CLI::App& app, LuxTexts& texts, SharedTexts& shared, Arguments
   texts.error_option = lux->add_option("--error", texts.error,
                                        "Standard error asked for, of luminance, relative to the point's illuminance "
                                        "plus 1 % of the mean over all points")
-                           ->check(checked(parse_percent, "PERCENT"))
+                           ->check(checked(parse_fraction, "SHARE"))
                            ->capture_default_str();
   texts.samples_option =
       lux->add_option("--samples", job.lux.max_samples,
@@ -48,7 +48,7 @@ Status resolve_lux(const LuxTexts& texts, Arguments& args) {
   if (!texts.grid.empty()) {
     ORIEL_TRY(job.grid, parse_grid(texts.grid));
   }
-  ORIEL_TRY(job.lux.relative_error, parse_percent(texts.error));
+  ORIEL_TRY(job.lux.relative_error, parse_fraction(texts.error));
   if (texts.samples_option->count() > 0 && texts.error_option->count() == 0) job.lux.relative_error = 0;
   job.import = args.bake.import;
   job.reproducible = args.bake.reproducible;

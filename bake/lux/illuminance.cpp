@@ -39,8 +39,7 @@ class Meter {
   }
 
   void find_buried(std::size_t p, std::uint64_t& rays) {
-    Sampler sampler(~context_.seed, p, 0);
-    results_[p].buried = is_buried(t_.accel, surfaces_[p], 16, sampler, rays);
+    results_[p].buried = is_buried(t_, surfaces_[p], context_.seed, p, 0, rays);
   }
 
   // Carries one replicate of a point from sample `first` to `last`.

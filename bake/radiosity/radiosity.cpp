@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiosity/cached/cached.h"
+#include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/sides.h"
 #include "bake/trace/buried.h"
@@ -37,7 +39,7 @@ class Baker {
       Sampler sampler(context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
       const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
-      if (mixed && buried(surface, k, stream, rays)) continue;
+      if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
       const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays);
       const DVec3 value(e.direct + e.indirect);
       sums.sum += value;
@@ -59,16 +61,9 @@ class Baker {
     for (std::uint32_t k = 0; k < 16; ++k) {
       Sampler sampler(~context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
-      if (buried(point_of(map, i, Vec3(uv, sampler.next1())), ~k, stream, rays)) return true;
+      if (is_buried(t_, point_of(map, i, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;
     }
     return false;
-  }
-
-  // Random numbers of its own: a point is left out whatever light its path would have found, so that leaving out does
-  // not favour bright paths.
-  bool buried(const SurfacePoint& surface, std::uint32_t sample, std::uint64_t stream, std::uint64_t& rays) const {
-    Sampler sampler(context_.seed + 0x5eed, stream, sample);
-    return is_buried(t_.accel, surface, 6, sampler, rays);
   }
 
   const Transport& t_;
@@ -93,24 +88,9 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
   page.state[texel] = TexelState::kValid;
 }
 
-// Texel area in m²: its fragments' share of their triangles' surface.
-double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
-  double area = 0;
-  for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f) {
-    const TexelFragment& fragment = map.fragments[f];
-    const auto& uv = atlas.uv[fragment.triangle];
-    const DVec2 size(map.width, map.height);
-    const DVec2 a = DVec2(uv[1] - uv[0]) * size, b = DVec2(uv[2] - uv[0]) * size;
-    const double texels = 0.5 * std::abs(a.x * b.y - a.y * b.x);
-    if (texels > 0) area += std::min(1.0, fragment.area / texels) * triangle_area(scene, fragment.triangle);
-  }
-  return area;
-}
-
-RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                          const Radiosity& radiosity) {
+void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
   const auto& pages = radiosity.pages;
-  RadiosityReport report;
+  RadiosityReport& report = radiosity.report;
   DVec3 sum(0);
   for (std::size_t p = 0; p < pages.size(); ++p)
     for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
@@ -125,7 +105,7 @@ RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<cons
       report.max = glm::max(report.max, e);
       report.incident_lm += DVec3(e) * (radiosity.visible[p][i] * texel_area_m2(scene, atlas, texel_map[p], i));
     }
-  if (report.texels == 0) return report;
+  if (report.texels == 0) return;
   report.mean = Vec3(sum / static_cast<double>(report.texels));
   double squares = 0;
   for (std::size_t p = 0; p < pages.size(); ++p)
@@ -137,7 +117,25 @@ RadiosityReport summarize(const Scene& scene, const Atlas& atlas, std::span<cons
       }
     }
   report.relative_error = std::sqrt(squares / (3.0 * static_cast<double>(report.texels)));
-  return report;
+}
+
+Status bake_reference(const Baker& baker, std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
+                      Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
+  std::vector<Run> runs;
+  for (std::size_t p = 0; p < texel_map.size(); ++p)
+    for (std::size_t first = 0; first < texel_map[p].texel.size(); first += kRun)
+      runs.push_back({p, first, std::min(first + kRun, texel_map[p].texel.size())});
+  const auto body = [&](std::size_t r) {
+    const Run& run = runs[r];
+    std::uint64_t traced = 0;
+    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
+      const TexelSums sums = baker.bake(texel_map[run.page], run.page, i, traced);
+      result.visible[run.page][i] = static_cast<float>(sums.count) / static_cast<float>(options.samples);
+      store(sums, options.samples, result.pages[run.page], texel_map[run.page].texel[i]);
+    }
+    rays += traced;
+  };
+  return parallel_for(context, "radiosity", runs.size(), body, &rays);
 }
 
 }  // namespace
@@ -146,7 +144,6 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context) {
   Radiosity result;
-  std::vector<Run> runs;
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
     const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
@@ -154,27 +151,19 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                       std::vector<TexelState>(size)};
     result.pages.push_back(std::move(page));
     result.visible.emplace_back(map.texel.size());
-    for (std::size_t first = 0; first < map.texel.size(); first += kRun)
-      runs.push_back({p, first, std::min(first + kRun, map.texel.size())});
   }
   std::uint64_t side_rays = 0;
   const std::vector<char> back = choose_sides(transport, atlas, texel_map, context.seed, side_rays);
-  const Baker baker(transport, atlas, back, options, context);
-  std::atomic<std::uint64_t> total_rays{side_rays};
-  const auto body = [&](std::size_t r) {
-    const Run& run = runs[r];
-    std::uint64_t rays = 0;
-    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
-      const TexelSums sums = baker.bake(texel_map[run.page], run.page, i, rays);
-      result.visible[run.page][i] = static_cast<float>(sums.count) / static_cast<float>(options.samples);
-      store(sums, options.samples, result.pages[run.page], texel_map[run.page].texel[i]);
-    }
-    total_rays += rays;
-  };
-  ORIEL_TRY_VOID(parallel_for(context, "radiosity", runs.size(), body, &total_rays));
+  std::atomic<std::uint64_t> rays{side_rays};
+  if (options.estimator == Estimator::kCached) {
+    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, back, options, context, rays, result));
+  } else {
+    ORIEL_TRY_VOID(
+        bake_reference(Baker(transport, atlas, back, options, context), texel_map, options, context, rays, result));
+  }
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  result.report = summarize(transport.accel.scene(), atlas, texel_map, result);
-  result.report.rays = total_rays;
+  summarize(transport.accel.scene(), atlas, texel_map, result);
+  result.report.rays = rays;
   result.report.back_charts = static_cast<std::size_t>(std::count(back.begin(), back.end(), 1));
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     fill_buried(atlas, texel_map[p], result.pages[p]);

@@ -7,9 +7,24 @@
 
 namespace oriel {
 
+// How a smoothing filter of the gathered light works (cached/filter.h).
+struct FilterOptions {
+  int passes = 4;      // each spreads light by one texel; 4 do the work of about 33 times the rays
+  float strength = 1;  // edges of this many standard deviations are kept; 0: no filter
+};
+
+enum class Estimator : std::uint8_t {
+  kReference,  // unbiased paths from every texel
+  kCached,     // bounces cached in the lightmap, one final gather, filtered
+};
+
 struct RadiosityOptions {
-  std::uint32_t samples = 256;  // paths a texel, best a power of two; the error falls as 1/√samples
-  int dilation = 4;             // texels by which charts are extended beyond their border
+  Estimator estimator = Estimator::kReference;
+  std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
+                                // cached: gather rays a texel, at most
+  double error = 0;      // cached: stop at this relative error (RadiosityReport::relative_error); 0: take all samples
+  FilterOptions filter = {};  // cached
+  int dilation = 4;      // texels by which charts are extended beyond their border
 };
 
 struct RadiosityReport {
@@ -20,8 +35,11 @@ struct RadiosityReport {
   Vec3 mean{0};                 // lux, over valid texels
   Vec3 max{0};                  // lux
   double relative_error =
-      0;                 // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
-  DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
+      0;                  // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
+  int sweeps = 0;         // cached: bounces computed in the coarse lightmap
+  double sweep_tail = 0;  // cached: bound on what further bounces would add, relative
+  double filter_drift = 0;  // cached: relative change of the gathered energy by the filter
+  DVec3 incident_lm{0};     // power falling on the visible parts of all lightmapped surfaces, front sides
 };
 
 struct Radiosity {

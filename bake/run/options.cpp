@@ -40,9 +40,13 @@ Result<std::uint64_t> parse_bytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
-Result<double> parse_percent(const std::string& text) {
-  static constexpr Unit kUnits[] = {{"%", 0.01}};
-  return parse_quantity(text, kUnits, "percentage", "1% or 0.5%");
+Result<double> parse_fraction(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (error == std::errc() && std::isfinite(value) && value > 0 && (unit.empty() || unit == "%"))
+    return unit.empty() ? value : value / 100;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 2% or 0.02", text);
 }
 
 Result<Vec3> parse_color(const std::string& text) {
@@ -75,7 +79,11 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"resolution", o.atlas.resolution},
       {"max_page", o.atlas.max_page},
       {"padding", o.atlas.padding},
+      {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},
+      {"error", o.radiosity.error},
+      {"filter_passes", o.radiosity.filter.passes},
+      {"filter_strength", o.radiosity.filter.strength},
       {"dilation", o.radiosity.dilation},
       {"radiance", o.with_radiance},
       {"material", o.with_material},

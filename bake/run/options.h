@@ -33,8 +33,8 @@ struct BakeOptions {
 Result<float> parse_length(const std::string& text);
 // "64MiB", "2GB", "500000B" as bytes; a unit is required. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
-// "2%" as 0.02; the sign is required, more than 0. Error kUsage.
-Result<double> parse_percent(const std::string& text);
+// "2%" or "0.02" as a fraction, > 0. Error kUsage.
+Result<double> parse_fraction(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
 Result<Vec3> parse_color(const std::string& text);
 

@@ -112,8 +112,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan =
-      plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(), result.times.back().rays});
+  pack.plan = plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(),
+                         result.times.back().rays, options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;
 }

@@ -14,6 +14,7 @@ struct BakeFacts {
   const std::vector<std::string>& omissions;
   DVec3 emitted_lm{0};
   std::uint64_t radiance_rays = 0;
+  bool cached = true;  // the estimator
 };
 
 std::string plan_json(const BakeFacts& facts);

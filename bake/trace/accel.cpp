@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr unsigned kOpaqueMask = 1;
 constexpr unsigned kTransmittingMask = 2;
+constexpr int kPacket = 16;      // rays that Embree traces together
 constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ray: beyond it, it is taken as blocked
 
 // Triangles of one kind (opaque, or letting some light through) as one Embree geometry.
@@ -81,17 +83,73 @@ struct Accel::Impl {
     rtcInitIntersectContext(&context);
     rtcIntersect1(rtc_scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    const Group& group = groups[query.hit.geomID];
+    return hit_of(query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v},
+                  {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, ray.direction);
+  }
+
+  Hit hit_of(unsigned geometry, unsigned primitive, float distance, const Vec2& barycentric, const Vec3& normal,
+             const Vec3& direction) const {
+    const Group& group = groups[geometry];
     Hit hit;
-    hit.triangle = group.triangle.empty() ? query.hit.primID : group.triangle[query.hit.primID];
-    hit.distance = query.ray.tfar / scale;
-    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.triangle = group.triangle.empty() ? primitive : group.triangle[primitive];
+    hit.distance = distance / scale;
+    hit.barycentric = barycentric;
     // Embree's unnormalised normal underflows for tiny triangles: their side is found in double.
-    const float side =
-        query.hit.Ng_x * ray.direction.x + query.hit.Ng_y * ray.direction.y + query.hit.Ng_z * ray.direction.z;
-    hit.front = side != 0 ? side < 0 : glm::dot(geometric_normal(*scene, hit.triangle), ray.direction) < 0;
+    const float side = glm::dot(normal, direction);
+    hit.front = side != 0 ? side < 0 : glm::dot(geometric_normal(*scene, hit.triangle), direction) < 0;
     return hit;
   }
+
+  // Lane i of Embree's packet. Rays that are not traceable get an interval that holds nothing.
+  void load(RTCRay16& packet, int i, const Ray& ray, unsigned mask) const {
+    const bool valid = traceable(ray, scale);
+    const Vec3 origin = valid ? ray.origin * scale : Vec3(0), direction = valid ? ray.direction : Vec3(0, 0, 1);
+    packet.org_x[i] = origin.x, packet.org_y[i] = origin.y, packet.org_z[i] = origin.z;
+    packet.dir_x[i] = direction.x, packet.dir_y[i] = direction.y, packet.dir_z[i] = direction.z;
+    packet.tnear[i] = 0, packet.tfar[i] = valid ? ray.max_distance * scale : 0;
+    packet.time[i] = 0, packet.mask[i] = mask, packet.id[i] = 0, packet.flags[i] = 0;
+  }
+
+  void intersect_packet(const Ray* rays, int count, Hit* hits) const {
+    alignas(64) std::array<int, kPacket> active;
+    alignas(64) RTCRayHit16 query;
+    for (int i = 0; i < kPacket; ++i) {
+      active[i] = i < count ? -1 : 0;
+      load(query.ray, i, rays[std::min(i, count - 1)], kOpaqueMask | kTransmittingMask);
+      query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(active.data(), rtc_scene, &context, &query);
+    const RTCHit16& h = query.hit;
+    for (int i = 0; i < count; ++i)
+      hits[i] = h.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                    ? Hit()
+                    : hit_of(h.geomID[i], h.primID[i], query.ray.tfar[i], {h.u[i], h.v[i]},
+                             {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}, rays[i].direction);
+  }
+
+  // Sets bit i where an opaque surface is in the way of ray i.
+  unsigned occluded_packet(const Ray* rays, int count) const {
+    alignas(64) std::array<int, kPacket> active;
+    alignas(64) RTCRay16 query;
+    for (int i = 0; i < kPacket; ++i) {
+      active[i] = i < count ? -1 : 0;
+      load(query, i, rays[std::min(i, count - 1)], kOpaqueMask);
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(active.data(), rtc_scene, &context, &query);
+    unsigned blocked = 0;
+    for (int i = 0; i < count; ++i)
+      if (query.tfar[i] < 0 || !traceable(rays[i], scale)) blocked |= 1u << i;
+    return blocked;
+  }
+
+  // What the transmitting surfaces along a ray let through.
+  Vec3 through_layers(Ray ray) const;
 
   bool occluded(const Ray& ray) const {
     alignas(16) RTCRay query;
@@ -156,20 +214,38 @@ Hit Accel::intersect(const Ray& ray) const {
 
 Vec3 Accel::transmittance(const Ray& ray) const {
   if (!traceable(ray, impl_->scale) || impl_->occluded(ray)) return Vec3(0);
+  return impl_->any_transmitting ? impl_->through_layers(ray) : Vec3(1);
+}
+
+Vec3 Accel::Impl::through_layers(Ray ray) const {
   Vec3 passed(1);
-  if (!impl_->any_transmitting) return passed;
-  Ray rest = ray;
   for (int layer = 0; layer < kMaxLayers; ++layer) {
-    const Hit hit = impl_->intersect(rest, kTransmittingMask);
+    const Hit hit = intersect(ray, kTransmittingMask);
     if (!hit) return passed;
-    const float cosine = glm::dot(geometric_normal(scene(), hit.triangle), ray.direction);
-    passed *= straight_transmittance(shade_point(scene(), hit.triangle, hit.barycentric), std::abs(cosine));
+    const float cosine = glm::dot(geometric_normal(*scene, hit.triangle), ray.direction);
+    passed *= straight_transmittance(shade_point(*scene, hit.triangle, hit.barycentric), std::abs(cosine));
     if (max_component(passed) <= 0) return Vec3(0);
-    rest.origin = spawn_origin(scene(), hit.triangle, hit.barycentric, ray.direction);
-    rest.max_distance -= hit.distance;
-    if (!(rest.max_distance > 0)) return passed;
+    ray.origin = spawn_origin(*scene, hit.triangle, hit.barycentric, ray.direction);
+    ray.max_distance -= hit.distance;
+    if (!(ray.max_distance > 0)) return passed;
   }
   return Vec3(0);
+}
+
+void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  for (std::size_t i = 0; i < rays.size(); i += kPacket)
+    impl_->intersect_packet(&rays[i], static_cast<int>(std::min<std::size_t>(kPacket, rays.size() - i)), &hits[i]);
+}
+
+void Accel::transmittance(std::span<const Ray> rays, std::span<Vec3> passed) const {
+  for (std::size_t i = 0; i < rays.size(); i += kPacket) {
+    const int count = static_cast<int>(std::min<std::size_t>(kPacket, rays.size() - i));
+    const unsigned blocked = impl_->occluded_packet(&rays[i], count);
+    for (int k = 0; k < count; ++k)
+      passed[i + k] = blocked >> k & 1u         ? Vec3(0)
+                      : impl_->any_transmitting ? impl_->through_layers(rays[i + k])
+                                                : Vec3(1);
+  }
 }
 
 Vec3 point_on(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric) {

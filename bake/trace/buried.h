@@ -1,12 +1,14 @@
-// Whether a point lies inside a closed body.
+// Whether a point of a surface lies inside other geometry.
 #pragma once
 
 #include "bake/trace/path.h"
 
 namespace oriel {
 
-// Inside a closed body nearly every direction meets the back of one-sided faces. Asks `probes` cosine-distributed rays
-// of a sampler of the caller's; most points in the open answer with one. One probe may miss (a crack); false else.
-bool is_buried(const Accel& accel, const SurfacePoint& surface, int probes, Sampler& sampler, std::uint64_t& rays);
+// Inside a closed body nearly every direction meets the back of its faces. Random numbers of its own, a function of
+// (seed, stream, sample): a point is left out whatever light its path would have found, so that leaving out does not
+// favour bright paths. Most points that are not buried answer with one ray. Adds to rays.
+bool is_buried(const Transport& transport, const SurfacePoint& surface, std::uint64_t seed, std::uint64_t stream,
+               std::uint32_t sample, std::uint64_t& rays);
 
 }  // namespace oriel

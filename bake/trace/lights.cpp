@@ -120,6 +120,14 @@ LightSample LightSet::sample_punctual(const Pick& pick, const Vec3& p) const {
   return s;
 }
 
+LightSample LightSet::sample_light(std::uint32_t light, const Vec3& p, const Vec2&) const {
+  Pick pick{};
+  pick.punctual = true;
+  pick.index = light;
+  pick.probability = 1;
+  return sample_punctual(pick, p);
+}
+
 float LightSet::pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const {
   if (triangle_pdf_.empty() || triangle_pdf_[triangle] == 0) return 0;
   const Vec3 to = on - p;

@@ -26,6 +26,8 @@ class LightSet {
   // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate
   // of 0 where that point cannot shine on p.
   LightSample sample(const Vec3& p, float u, const Vec2& v) const;
+  // Scene::lights[light] alone, probability of choice 1.
+  LightSample sample_light(std::uint32_t light, const Vec3& p, const Vec2& v) const;
   // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that
   // unit normal (either side); 0 for triangles that are not sampled.
   float pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const;

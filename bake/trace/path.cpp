@@ -87,24 +87,28 @@ Vec3 sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const S
 // One path, vertex by vertex.
 class Walk {
  public:
-  Walk(const Transport& t, Sampler& sampler, std::uint64_t& rays) : t_(t), sampler_(sampler), rays_(rays) {}
+  Walk(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
+      : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse) {}
 
-  PathLight follow(Ray ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
+  PathLight follow(const Ray& ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
+    ++rays_;
+    return follow_from(ray, t_.accel.intersect(ray), bsdf_pdf, bounce, throughput);
+  }
+
+  PathLight follow_from(Ray ray, Hit hit, float bsdf_pdf, int bounce, const Vec3& throughput) {
     PathLight light;
     throughput_ = throughput;
     from_ = ray.origin;
     pdf_ = bsdf_pdf;
     int passes = 0;
     bool first = true;
-    while (bounce < t_.options.max_bounces && passes < kMaxPasses) {
-      ++rays_;
-      const Hit hit = t_.accel.intersect(ray);
+    for (; bounce < t_.options.max_bounces && passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
       Vec3& sink = first ? light.emitted : light.scattered;
       if (!hit) {
-        sink += throughput_ * t_.accel.scene().sky;
+        (first ? light.sky : light.scattered) += throughput_ * t_.accel.scene().sky;
         break;
       }
-      const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
+      SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
         ray.origin = spawn_origin(surface, ray.direction);
         ++passes;
@@ -136,8 +140,23 @@ class Walk {
  private:
   enum class Step { kEnd, kPassed, kBounced };
 
+  // Tells the diffuse reflection, and leaves a surface without it. False where nothing else reflects.
+  bool tell_diffuse(SurfacePoint& surface, const Vec3& wo) {
+    const float cosine = glm::dot(surface.normal, wo);
+    const Vec3 specular = reflectance(surface.shade, cosine);
+    const Vec3 weight = throughput_ * surface.shade.diffuse * (1 - max_component(specular));
+    if (max_component(weight) > 0) (*on_diffuse_)({surface.triangle, surface.barycentric, weight});
+    surface.shade.diffuse = Vec3(0);
+    // The rest goes on as often as it is bright.
+    const float q = std::min(1.0f, max_component(specular) + max_component(surface.shade.transmission));
+    if (!(q > 0) || sampler_.next1() >= q) return false;
+    throughput_ /= q;
+    return true;
+  }
+
   // Light sampling at the surface, then the next ray.
-  Step scatter(const SurfacePoint& surface, Ray& ray, PathLight& light) {
+  Step scatter(SurfacePoint& surface, Ray& ray, PathLight& light) {
+    if (on_diffuse_ && !tell_diffuse(surface, -ray.direction)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
     light.scattered += throughput_ * sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     const float u = sampler_.next1();
@@ -165,6 +184,7 @@ class Walk {
   const Transport& t_;
   Sampler& sampler_;
   std::uint64_t& rays_;
+  const OnDiffuse* on_diffuse_;
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
@@ -202,6 +222,11 @@ PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler
   return Walk(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
+PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first, float bsdf_pdf, Sampler& sampler,
+                           std::uint64_t& rays, const OnDiffuse& on_diffuse) {
+  return Walk(t, sampler, rays, &on_diffuse).follow_from(ray, first, bsdf_pdf, 0, Vec3(1));
+}
+
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
   if (!surface.reflects) return Vec3(0);
@@ -214,7 +239,7 @@ Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   const PathLight rest = Walk(t, sampler, rays).follow(ray, pdf, 1, sample->weight);
-  return light + rest.emitted + rest.scattered;
+  return light + rest.emitted + rest.sky + rest.scattered;
 }
 
 IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,
@@ -228,7 +253,7 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = std::max(shading.cosine(direction) / kPi, 1e-12f);
   const PathLight light = Walk(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
-  s.direct += kPi * light.emitted;  // cosθ / pdf = π
+  s.direct += kPi * (light.emitted + light.sky);  // cosθ / pdf = π
   s.indirect = kPi * light.scattered;
   s.back_face = light.back_face;
   return s;

@@ -1,6 +1,8 @@
 // The path tracer that the radiosity textures and the reference frames share.
 #pragma once
 
+#include <functional>
+
 #include "bake/trace/bsdf.h"
 #include "bake/trace/lights.h"
 #include "bake/trace/sampler.h"
@@ -44,7 +46,8 @@ inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
 }
 
 struct PathLight {
-  Vec3 emitted{0};         // met directly, through glass and cut-outs only
+  Vec3 emitted{0};         // by surfaces met directly, through glass and cut-outs only
+  Vec3 sky{0};             // met so
   Vec3 scattered{0};       // after one reflection or more
   bool back_face = false;  // the first surface met was the back of a one-sided one
 };
@@ -52,6 +55,20 @@ struct PathLight {
 // Light arriving along a ray, all bounces: unbiased. With bsdf_pdf > 0, emission met directly is weighted against light
 // sampling from ray.origin (balance heuristic, Veach 1997); with 0 it counts in full.
 PathLight trace_path(const Transport& transport, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays);
+
+// A diffuse reflection met on the way of a ray: `weight` times irradiance over π adds to the radiance along the ray.
+struct DiffuseVertex {
+  std::uint32_t triangle = 0;
+  Vec2 barycentric{0};
+  Vec3 weight{0};
+};
+using OnDiffuse = std::function<void(const DiffuseVertex&)>;
+
+// As trace_path, but diffuse reflection is left to the caller, who knows the irradiance: every diffuse surface on the
+// way is told, and the path goes on through mirrors, glossy lobes, glass and cut-outs only. `first` is what the ray
+// hits; bsdf_pdf as there.
+PathLight trace_to_diffuse(const Transport& transport, const Ray& ray, const Hit& first, float bsdf_pdf,
+                           Sampler& sampler, std::uint64_t& rays, const OnDiffuse& on_diffuse);
 
 // Light reflected by a surface towards wo (unit, world), all bounces; its own emission and straight transmission
 // excluded.

@@ -25,7 +25,7 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   if (max_component(through) > 0) {
     const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
     const PathLight behind = trace_path(t, rest, 0, sampler, rays);
-    light.other += through * (behind.emitted + behind.scattered);
+    light.other += through * (behind.emitted + behind.sky + behind.scattered);
   }
   if (surface.emits) light.other += coverage * surface.shade.emission;
   if (!surface.reflects) return light;

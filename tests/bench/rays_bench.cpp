@@ -54,7 +54,7 @@ int bench(const char* file) {
   for (int round = 0; round < 3; ++round) {
     const double bare = bare_rate(*accel, *atlas, *map, context);
     const auto start = std::chrono::steady_clock::now();
-    const auto baked = bake_radiosity({*accel, lights, {}}, *atlas, *map, {16, 4}, context);
+    const auto baked = bake_radiosity({*accel, lights, {}}, *atlas, *map, {.samples = 16}, context);
     const double rate = static_cast<double>(baked->report.rays) / seconds_since(start);
     std::printf("%s: bare closest-hit %.2f Mray/s, radiosity %.2f Mray/s, ratio %.2f\n", file, bare * 1e-6, rate * 1e-6,
                 rate / bare);

@@ -101,7 +101,7 @@ TEST(Radiosity, StandardErrorIsTheSpreadOverSeeds) {
   constexpr int kSeeds = 64;
   for (int seed = 0; seed < kSeeds; ++seed) {
     context.seed = static_cast<std::uint64_t>(seed);
-    const Radiosity r = *bake_radiosity({accel, lights, {}}, atlas, map, {16, 2}, context);
+    const Radiosity r = *bake_radiosity({accel, lights, {}}, atlas, map, {.samples = 16, .dilation = 2}, context);
     const double e = r.pages[0].irradiance[map[0].texel[5]].g;
     mean += e / kSeeds;
     squares += e * e / kSeeds;

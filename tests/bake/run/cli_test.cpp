@@ -178,7 +178,7 @@ TEST_F(BakeCli, LuxExitCodesAndMessages) {
   EXPECT_EQ(run("oriel-bake lux cornell.glb --grid floor,1m"), 1);
   EXPECT_EQ(run("oriel-bake lux cornell.glb --grid nowhere,1m,0"), 1);
   EXPECT_NE(log().find("nowhere"), std::string::npos) << log();
-  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv --error 5"), 1);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv --error 5x"), 1);
   EXPECT_EQ(run("oriel-bake --texel 5cm lux cornell.glb --points points.csv"), 1);
   EXPECT_NE(log().find("--texel"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake lux missing.glb --points points.csv"), 2);
@@ -198,8 +198,8 @@ TEST(Quantities, ParseAndRefuse) {
   EXPECT_FALSE(parse_bytes("many"));
   EXPECT_EQ(*parse_color("5"), Vec3(5));
   EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
-  EXPECT_DOUBLE_EQ(*parse_percent("0.5%"), 0.005);
-  for (const char* bad : {"", "1", "0%", "-1%", "%", "nan%"}) EXPECT_FALSE(parse_percent(bad)) << bad;
+  EXPECT_DOUBLE_EQ(*parse_fraction("0.5%"), 0.005);
+  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x"}) EXPECT_FALSE(parse_fraction(bad)) << bad;
   EXPECT_EQ(parse_grid("a,b,1m,0")->node, "a,b");
   for (const char* bad : {"", "floor", "floor,1m", ",1m,1m", "floor,0m,1m", "floor,1m,-1m", "floor,1,1"})
     EXPECT_FALSE(parse_grid(bad)) << bad;

@@ -1,0 +1,210 @@
+#include "bake/radiosity/cached/cached.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "bake/radiosity/cached/direct_light.h"
+#include "bake/radiosity/cached/filter.h"
+#include "bake/radiosity/cached/patches.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
+constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
+constexpr double kDirectShare = 0.3;                    // of the squared error asked for
+constexpr double kTailShare = 0.25;                     // of the error asked for: what further bounces may add
+constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
+
+class CachedBake {
+ public:
+  CachedBake(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const std::vector<char>& back,
+             const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays, const Texels& texels)
+      : options_(options),
+        context_(context),
+        rays_(rays),
+        texels_(texels),
+        order_(coherent_order(texels)),
+        direct_light_(t, atlas, maps, back, texels, context.seed),
+        around_(t, texels, direct_light_.closed_form(), context.seed),
+        direct_(texels.count()),
+        gathered_(texels.count()),
+        relative_(texels.count()) {}
+
+  Status run(Radiosity& result) {
+    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    ORIEL_TRY_VOID(first_direct());
+    ORIEL_TRY(Sweeps sweeps, sweep(texels_, around_, means_of_direct(), {256, kTailShare * target()}, context_, rays_));
+    irradiance_ = means_of_direct();
+    for (std::size_t i = 0; i < texels_.count(); ++i) irradiance_[i] += sweeps.gathered[i];
+    ORIEL_TRY_VOID(gather_to_target());
+    ORIEL_TRY_VOID(refine_direct());
+    store(result);
+    result.report.sweeps = sweeps.count;
+    result.report.sweep_tail = sweeps.tail;
+    result.report.filter_drift = estimate_.energy_drift;
+    return {};
+  }
+
+ private:
+  double target() const { return options_.error; }
+
+  std::vector<Vec3> means_of_direct() const {
+    std::vector<Vec3> mean(texels_.count());
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = direct_.mean(i);
+    return mean;
+  }
+
+  // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
+  // though the few samples met none.
+  Status first_direct() {
+    ORIEL_TRY_VOID(direct_light_.estimate(order_, kFirstDirect, context_, direct_, rays_));
+    std::vector<std::uint32_t> edges;
+    for (const std::uint32_t i : order_) {
+      bool edge = max_component(direct_.variance[i]) > 0;
+      for (const std::uint32_t j : graph_.of(i)) edge |= max_component(direct_.variance[j]) > 0;
+      if (edge) edges.push_back(i);
+    }
+    return direct_light_.estimate(edges, 4 * kFirstDirect, context_, direct_, rays_);
+  }
+
+  // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
+  double relative2(std::size_t i, const Vec3& variance) const {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double value = double{direct_.mean(i)[c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
+      const double denominator = value * value + floor * floor;
+      if (denominator > 0) sum += variance[c] / denominator;
+    }
+    return sum / 3;
+  }
+
+  void update_estimate() {
+    estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
+    DVec3 sum(0);
+    count_ = 0;
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      if (texels_.visible[i] == 0) continue;
+      sum += DVec3(direct_.mean(i)) + DVec3(estimate_.value[i]);
+      ++count_;
+    }
+    mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
+  }
+
+  // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first.
+  std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
+                                   const std::vector<std::uint32_t>& samples) const {
+    std::vector<std::uint32_t> by_error;
+    for (const std::uint32_t i : order_)
+      if (relative_[i] > 0 && samples[i] < most) by_error.push_back(i);
+    std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const double ea = relative_[a] / samples[a], eb = relative_[b] / samples[b];
+      return ea != eb ? ea > eb : a < b;
+    });
+    double left = (now - goal) * static_cast<double>(count_);
+    std::size_t taken = 0;
+    while (taken < by_error.size() && left > 0) left -= gain * relative_[by_error[taken++]];
+    by_error.resize(taken);
+    std::sort(by_error.begin(), by_error.end());
+    std::vector<std::uint32_t> in_order;
+    for (const std::uint32_t i : order_)
+      if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
+    return in_order;
+  }
+
+  double mean_squares(const std::vector<Vec3>& variance) {
+    double sum = 0;
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
+      sum += relative_[i];
+    }
+    return count_ > 0 ? sum / static_cast<double>(count_) : 0;
+  }
+
+  Status gather_to_target() {
+    const std::uint32_t most = std::max(1u, options_.samples / kHalves);
+    std::uint32_t per_half = options_.error > 0 ? std::min(most, kFirstGather) : most;
+    DirectionSets sets(context_.seed, std::bit_ceil(per_half));
+    ORIEL_TRY_VOID(gather(texels_, around_, sets, order_, per_half, irradiance_, context_, gathered_, rays_));
+    update_estimate();
+    if (options_.error <= 0) return {};
+    const double goal = (1 - kDirectShare) * target() * target();
+    for (;;) {
+      const double now = mean_squares(estimate_.variance);
+      if (now <= goal || context_.stopped()) return {};
+      // Each texel doubles its own count: those of one count are gathered together.
+      std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
+      if (list.empty()) return {};
+      while (!list.empty()) {
+        const std::uint32_t samples = gathered_.samples[list.front()];
+        const auto rest = std::stable_partition(list.begin(), list.end(),
+                                                [&](std::uint32_t i) { return gathered_.samples[i] == samples; });
+        const std::vector<std::uint32_t> same(list.begin(), rest);
+        list.erase(list.begin(), rest);
+        per_half = std::min(most, 2 * std::max(1u, samples));
+        if (sets.per_half() < per_half) sets = DirectionSets(context_.seed, std::bit_ceil(per_half));
+        ORIEL_TRY_VOID(gather(texels_, around_, sets, same, per_half, irradiance_, context_, gathered_, rays_));
+      }
+      update_estimate();
+    }
+  }
+
+  Status refine_direct() {
+    if (options_.error <= 0) return {};
+    const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
+    for (;;) {
+      const double now = mean_squares(direct_.variance), goal = kDirectShare * target() * target();
+      if (now <= goal || context_.stopped()) return {};
+      std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
+      if (list.empty()) return {};
+      while (!list.empty()) {
+        const std::uint32_t samples = direct_.per_half[list.front()];
+        const auto rest = std::stable_partition(list.begin(), list.end(),
+                                                [&](std::uint32_t i) { return direct_.per_half[i] == samples; });
+        const std::vector<std::uint32_t> same(list.begin(), rest);
+        list.erase(list.begin(), rest);
+        ORIEL_TRY_VOID(direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_));
+      }
+    }
+  }
+
+  void store(Radiosity& result) const {
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      LightmapPage& page = result.pages[texels_.page[i]];
+      const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
+      result.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
+      page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
+      if (texels_.visible[i] == 0) continue;
+      page.irradiance[texel] = glm::max(direct_.mean(i) + estimate_.value[i], Vec3(0));
+      page.standard_error[texel] = glm::sqrt(direct_.variance[i] + estimate_.variance[i]);
+    }
+  }
+
+  const RadiosityOptions& options_;
+  Context& context_;
+  std::atomic<std::uint64_t>& rays_;
+  const Texels& texels_;
+  std::vector<std::uint32_t> order_;
+  DirectLight direct_light_;
+  Surroundings around_;
+  TexelGraph graph_;
+  DirectSums direct_;
+  HalfSums gathered_;
+  Estimate estimate_;             // of the gathered light
+  std::vector<Vec3> irradiance_;  // what gather rays find at a texel
+  std::vector<float> relative_;   // by texel: squared relative error of the part being refined
+  DVec3 mean_{0};                 // lux, over texels that see light
+  std::size_t count_ = 0;         // of them
+};
+
+}  // namespace
+
+Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                   const std::vector<char>& back, const RadiosityOptions& options, Context& context,
+                   std::atomic<std::uint64_t>& rays, Radiosity& result) {
+  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, back, context, rays));
+  CachedBake bake(t, atlas, texel_map, back, options, context, rays, texels);
+  return bake.run(result);
+}
+
+}  // namespace oriel

@@ -1,0 +1,215 @@
+#include "bake/radiosity/cached/direct_light.h"
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiosity/sides.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kMaxPolygons = 128;
+constexpr std::size_t kGroup = 64;  // texels whose shadow rays to one light are traced together
+
+}  // namespace
+
+// A group of texels, light by light.
+class DirectGroup {
+ public:
+  DirectGroup(const DirectLight& direct, std::span<const std::uint32_t> list, std::uint32_t per_half)
+      : d_(direct), list_(list), per_half_(per_half), tallies_(list.size()) {
+    for (std::uint32_t i = 0; i < list.size(); ++i)
+      if (d_.texels_.visible[list[i]] > 0) add_points(i);
+  }
+
+  void run(DirectSums& sums) {
+    for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
+      aim_at_polygon(l);
+      finish_light(d_.polygons_[l].radiance);
+    }
+    for (std::uint32_t l = 0; l < d_.t_.accel.scene().lights.size(); ++l) {
+      aim_at_punctual(l);
+      finish_light(Vec3(1));
+    }
+    if (!d_.closed_form_) sample_surfaces();
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      for (int h = 0; h < kHalves; ++h) sums.half[h][list_[i]] = tallies_[i].total[h];
+      sums.variance[list_[i]] = tallies_[i].variance;
+      sums.per_half[list_[i]] = per_half_;
+    }
+  }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  struct Point {
+    TexelSite site;
+    std::uint32_t texel = 0;  // of the list
+    int half = 0;
+    std::uint32_t k = 0;
+  };
+  struct Shot {  // a shadow ray
+    std::uint32_t point = 0;
+    Vec3 weight{0};
+  };
+  // By texel and half, of the light at hand: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
+  struct Tally {
+    Vec3 open[kHalves] = {Vec3(0), Vec3(0)}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
+    Vec3 total[kHalves] = {Vec3(0), Vec3(0)}, variance{0};
+  };
+
+  std::uint64_t stream_of(std::uint32_t texel, int half) const {
+    const Texels& t = d_.texels_;
+    return (std::uint64_t{t.page[texel]} << 32 | t.index[texel]) * kHalves + static_cast<std::uint64_t>(half);
+  }
+
+  void add_points(std::uint32_t i) {
+    const std::uint32_t texel = list_[i];
+    const Texels& t = d_.texels_;
+    const TexelMapPage& map = d_.maps_[t.page[texel]];
+    for (int half = 0; half < kHalves; ++half)
+      for (std::uint32_t k = 0; k < per_half_; ++k) {
+        Point point{t.site[texel][half * kSitesPerHalf + k % kSitesPerHalf], i, half, k};
+        if (k >= kSitesPerHalf && t.visible[texel] == 1) {
+          Sampler sampler(d_.seed_ + static_cast<std::uint64_t>(half),
+                          std::uint64_t{t.page[texel]} << 32 | map.texel[t.index[texel]], k);
+          const Vec2 uv = sampler.next2();
+          const TexelPoint p = sample_texel(d_.atlas_, map, t.index[texel], Vec3(uv, sampler.next1()));
+          const SurfacePoint s = point_on_side(d_.t_.accel.scene(), p, d_.back_[d_.atlas_.chart[p.triangle]]);
+          point.site = {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
+        }
+        points_.push_back(point);
+      }
+  }
+
+  void aim_at_polygon(std::uint32_t l) {
+    const PolygonLight& light = d_.polygons_[l];
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      const Receiver receiver = point.site.receiver();
+      const float open = polygon_irradiance(light, receiver);
+      if (!(open > 0)) continue;
+      tallies_[point.texel].open[point.half] += Vec3(open);
+      Sampler sampler(d_.seed_ + 0xd1ec + l, stream_of(list_[point.texel], point.half), point.k);
+      const auto s = sample_polygon(light, point.site.origin, sampler.next2());
+      if (!s) continue;
+      const float weight = incidence(receiver, s->direction) * s->solid_angle;
+      if (weight > 0) shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
+    }
+  }
+
+  void aim_at_punctual(std::uint32_t l) {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + 0x9f00 + l, stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
+      const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
+      if (!(max_component(value) > 0)) continue;
+      tallies_[point.texel].open[point.half] += value;
+      shoot(p, {point.site.origin, s.direction, s.distance}, value);
+    }
+  }
+
+  void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight) {
+    const Point& p = points_[point];
+    tallies_[p.texel].weight[p.half] += weight;
+    if (ray.max_distance > 0) {
+      rays_to_trace_.push_back(ray);
+      shots_.push_back({point, weight});
+    } else {
+      tallies_[p.texel].passed[p.half] += weight;  // touching
+    }
+  }
+
+  void trace() {
+    passed_.resize(rays_to_trace_.size());
+    d_.t_.accel.transmittance(rays_to_trace_, passed_);
+    rays_ += rays_to_trace_.size();
+    for (std::size_t i = 0; i < shots_.size(); ++i) {
+      const Point& p = points_[shots_[i].point];
+      tallies_[p.texel].passed[p.half] += shots_[i].weight * passed_[i];
+    }
+    shots_.clear();
+    rays_to_trace_.clear();
+  }
+
+  // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
+  // only.
+  void finish_light(const Vec3& radiance) {
+    trace();
+    const float n = static_cast<float>(per_half_);
+    for (Tally& t : tallies_) {
+      Vec3 weight(0), passed(0), open(0);
+      for (int h = 0; h < kHalves; ++h) {
+        const Vec3 share = t.passed[h] / glm::max(t.weight[h], Vec3(1e-30f));
+        t.total[h] += radiance * t.open[h] * share / n;
+        weight += t.weight[h], passed += t.passed[h], open += t.open[h];
+        t.open[h] = t.weight[h] = t.passed[h] = Vec3(0);
+      }
+      // A mix p of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
+      const Vec3 p = passed / glm::max(weight, Vec3(1e-30f));
+      const Vec3 value = radiance * open / (kHalves * n);
+      t.variance += value * value * p * (Vec3(1) - p) / std::pow(kHalves * n, 1.5f);
+    }
+  }
+
+  // Emitters without a closed form: one sampled light a point, combined with the gather's own hits on emitters.
+  void sample_surfaces();
+
+  const DirectLight& d_;
+  std::span<const std::uint32_t> list_;
+  std::uint32_t per_half_;
+  std::vector<Point> points_;
+  std::vector<Tally> tallies_;
+  std::vector<Ray> rays_to_trace_;
+  std::vector<Shot> shots_;
+  std::vector<Vec3> passed_;
+  std::uint64_t rays_ = 0;
+};
+
+void DirectGroup::sample_surfaces() {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    Sampler sampler(d_.seed_ + 0x50f, stream_of(list_[point.texel], point.half), point.k);
+    const float u = sampler.next1();
+    const LightSample s = d_.t_.lights.sample(point.site.origin, u, sampler.next2());
+    if (s.pdf == 0) continue;  // punctual: done light by light
+    const float cosine = incidence(point.site.receiver(), s.direction);
+    const float mis = s.pdf / (s.pdf + cosine / kPi);
+    const Vec3 value = s.estimate * (cosine * mis);
+    if (max_component(value) > 0) shoot(p, {point.site.origin, s.direction, s.distance}, value);
+  }
+  trace();
+  const float n = static_cast<float>(per_half_);
+  for (Tally& t : tallies_) {
+    for (int h = 0; h < kHalves; ++h) t.total[h] += t.passed[h] / n;
+    const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
+    t.variance += 0.25f * difference * difference;
+    for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
+  }
+}
+
+DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                         const std::vector<char>& back, const Texels& texels, std::uint64_t seed)
+    : t_(transport), atlas_(atlas), maps_(texel_map), back_(back), texels_(texels), seed_(seed) {
+  const Scene& scene = transport.accel.scene();
+  polygons_ = find_polygon_lights(scene);
+  for (const Surface& surface : scene.surfaces) {
+    const SceneMaterial& m = scene.materials[surface.material];
+    closed_form_ &= m.unlit || m.emission_texture.image < 0 || !(max_component(m.emission) > 0);
+  }
+  closed_form_ &= polygons_.size() <= kMaxPolygons;
+  if (!closed_form_) polygons_.clear();
+}
+
+Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
+                             DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
+  return parallel_for(
+      context, "radiosity", (list.size() + kGroup - 1) / kGroup,
+      [&](std::size_t g) {
+        const std::size_t first = g * kGroup;
+        DirectGroup group(*this, list.subspan(first, std::min(kGroup, list.size() - first)), per_half);
+        group.run(sums);
+        rays += group.rays();
+      },
+      &rays);
+}
+
+}  // namespace oriel

@@ -1,0 +1,47 @@
+// Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
+#pragma once
+
+#include "bake/radiosity/cached/texels.h"
+
+namespace oriel {
+
+// What the direct estimate of a texel knows. Lux.
+struct DirectSums {
+  std::array<std::vector<Vec3>, kHalves> half;
+  std::vector<Vec3> variance;           // of the mean of both halves, predicted from the mix of lit and dark samples
+  std::vector<std::uint32_t> per_half;  // samples for each light
+
+  explicit DirectSums(std::size_t texels) : variance(texels), per_half(texels) {
+    for (auto& h : half) h.resize(texels);
+  }
+  Vec3 mean(std::size_t i) const { return 0.5f * (half[0][i] + half[1][i]); }
+};
+
+class DirectLight {
+ public:
+  // texel_map and atlas: for points beyond the texels' own sites.
+  DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+              const std::vector<char>& back, const Texels& texels, std::uint64_t seed);
+
+  // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
+  // polygons than it pays to visit one by one), see LightSet.
+  bool closed_form() const { return closed_form_; }
+  std::size_t light_count() const { return polygons_.size(); }
+
+  // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
+  Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context, DirectSums& sums,
+                  std::atomic<std::uint64_t>& rays) const;
+
+ private:
+  friend class DirectGroup;
+  const Transport& t_;
+  const Atlas& atlas_;
+  std::span<const TexelMapPage> maps_;
+  const std::vector<char>& back_;
+  const Texels& texels_;
+  std::uint64_t seed_;
+  std::vector<PolygonLight> polygons_;
+  bool closed_form_ = true;
+};
+
+}  // namespace oriel

@@ -1,0 +1,129 @@
+#include "bake/radiosity/cached/filter.h"
+
+#include "bake/jobs/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kRun = 1024;
+constexpr int kPoolPasses = 4;
+
+// body(i) for every texel, in parallel.
+template <class Body>
+void each_texel(Context& context, std::size_t count, const Body& body) {
+  (void)parallel_for(context, "", (count + kRun - 1) / kRun, [&](std::size_t run) {
+    for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) body(i);
+  });
+}
+
+double total(const Texels& texels, const std::vector<Vec3>& values) {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    sum += double{texels.area_m2[i]} * (double{values[i].r} + values[i].g + values[i].b);
+  return sum;
+}
+
+// Conductances of the graph's edges, symmetric, in the order of TexelGraph::of().
+using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
+
+// How alike two texels are, given the variance of their difference; worst channel decides.
+float likeness(const Vec3& a, const Vec3& b, const Vec3& va, const Vec3& vb, float strength) {
+  const Vec3 d = a - b, s = (va + vb) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
+  return std::exp(-0.5f * max_component(d * d / s));
+}
+
+Conductance conductances(const Texels& texels, const TexelGraph& graph, const std::vector<Vec3>& guide,
+                         const std::vector<Vec3>& variance, float strength, Context& context) {
+  Conductance c(texels.count());
+  each_texel(context, texels.count(), [&](std::size_t i) {
+    const auto own = graph.of(i);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::uint32_t j = own[k];
+      const float area = std::min(texels.area_m2[i], texels.area_m2[j]);
+      c[i][k] = area / (kMaxNeighbours + 1) * likeness(guide[i], guide[j], variance[i], variance[j], strength);
+    }
+  });
+  return c;
+}
+
+std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const Conductance& conductance,
+                          std::vector<Vec3> values, int passes, Context& context) {
+  std::vector<Vec3> next(values.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    each_texel(context, values.size(), [&](std::size_t i) {
+      Vec3 gain(0);
+      const auto own = graph.of(i);
+      for (std::size_t k = 0; k < own.size(); ++k) gain += conductance[i][k] * (values[own[k]] - values[i]);
+      next[i] = values[i] + (texels.area_m2[i] > 0 ? gain / texels.area_m2[i] : Vec3(0));
+    });
+    values.swap(next);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context) {
+  std::vector<Vec3> next(values.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    each_texel(context, values.size(), [&](std::size_t i) {
+      Vec3 sum = values[i];
+      for (const std::uint32_t j : graph.of(i)) sum += values[j];
+      next[i] = sum / static_cast<float>(1 + graph.count[i]);
+    });
+    values.swap(next);
+  }
+  return values;
+}
+
+Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
+                Context& context) {
+  const std::size_t n = texels.count();
+  std::vector<Vec3> half[kHalves], noise(n), mean(n);
+  for (auto& h : half) h.resize(n);
+  each_texel(context, n, [&](std::size_t i) {
+    for (int h = 0; h < kHalves; ++h) half[h][i] = sums.half(h, i);
+    const Vec3 d = half[0][i] - half[1][i];
+    mean[i] = 0.5f * (half[0][i] + half[1][i]);
+    noise[i] = 0.5f * d * d;  // variance of one half
+  });
+  noise = pooled(graph, std::move(noise), kPoolPasses, context);
+
+  Estimate result;
+  if (options.strength <= 0 || options.passes <= 0) {
+    result.value = mean;
+    result.variance = noise;
+    for (Vec3& v : result.variance) v *= 0.5f;
+    return result;
+  }
+  // The guide is itself smoothed a little, so that its noise does not choose whom to join.
+  std::vector<Vec3> guide = pooled(graph, mean, 1, context), guide_variance = noise;
+  for (Vec3& v : guide_variance) v *= 0.5f / 3;
+  const Conductance c = conductances(texels, graph, guide, guide_variance, options.strength, context);
+  std::vector<Vec3> smooth[kHalves];
+  for (int h = 0; h < kHalves; ++h) smooth[h] = diffuse(texels, graph, c, half[h], options.passes, context);
+
+  result.value.resize(n), result.variance.resize(n);
+  std::vector<Vec3> of_one(n), of_both(n);
+  each_texel(context, n, [&](std::size_t i) {
+    result.value[i] = 0.5f * (smooth[0][i] + smooth[1][i]);
+    for (int h = 0; h < kHalves; ++h) {
+      const Vec3 d = smooth[h][i] - half[1 - h][i];
+      of_one[i] += 0.5f * d * d;
+    }
+    const Vec3 d = smooth[0][i] - smooth[1][i];
+    of_both[i] = 0.25f * d * d;  // noise of the mean of both
+  });
+  of_one = pooled(graph, std::move(of_one), kPoolPasses, context);
+  of_both = pooled(graph, std::move(of_both), kPoolPasses, context);
+  each_texel(context, n, [&](std::size_t i) {
+    // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
+    const Vec3 error = of_one[i] - noise[i];
+    result.variance[i] = glm::max(error - of_both[i], of_both[i]);
+  });
+  const double before = total(texels, mean), after = total(texels, result.value);
+  result.energy_drift = before > 0 ? after / before - 1 : 0;
+  return result;
+}
+
+}  // namespace oriel

@@ -1,0 +1,27 @@
+// Smoothing of gathered light over neighbouring texels, and what is known of its error.
+#pragma once
+
+#include "bake/radiosity/cached/gather.h"
+#include "bake/radiosity/cached/neighbours.h"
+#include "bake/radiosity/radiosity.h"
+
+namespace oriel {
+
+// Light per texel with its error, lux.
+struct Estimate {
+  std::vector<Vec3> value;
+  std::vector<Vec3> variance;  // squared error to be expected: noise, and bias of the filter as far as it shows
+  double energy_drift = 0;     // relative change of Σ area * value by the filter
+};
+
+// A conservative diffusion over the graph: what one texel gains its neighbour loses, so no energy drifts. Conductance
+// between two texels falls with the difference of their light over its noise (variance-guided, Rousselle et al. 2012).
+// The error is measured, not modelled: each half is filtered alone and compared with the other, unfiltered
+// (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
+Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
+                Context& context);
+
+// The mean of a quantity over each texel's surroundings, `passes` wide.
+std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context);
+
+}  // namespace oriel

@@ -1,0 +1,27 @@
+// The final gather: cosine-distributed rays from every texel into the cached light.
+#pragma once
+
+#include "bake/radiosity/cached/directions.h"
+#include "bake/radiosity/cached/surroundings.h"
+
+namespace oriel {
+
+// Both halves of an estimate, by texel: sums over the samples taken so far.
+struct HalfSums {
+  std::array<std::vector<Vec3>, kHalves> sum;  // lux * samples
+  std::vector<std::uint32_t> samples;          // of each half
+
+  explicit HalfSums(std::size_t texels) : samples(texels) {
+    for (auto& s : sum) s.resize(texels);
+  }
+  Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }
+  Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
+};
+
+// Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. outgoing: irradiance by
+// texel that rays find, lux. Error kStopped.
+Status gather(const Texels& texels, const Surroundings& around, const DirectionSets& sets,
+              std::span<const std::uint32_t> list, std::uint32_t per_half, std::span<const Vec3> irradiance,
+              Context& context, HalfSums& sums, std::atomic<std::uint64_t>& rays);
+
+}  // namespace oriel

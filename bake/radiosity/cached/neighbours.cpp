@@ -1,0 +1,169 @@
+#include "bake/radiosity/cached/neighbours.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "bake/jobs/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kSameNormal = 0.9f;  // cosine
+constexpr float kSamePlane = 0.25f;  // of the distance
+constexpr float kReach = 1.6f;       // texels: a diagonal and a little
+constexpr float kLift = 0.1f;        // texels above the surface at which neighbours must see each other
+
+struct Candidate {
+  std::uint32_t a, b;  // a < b
+};
+
+class Finder {
+ public:
+  Finder(const Transport& t, const Texels& texels) : t_(t), texels_(texels) {
+    position_.resize(texels.count());
+    size_.resize(texels.count());
+    for (std::size_t i = 0; i < texels.count(); ++i) {
+      Vec3 sum(0);
+      for (const TexelSite& site : texels.site[i]) sum += site.origin;
+      position_[i] = sum / static_cast<float>(kSites);
+      size_[i] = std::sqrt(texels.area_m2[i]);
+    }
+    // Partly covered texels are smaller than the grid: neighbours stand a whole texel apart.
+    std::vector<float> of_chart;
+    for (std::size_t i = 0; i < texels.count(); ++i) {
+      if (of_chart.size() <= texels.chart[i]) of_chart.resize(texels.chart[i] + 1, 0.0f);
+      of_chart[texels.chart[i]] = std::max(of_chart[texels.chart[i]], size_[i]);
+    }
+    for (std::size_t i = 0; i < texels.count(); ++i) size_[i] = of_chart[texels.chart[i]];
+    fill_cells();
+  }
+
+  // Pairs that begin at texel a, nearest first.
+  std::vector<Candidate> candidates(std::uint32_t a) const {
+    std::vector<std::pair<float, std::uint32_t>> found;
+    if (texels_.visible[a] == 0) return {};
+    int on_page = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (dx == 0 && dy == 0) continue;
+        const std::uint32_t b =
+            texels_.at(texels_.page[a], static_cast<int>(texels_.x[a]) + dx, static_cast<int>(texels_.y[a]) + dy);
+        if (b == kNoTexel || texels_.chart[b] != texels_.chart[a] || !continues(a, b)) continue;
+        ++on_page;
+        found.emplace_back(distance2(a, b), b);
+      }
+    if (on_page < kMaxNeighbours) add_from_world(a, found);
+    std::sort(found.begin(), found.end());
+    if (found.size() > kMaxNeighbours) found.resize(kMaxNeighbours);
+    std::vector<Candidate> pairs;
+    for (const auto& [d, b] : found) pairs.push_back({a, b});
+    return pairs;
+  }
+
+  // A segment just above the surface, to be found free.
+  Ray bridge(const Candidate& c) const {
+    const Vec3 from = lifted(c.a), to = lifted(c.b);
+    const float length = std::sqrt(length2(to - from));
+    return {from, length > 0 ? (to - from) / length : Vec3(0, 0, 1), length};
+  }
+
+ private:
+  const Vec3& normal(std::uint32_t i) const { return texels_.site[i][0].geometric_normal; }
+  Vec3 lifted(std::uint32_t i) const { return position_[i] + normal(i) * (kLift * size_[i]); }
+  float distance2(std::uint32_t a, std::uint32_t b) const { return length2(position_[b] - position_[a]); }
+
+  bool continues(std::uint32_t a, std::uint32_t b) const {
+    if (texels_.visible[b] == 0 || glm::dot(normal(a), normal(b)) < kSameNormal) return false;
+    const Vec3 between = position_[b] - position_[a];
+    const float reach = kReach * std::max(size_[a], size_[b]), d2 = length2(between);
+    if (d2 > reach * reach) return false;
+    const float off = std::max(std::abs(glm::dot(between, normal(a))), std::abs(glm::dot(between, normal(b))));
+    return off <= kSamePlane * std::max(std::sqrt(d2), 0.2f * reach);
+  }
+
+  void add_from_world(std::uint32_t a, std::vector<std::pair<float, std::uint32_t>>& found) const {
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const auto cell = cells_.find(cell_of(position_[a], dx, dy, dz));
+          if (cell == cells_.end()) continue;
+          for (const std::uint32_t b : cell->second)
+            if (b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
+              found.emplace_back(distance2(a, b), b);
+        }
+  }
+
+  // Only texels at the rim of their chart can have neighbours elsewhere.
+  bool at_rim(std::uint32_t i) const {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::uint32_t b =
+            texels_.at(texels_.page[i], static_cast<int>(texels_.x[i]) + dx, static_cast<int>(texels_.y[i]) + dy);
+        if (b == kNoTexel || texels_.chart[b] != texels_.chart[i]) return true;
+      }
+    return false;
+  }
+
+  void fill_cells() {
+    float largest = 0;
+    for (const float s : size_) largest = std::max(largest, s);
+    cell_ = std::max(kReach * largest, 1e-20f);
+    for (std::uint32_t i = 0; i < texels_.count(); ++i)
+      if (texels_.visible[i] > 0 && at_rim(i)) cells_[cell_of(position_[i], 0, 0, 0)].push_back(i);
+  }
+  std::uint64_t cell_of(const Vec3& p, int dx, int dy, int dz) const {
+    const auto index = [&](float v, int d) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v / cell_)) + d) & 0x1FFFFF;
+    };
+    return index(p.x, dx) << 42 | index(p.y, dy) << 21 | index(p.z, dz);
+  }
+
+  const Transport& t_;
+  const Texels& texels_;
+  std::vector<Vec3> position_;
+  std::vector<float> size_;  // side of a texel of its chart, metres
+  float cell_ = 1;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {
+  const auto own = graph.of(a);
+  if (std::find(own.begin(), own.end(), b) != own.end()) return;
+  if (graph.count[a] == kMaxNeighbours || graph.count[b] == kMaxNeighbours) return;
+  graph.neighbour[a][graph.count[a]++] = b;
+  graph.neighbour[b][graph.count[b]++] = a;
+}
+
+}  // namespace
+
+Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, Context& context,
+                                   std::atomic<std::uint64_t>& rays) {
+  constexpr std::size_t kRun = 256;
+  const Finder finder(transport, texels);
+  const std::size_t runs = (texels.count() + kRun - 1) / kRun;
+  std::vector<std::vector<Candidate>> free(runs);
+  ORIEL_TRY_VOID(parallel_for(context, "", runs, [&](std::size_t run) {
+    std::vector<Candidate> pairs;
+    for (std::size_t i = run * kRun; i < std::min(texels.count(), (run + 1) * kRun); ++i)
+      for (const Candidate& c : finder.candidates(static_cast<std::uint32_t>(i)))
+        if (c.a < c.b || texels.chart[c.a] != texels.chart[c.b]) pairs.push_back(c);
+    std::vector<Ray> bridges;
+    for (const Candidate& c : pairs) bridges.push_back(finder.bridge(c));
+    std::vector<Vec3> passed(pairs.size());
+    transport.accel.transmittance(bridges, passed);
+    rays += bridges.size();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (max_component(passed[i]) > 0) free[run].push_back(pairs[i]);
+  }));
+  TexelGraph graph;
+  graph.neighbour.resize(texels.count());
+  graph.count.assign(texels.count(), 0);
+  // On the page first: pairs across charts take the places that are left.
+  for (const bool across : {false, true})
+    for (const auto& pairs : free)
+      for (const Candidate& c : pairs)
+        if ((texels.chart[c.a] != texels.chart[c.b]) == across) link(graph, c.a, c.b);
+  return graph;
+}
+
+}  // namespace oriel

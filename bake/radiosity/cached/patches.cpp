@@ -1,0 +1,196 @@
+#include "bake/radiosity/cached/patches.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "bake/jobs/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kSide = 4;  // texels
+constexpr std::size_t kGroup = 16;  // patches whose rays of one number are traced together
+constexpr int kMaxSweeps = 20000;
+
+struct PatchLink {
+  std::uint32_t texel;
+  Vec3 weight;
+};
+
+struct Patch {
+  std::vector<std::uint32_t> texels;  // those that see light
+  std::vector<PatchLink> links;       // weights divided by the number of rays
+  Vec3 source{0};                     // irradiance found that no texel holds, lux
+  double area_m2 = 0;
+};
+
+std::uint64_t block_key(const Texels& t, std::size_t i) {
+  return mix64(std::uint64_t{t.page[i]} << 48 ^ std::uint64_t{t.chart[i]} << 24) ^
+         (std::uint64_t{t.y[i] / kSide} << 32 | t.x[i] / kSide);
+}
+
+class Solver {
+ public:
+  Solver(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct, const SweepOptions& options)
+      : texels_(texels), around_(around), direct_(direct), options_(options) {
+    patch_of_.assign(texels.count(), ~0u);
+    for (const std::uint32_t i : coherent_order(texels)) {
+      if (texels.visible[i] == 0) continue;
+      const auto [at, added] = number_.try_emplace(block_key(texels, i), static_cast<std::uint32_t>(patches_.size()));
+      if (added) patches_.emplace_back();
+      patches_[at->second].texels.push_back(i);
+      patches_[at->second].area_m2 += texels.area_m2[i];
+      patch_of_[i] = at->second;
+    }
+  }
+
+  Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
+    const DirectionSets sets(seed, options_.rays_per_patch);
+    return parallel_for(context, "", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
+      const std::size_t first = g * kGroup, end = std::min(patches_.size(), first + kGroup);
+      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, sets);
+      for (std::size_t p = first; p < end; ++p) patches_[p].links.shrink_to_fit();
+    });
+  }
+
+  Status solve(Context& context, Sweeps& result);
+
+  void interpolate(Context& context, Sweeps& result);
+
+ private:
+  std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, const DirectionSets& sets) {
+    std::vector<Ray> batch;
+    std::vector<GatherRay> about(end - first);
+    for (std::size_t p = first; p < end; ++p) {
+      const auto& own = patches_[p].texels;
+      const std::uint32_t t = own[(k / kSites) % own.size()];
+      // Patches stand side by side as texels do: the same pattern of sets.
+      const std::uint32_t set =
+          DirectionSets::set_of(texels_.page[t], texels_.x[own[0]] / kSide, texels_.y[own[0]] / kSide);
+      GatherRay& ray = about[p - first];
+      batch.push_back(gather_ray(texels_.site[t][k % kSites], sets.local(set, 0, k), ray.incidence));
+      ray.stream = ~std::uint64_t{p};
+      ray.sample = k;
+    }
+    Answers answers;
+    around_.answer(batch, about, answers);
+    const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
+    for (const Link& link : answers.links)
+      patches_[first + link.ray].links.push_back({link.texel, link.weight * share});
+    for (std::size_t i = 0; i < batch.size(); ++i) patches_[first + i].source += answers.light[i] * (kPi * share);
+    return batch.size() + answers.rays;
+  }
+
+  // Adds what one sweep finds to `next`; returns the norm of the change.
+  double sweep_once(Context& context, const std::vector<Vec3>& now, std::vector<Vec3>& next);
+  Error no_end(const std::vector<Vec3>& now) const;
+
+  const Texels& texels_;
+  const Surroundings& around_;
+  std::span<const Vec3> direct_;
+  SweepOptions options_;
+  std::unordered_map<std::uint64_t, std::uint32_t> number_;  // of a patch, by block
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> patch_of_;  // by texel
+  std::vector<Vec3> solution_;           // by patch
+};
+
+double Solver::sweep_once(Context& context, const std::vector<Vec3>& now, std::vector<Vec3>& next) {
+  constexpr std::size_t kRun = 256;
+  std::vector<double> change((patches_.size() + kRun - 1) / kRun);
+  (void)parallel_for(context, "", change.size(), [&](std::size_t run) {
+    for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
+      Vec3 sum = patches_[p].source;
+      for (const PatchLink& link : patches_[p].links) {
+        const std::uint32_t other = patch_of_[link.texel];
+        sum += link.weight * (direct_[link.texel] + (other != ~0u ? now[other] : Vec3(0)));
+      }
+      next[p] = sum;
+      const Vec3 d = glm::abs(sum - now[p]);
+      change[run] += patches_[p].area_m2 * (d.r + d.g + d.b);
+    }
+  });
+  double total = 0;
+  for (const double c : change) total += c;
+  return total;
+}
+
+Error Solver::no_end(const std::vector<Vec3>& now) const {
+  DVec3 incident(0), absorbed(0);
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    for (const std::uint32_t t : patches_[p].texels) {
+      const DVec3 flux = DVec3(direct_[t] + now[p]) * static_cast<double>(texels_.area_m2[t]);
+      incident += flux;
+      absorbed += flux * (DVec3(1) - DVec3(texels_.albedo[t]));
+    }
+  return {ErrorCode::kInvalid,
+          fmt::format("the light does not die away: after {} bounces {:.4g} lm fall on the surfaces and {:.4g} lm of "
+                      "them are absorbed. Expected a scene that absorbs or lets out some light: lower an albedo of 1",
+                      kMaxSweeps, incident.g, absorbed.g),
+          "radiosity"};
+}
+
+Status Solver::solve(Context& context, Sweeps& result) {
+  std::vector<Vec3> next(patches_.size());
+  solution_.assign(patches_.size(), Vec3(0));
+  double before = 0;
+  for (result.count = 1;; ++result.count) {
+    const double change = sweep_once(context, solution_, next);
+    solution_.swap(next);
+    if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+    double scale = 0;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      scale += patches_[p].area_m2 * (solution_[p].r + solution_[p].g + solution_[p].b);
+    if (!(change > 0) || !(scale > 0)) break;
+    // A geometric tail, from the ratio of the last two changes; the first sweep only has its own size to go by.
+    const double q = before > 0 ? change / before : 1;
+    result.tail = q < 1 ? change / scale * q / (1 - q) : change / scale;
+    before = change;
+    if (q < 1 && result.tail < options_.tolerance) break;
+    if (result.count >= kMaxSweeps) return tl::unexpected(no_end(solution_));
+  }
+  return {};
+}
+
+// Bilinear between the patches of a chart, by the texels' place among their blocks.
+void Solver::interpolate(Context& context, Sweeps& result) {
+  constexpr std::size_t kRun = 1024;
+  result.gathered.assign(texels_.count(), Vec3(0));
+  (void)parallel_for(context, "", (texels_.count() + kRun - 1) / kRun, [&](std::size_t run) {
+    for (std::size_t i = run * kRun; i < std::min(texels_.count(), (run + 1) * kRun); ++i) {
+      if (patch_of_[i] == ~0u) continue;
+      const std::uint64_t chart =
+          block_key(texels_, i) ^ (std::uint64_t{texels_.y[i] / kSide} << 32 | texels_.x[i] / kSide);
+      const float fx = (static_cast<float>(texels_.x[i]) + 0.5f) / kSide - 0.5f;
+      const float fy = (static_cast<float>(texels_.y[i]) + 0.5f) / kSide - 0.5f;
+      const float bx = std::floor(fx), by = std::floor(fy);
+      Vec3 sum(0);
+      float weights = 0;
+      for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+          const float cx = bx + static_cast<float>(dx), cy = by + static_cast<float>(dy);
+          if (cx < 0 || cy < 0) continue;
+          const auto at = number_.find(chart ^ (static_cast<std::uint64_t>(cy) << 32 | static_cast<std::uint64_t>(cx)));
+          if (at == number_.end()) continue;
+          const float w = (1 - std::abs(fx - cx)) * (1 - std::abs(fy - cy));
+          sum += w * solution_[at->second];
+          weights += w;
+        }
+      result.gathered[i] = weights > 0 ? sum / weights : solution_[patch_of_[i]];
+    }
+  });
+}
+
+}  // namespace
+
+Result<Sweeps> sweep(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct,
+                     const SweepOptions& options, Context& context, std::atomic<std::uint64_t>& rays) {
+  Sweeps result;
+  Solver solver(texels, around, direct, options);
+  ORIEL_TRY_VOID(solver.trace(context, context.seed + 0xb0, rays));
+  ORIEL_TRY_VOID(solver.solve(context, result));
+  solver.interpolate(context, result);
+  return result;
+}
+
+}  // namespace oriel

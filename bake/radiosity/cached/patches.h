@@ -1,0 +1,28 @@
+// Bounces: a coarser radiosity problem over patches of 4 × 4 texels, whose answer the final gather refines.
+#pragma once
+
+#include "bake/radiosity/cached/directions.h"
+#include "bake/radiosity/cached/surroundings.h"
+
+namespace oriel {
+
+struct SweepOptions {
+  std::uint32_t rays_per_patch = 256;
+  double tolerance = 1e-3;  // of the mean: bound on what further sweeps could add
+};
+
+struct Sweeps {
+  std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
+  int count = 0;
+  double tail = 0;  // the bound reached: what all further sweeps together add at most, relative to the mean
+  std::size_t patches = 0;
+};
+
+// direct: irradiance by texel that gather rays do not find (closed forms), lux. Each patch traces its rays once; then
+// Jacobi sweeps run over what they found, until the geometric bound on the rest, |ΔB| q/(1 - q) with q the ratio of
+// successive changes, is below tolerance. Errors: kStopped; kInvalid where the light does not die away (a closed scene
+// that absorbs nothing), with the energy balance.
+Result<Sweeps> sweep(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct,
+                     const SweepOptions& options, Context& context, std::atomic<std::uint64_t>& rays);
+
+}  // namespace oriel

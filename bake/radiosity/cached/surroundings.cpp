@@ -1,0 +1,60 @@
+#include "bake/radiosity/cached/surroundings.h"
+
+namespace oriel {
+namespace {
+
+// Reflects diffusely and nothing else, lets no light through.
+bool is_matt(const SceneMaterial& m) {
+  return !m.unlit && m.alpha_mode == AlphaMode::kOpaque && m.transmission == 0 && m.metallic == 0 && m.specular == 0;
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const Transport& transport, const Texels& texels, bool closed_form, std::uint64_t seed)
+    : t_(transport), texels_(texels), closed_form_(closed_form), seed_(seed) {
+  const Scene& scene = transport.accel.scene();
+  faces_.resize(scene.triangles.size());
+  for (std::uint32_t t = 0; t < faces_.size(); ++t) {
+    const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[t]].material];
+    const bool emits = max_component(material.emission) > 0;
+    faces_[t] = {is_matt(material) && (closed_form || !emits) ? Kind::kMatt : Kind::kOther, material.double_sided};
+  }
+}
+
+void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> about, Answers& answers) const {
+  answers.hits.resize(rays.size());
+  answers.light.assign(rays.size(), Vec3(0));
+  answers.links.clear();
+  answers.rays = 0;
+  t_.accel.intersect(rays, answers.hits);
+  const Vec3 sky = t_.accel.scene().sky;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    const Hit& hit = answers.hits[i];
+    if (!hit) {
+      answers.light[i] = sky;
+      continue;
+    }
+    const Face face = faces_[hit.triangle];
+    if (!hit.front && !face.double_sided) continue;
+    if (face.kind == Kind::kOther) {
+      follow(rays[i], about[i], hit, i, answers);
+      continue;
+    }
+    const std::uint32_t texel = texels_.find(hit.triangle, hit.barycentric);
+    if (texel != kNoTexel) answers.links.push_back({i, texel, texels_.albedo[texel]});
+  }
+}
+
+void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number,
+                          Answers& answers) const {
+  Sampler sampler(seed_, about.stream, about.sample);
+  const auto on_diffuse = [&](const DiffuseVertex& v) {
+    const std::uint32_t texel = texels_.find(v.triangle, v.barycentric);
+    if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
+  };
+  const float pdf = closed_form_ ? 0 : about.incidence / kPi;
+  const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
+  answers.light[number] = light.scattered + light.sky + (closed_form_ ? Vec3(0) : light.emitted);
+}
+
+}  // namespace oriel

@@ -1,0 +1,56 @@
+// What gather rays find: cached texels, and light that no texel holds.
+#pragma once
+
+#include "bake/radiosity/cached/texels.h"
+
+namespace oriel {
+
+// What a gather ray is asked beside its direction.
+struct GatherRay {
+  float incidence = 0;       // of its direction: π times its density
+  std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
+  std::uint32_t sample = 0;
+};
+
+// The light along a ray: light + Σ weight * irradiance(texel) / π over its links.
+struct Link {
+  std::uint32_t ray = 0;  // of the batch
+  std::uint32_t texel = 0;
+  Vec3 weight{0};
+};
+struct Answers {
+  std::vector<Hit> hits;
+  std::vector<Link> links;  // in order of rays
+  std::vector<Vec3> light;  // by ray: sky, emitters behind mirrors, and emitters that closed forms do not hold
+  std::uint64_t rays = 0;   // traced, beyond the batch itself
+};
+
+class Surroundings {
+ public:
+  // closed_form: emitters met directly are left out, their irradiance is known (PolygonLight). Else they count,
+  // weighted against light sampling (balance heuristic).
+  Surroundings(const Transport& transport, const Texels& texels, bool closed_form, std::uint64_t seed);
+
+  // Answers a batch; what Answers held is dropped.
+  void answer(std::span<const Ray> rays, std::span<const GatherRay> about, Answers& answers) const;
+
+  bool closed_form() const { return closed_form_; }
+  const Transport& transport() const { return t_; }
+
+ private:
+  // Behind a surface that is more than a matt wall.
+  void follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number, Answers& answers) const;
+
+  enum class Kind : char { kMatt, kOther };
+  const Transport& t_;
+  const Texels& texels_;
+  bool closed_form_;
+  std::uint64_t seed_;
+  struct Face {  // by triangle: what deciding about a hit needs, in one place
+    Kind kind = Kind::kOther;
+    bool double_sided = false;
+  };
+  std::vector<Face> faces_;
+};
+
+}  // namespace oriel

@@ -1,0 +1,160 @@
+#include "bake/radiosity/cached/texels.h"
+
+#include <algorithm>
+
+#include "bake/jobs/parallel.h"
+#include "bake/trace/buried.h"
+#include "bake/radiosity/sides.h"
+#include "bake/scene/shade.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kRun = 256;          // texels a task
+constexpr std::uint32_t kManyPoints = 64;  // tried where a texel is partly buried
+
+class SiteFinder {
+ public:
+  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const std::vector<char>& back,
+             std::uint64_t seed)
+      : t_(t), atlas_(atlas), maps_(maps), back_(back), seed_(seed) {}
+
+  void find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
+    const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
+    Vec3 albedo(0);
+    int buried = 0;
+    for (int k = 0; k < kSites; ++k) {
+      const Candidate c = candidate(texels, i, k / kSitesPerHalf, static_cast<std::uint32_t>(k % kSitesPerHalf));
+      texels.site[i][k] = site_of(c.surface);
+      albedo += c.albedo;
+      buried += is_buried(t_, c.surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
+    }
+    texels.albedo[i] = albedo / static_cast<float>(kSites);
+    texels.visible[i] = 1;
+    if (buried > 0) find_unburied(texels, i, stream, rays);
+  }
+
+  // Again, with more points: their share, and kSites of those that are left.
+  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
+    int found[kHalves] = {0, 0};
+    Vec3 albedo(0);
+    for (std::uint32_t k = 0; k < kManyPoints; ++k) {
+      const int half = static_cast<int>(k % kHalves);
+      const Candidate c = candidate(texels, i, half, k / kHalves);
+      if (is_buried(t_, c.surface, seed_, stream, kSites + k, rays)) continue;
+      albedo += c.albedo;
+      texels.site[i][half * kSitesPerHalf + found[half]++ % kSitesPerHalf] = site_of(c.surface);
+    }
+    const int total = found[0] + found[1];
+    // A handful of points that escaped the probes do not make a texel visible.
+    texels.visible[i] = total * 16 < static_cast<int>(kManyPoints) || std::min(found[0], found[1]) < kSitesPerHalf
+                            ? 0.0f
+                            : static_cast<float>(total) / kManyPoints;
+    if (total > 0) texels.albedo[i] = albedo / static_cast<float>(total);
+  }
+
+ private:
+  struct Candidate {
+    SurfacePoint surface;
+    Vec3 albedo;
+  };
+
+  Candidate candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
+    const TexelMapPage& map = maps_[texels.page[i]];
+    const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | map.texel[texels.index[i]];
+    Sampler sampler(seed_ + static_cast<std::uint64_t>(half), stream, k);
+    const Vec2 uv = sampler.next2();
+    const TexelPoint point = sample_texel(atlas_, map, texels.index[i], Vec3(uv, sampler.next1()));
+    const Scene& scene = t_.accel.scene();
+    return {point_on_side(scene, point, back_[atlas_.chart[point.triangle]]),
+            shade_point(scene, point.triangle, point.barycentric).diffuse};
+  }
+
+  static TexelSite site_of(const SurfacePoint& s) {
+    return {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
+  }
+
+  const Transport& t_;
+  const Atlas& atlas_;
+  std::span<const TexelMapPage> maps_;
+  const std::vector<char>& back_;
+  std::uint64_t seed_;
+};
+
+void place_triangles(const Atlas& atlas, Texels& texels) {
+  texels.placement.resize(atlas.page.size());
+  for (std::uint32_t t = 0; t < atlas.page.size(); ++t) {
+    if (atlas.page[t] < 0) continue;
+    const auto corners = texel_triangle(atlas, t);
+    texels.placement[t] = {Vec2(corners[0]), Vec2(corners[1] - corners[0]), Vec2(corners[2] - corners[0]),
+                           atlas.page[t]};
+  }
+}
+
+}  // namespace
+
+std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
+  const Page& p = pages[page_number];
+  if (px < 0 || py < 0 || px >= static_cast<int>(p.width) || py >= static_cast<int>(p.height)) return kNoTexel;
+  return p.number[static_cast<std::size_t>(py) * p.width + static_cast<std::size_t>(px)];
+}
+
+std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
+  const Placement& place = placement[triangle];
+  if (place.page < 0) return kNoTexel;
+  const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
+  const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
+  const auto page_number = static_cast<std::uint32_t>(place.page);
+  if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) return texel;
+  // Rounding may put a point on a border just beyond the texels that the border covers.
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+    if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return texel;
+  return kNoTexel;
+}
+
+double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
+  double area = 0;
+  for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f) {
+    const TexelFragment& fragment = map.fragments[f];
+    const auto& uv = atlas.uv[fragment.triangle];
+    const DVec2 size(map.width, map.height);
+    const DVec2 a = DVec2(uv[1] - uv[0]) * size, b = DVec2(uv[2] - uv[0]) * size;
+    const double texels = 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    if (texels > 0) area += std::min(1.0, fragment.area / texels) * triangle_area(scene, fragment.triangle);
+  }
+  return area;
+}
+
+Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays) {
+  Texels texels;
+  for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
+    const TexelMapPage& map = texel_map[p];
+    texels.pages.push_back(
+        {map.width, map.height, std::vector<std::uint32_t>(std::size_t{map.width} * map.height, kNoTexel)});
+    for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
+      texels.pages[p].number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
+      texels.page.push_back(p);
+      texels.index.push_back(i);
+      texels.x.push_back(map.texel[i] % map.width);
+      texels.y.push_back(map.texel[i] / map.width);
+      texels.chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
+    }
+  }
+  const std::size_t n = texels.count();
+  texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
+  place_triangles(atlas, texels);
+  const SiteFinder finder(t, atlas, texel_map, back, context.seed);
+  ORIEL_TRY_VOID(parallel_for(context, "", (n + kRun - 1) / kRun, [&](std::size_t run) {
+    std::uint64_t traced = 0;
+    for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
+      finder.find(texels, i, traced);
+      texels.area_m2[i] =
+          static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
+    }
+    rays += traced;
+  }));
+  return texels;
+}
+
+}  // namespace oriel

@@ -1,0 +1,64 @@
+// The covered texels of all pages as one list: where light is gathered, and what a ray that hits them finds.
+#pragma once
+
+#include <limits>
+
+#include "bake/atlas/texel_map.h"
+#include "bake/direct/polygon_light.h"
+#include "bake/trace/path.h"
+
+namespace oriel {
+
+inline constexpr std::uint32_t kNoTexel = std::numeric_limits<std::uint32_t>::max();
+
+// A point of a texel: where rays leave it (already moved off the surface), and its normals.
+struct TexelSite {
+  Vec3 origin{0};
+  Vec3 normal{0, 0, 1};            // shading normal
+  Vec3 geometric_normal{0, 0, 1};  // of the real surface
+
+  Receiver receiver() const { return {origin, normal, geometric_normal}; }
+};
+
+// Two halves of every texel's estimate share nothing, neither points nor directions: their difference tells the error.
+inline constexpr int kHalves = 2;
+inline constexpr int kSitesPerHalf = 2;
+inline constexpr int kSites = kHalves * kSitesPerHalf;
+
+struct Texels {
+  // By texel.
+  std::vector<std::uint32_t> page, index;           // into the texel map: page, and TexelMapPage::texel[index]
+  std::vector<std::uint32_t> x, y;                  // on the page
+  std::vector<std::uint32_t> chart;                 // of Atlas
+  std::vector<std::array<TexelSite, kSites>> site;  // [half * kSitesPerHalf + k]; not buried, stratified over the texel
+  std::vector<float> visible;                       // share of the texel that is not inside other geometry; 0: no site
+  std::vector<float> area_m2;
+  std::vector<Vec3> albedo;  // diffuse, mean over the texel
+
+  std::size_t count() const { return page.size(); }
+
+  // The texel under a point of a triangle; kNoTexel where it takes no lightmap.
+  std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const;
+  // The texel at a place of a page; kNoTexel where none is.
+  std::uint32_t at(std::uint32_t page_number, int px, int py) const;
+
+  struct Page {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint32_t> number;  // by y * width + x
+  };
+  std::vector<Page> pages;
+  struct Placement {  // of a triangle on its page, in texels
+    Vec2 corner{0}, edge1{0}, edge2{0};
+    std::int32_t page = -1;
+  };
+  std::vector<Placement> placement;
+};
+
+// Which side of a chart is baked: by chart, 1 for the back (sides.h).
+Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays);
+
+// Area of surface under a texel, m².
+double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);
+
+}  // namespace oriel
