@@ -10,6 +10,7 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, reflections, 256 paths a texel
   oriel-bake house.glb -o house.oriel --texel 5cm --samples 1024     finer and with half the noise
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
+  oriel-bake house.glb -o house.oriel --sky noon.exr --sky-scale 1000 --ies "lamp=downlight.ies"  measured light
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
 
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
@@ -150,7 +151,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_atlas_options(app, texts, args.bake);
   add_radiosity_options(app, texts);
-  add_light_options(app, shared);
+  add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);

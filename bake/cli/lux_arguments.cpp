@@ -36,7 +36,7 @@ CLI::App* add_lux(CLI::App& app, LuxTexts& texts, SharedTexts& shared, Arguments
                       "least 1024")
           ->check(CLI::Range(1u, 1u << 31))
           ->capture_default_str();
-  add_light_options(*lux, shared);
+  add_light_options(*lux, shared, args);
   add_run_options(*lux, shared, args);
   return lux;
 }

@@ -4,10 +4,30 @@
 
 namespace oriel {
 
-void add_light_options(CLI::App& app, SharedTexts& texts) {
-  app.add_option("--sky", texts.sky, "Radiance of a constant sky, cd/m²: one value, or R,G,B")
-      ->check(checked(parse_color, "L|R,G,B"))
+void add_light_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
+  app.add_option(
+         "--sky", texts.sky,
+         "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or "
+         ".exr whose centre is +X and whose right is +Z, as in Blender")
+      ->check(checked(parse_sky, "L|R,G,B|FILE"))
       ->capture_default_str();
+  app.add_option("--sky-scale", args.bake.import.sky_scale, "Radiance in cd/m² of a 1 in the sky's file")
+      ->check(CLI::Range(0.0f, 1e30f))
+      ->capture_default_str();
+  app.add_option("--sky-rotation", args.bake.import.sky_rotation_deg,
+                 "Turns the sky's file, counter-clockwise seen from above, degrees")
+      ->check(CLI::Range(-360.0f, 360.0f))
+      ->capture_default_str();
+  app.add_option("--sun-angle", args.bake.import.sun_angle_deg,
+                 "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as "
+                 "the file says (extras.oriel.angular_diameter_deg), which is a point")
+      ->check(CLI::Range(0.0f, 180.0f));
+  app.add_option(
+         "--ies", texts.ies,
+         "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity "
+         "and cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated")
+      ->check(checked(parse_ies_option, "NODE=FILE"))
+      ->take_all();
 }
 
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
@@ -25,7 +45,13 @@ void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
 }
 
 Status resolve_shared(const SharedTexts& texts, Arguments& args) {
-  ORIEL_TRY(args.bake.import.sky, parse_color(texts.sky));
+  ORIEL_TRY(SkyChoice sky, parse_sky(texts.sky));
+  args.bake.import.sky = sky.radiance;
+  args.bake.import.sky_file = std::move(sky.file);
+  for (const std::string& text : texts.ies) {
+    ORIEL_TRY(auto profile, parse_ies_option(text));
+    args.bake.import.ies.push_back(std::move(profile));
+  }
   args.style = texts.json_log            ? ProgressPrinter::Style::kJson
                : texts.quiet             ? ProgressPrinter::Style::kQuiet
                : ::isatty(STDERR_FILENO) ? ProgressPrinter::Style::kBar

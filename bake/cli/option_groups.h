@@ -21,11 +21,12 @@ CLI::Validator checked(Parser parse, const char* name) {
 // Values as typed, until resolve_shared() turns them into options.
 struct SharedTexts {
   std::string sky = "0";
+  std::vector<std::string> ies;
   bool quiet = false, json_log = false;
 };
 
 // Light that the scene file does not hold.
-void add_light_options(CLI::App& app, SharedTexts& texts);
+void add_light_options(CLI::App& app, SharedTexts& texts, Arguments& args);
 // Scene of the file, threads, seed, progress.
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args);
 Status resolve_shared(const SharedTexts& texts, Arguments& args);

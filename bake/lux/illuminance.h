@@ -11,7 +11,7 @@ struct LuxOptions {
   // Of luminance: standard error over (illuminance + 1 % of the mean over all points). 0: never stop before
   // max_samples.
   double relative_error = 0.01;
-  std::uint32_t max_samples = 1u << 22;  // paths a point; rounded up to a power of two, at least 1024
+  std::uint32_t max_samples = 1u << 22;  // paths a point; rounded down to a power of two, at least 1024
 };
 
 // Linear Rec. 709, lux.

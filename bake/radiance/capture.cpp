@@ -4,6 +4,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/reproject.h"
+#include "bake/scene/light/sky.h"
 #include "bake/trace/albedo.h"
 #include "formats/core/check.h"
 
@@ -52,7 +53,7 @@ class Capture {
       const Hit hit = accel_.intersect(ray);
       ++rays_;
       if (!hit) {
-        pixel.radiance += throughput * finite_or_zero(scene_.sky);
+        pixel.radiance += throughput * finite_or_zero(sky_radiance(scene_, direction));
         return pixel;
       }
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);

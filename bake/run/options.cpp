@@ -1,5 +1,7 @@
 #include "bake/run/options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -68,12 +70,39 @@ Result<Vec3> parse_color(const std::string& text) {
               "found '{}', expected one value or three with commas, none negative, such as 100 or 90,95,100", text);
 }
 
+Result<SkyChoice> parse_sky(const std::string& text) {
+  std::filesystem::path file(text);
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".hdr" || extension == ".exr") return SkyChoice{Vec3(0), std::move(file)};
+  const auto color = parse_color(text);
+  if (!color)
+    return fail(ErrorCode::kUsage, "",
+                "found '{}', expected a radiance such as 2000 or 1800,2000,2400, or a .hdr or .exr file", text);
+  return SkyChoice{*color, {}};
+}
+
+Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    return fail(ErrorCode::kUsage, "", "found '{}', expected NODE=FILE such as lamp=downlight.ies", text);
+  return std::pair{text.substr(0, equals), std::filesystem::path(text.substr(equals + 1))};
+}
+
 std::string options_json(const BakeOptions& o, std::uint64_t seed) {
+  nlohmann::ordered_json ies = nlohmann::ordered_json::object();
+  for (const auto& [node, file] : o.import.ies) ies[node] = file.filename().string();
   const nlohmann::ordered_json json = {
       {"seed", seed},
       {"reproducible", o.reproducible},
       {"scene_index", o.import.scene},
       {"sky_cd_m2", {o.import.sky.r, o.import.sky.g, o.import.sky.b}},
+      {"sky_file", o.import.sky_file.filename().string()},
+      {"sky_scale", o.import.sky_scale},
+      {"sky_rotation_deg", o.import.sky_rotation_deg},
+      {"sun_angle_deg", o.import.sun_angle_deg ? nlohmann::ordered_json(*o.import.sun_angle_deg) : nullptr},
+      {"ies", ies},
       {"atlas", o.atlas.source == AtlasOptions::Source::kUv1 ? "uv1" : "auto"},
       {"texel_m", o.atlas.texel_m},
       {"resolution", o.atlas.resolution},
@@ -95,7 +124,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"map_resolution", o.views.map_resolution},
       {"map_memory", o.views.memory_bytes},
   };
-  return json.dump();
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // names may hold any bytes
 }
 
 }  // namespace oriel

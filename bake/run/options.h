@@ -37,6 +37,14 @@ Result<std::uint64_t> parse_bytes(const std::string& text);
 Result<double> parse_fraction(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
 Result<Vec3> parse_color(const std::string& text);
+// What --sky takes, "0", "2000", "90,95,100" or "sky.exr", as ImportOptions::sky or ::sky_file. Error kUsage.
+struct SkyChoice {
+  Vec3 radiance{0};
+  std::filesystem::path file;
+};
+Result<SkyChoice> parse_sky(const std::string& text);
+// "lamp=profile.ies": the first = divides. Error kUsage.
+Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text);
 
 // The options that can change a pack's bytes, as JSON: for provenance. Threads and paths are not among them.
 std::string options_json(const BakeOptions& options, std::uint64_t seed);

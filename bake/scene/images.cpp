@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <array>
+#include <fstream>
 
 namespace oriel {
 namespace {
@@ -81,6 +82,13 @@ void spread(std::vector<std::uint8_t>& texels, std::size_t count, int channels) 
   }
 }
 
+Status check_size(const OIIO::ImageSpec& spec, const std::string& name) {
+  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
+      spec.height > static_cast<int>(kMaxImageSize))
+    return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
+  return {};
+}
+
 // An open reader and what it reads from.
 struct Reader {
   explicit Reader(Bytes&& source) : bytes(std::move(source)), memory(bytes.data(), bytes.size()) {}
@@ -110,12 +118,31 @@ Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std
   const OIIO::ImageSpec& spec = reader->spec;
   if (!reader->input->open(png ? "memory.png" : "memory.jpg", reader->spec, config))
     return invalid(name, "found a corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
-  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
-      spec.height > static_cast<int>(kMaxImageSize))
-    return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
+  ORIEL_TRY_VOID(check_size(spec, name));
   if (spec.nchannels < 1 || spec.nchannels > 4)
     return invalid(name, "found {} channels, expected 1 to 4", spec.nchannels);
   return reader;
+}
+
+// Not every reader of OpenImageIO reads from memory: this one opens the file itself.
+Result<std::unique_ptr<OIIO::ImageInput>> open_sky(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  char magic[4] = {};
+  std::ifstream(path, std::ios::binary).read(magic, sizeof(magic));
+  const std::string_view start(magic, sizeof(magic));
+  const bool exr = start == "\x76\x2f\x31\x01", hdr = start.starts_with("#?");
+  if (!exr && !hdr) {
+    if (!std::filesystem::is_regular_file(path)) return fail(ErrorCode::kIo, name, "cannot be read");
+    return invalid(name, "found {}, expected Radiance (.hdr) or OpenEXR",
+                   foreign_format(std::as_bytes(std::span(magic))));
+  }
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(exr ? "openexr" : "hdr");
+  if (!input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", exr ? "OpenEXR" : "Radiance");
+  OIIO::ImageSpec spec;
+  if (!input->open(name, spec))
+    return invalid(name, "found a corrupt {} file: {}", exr ? "OpenEXR" : "Radiance", input->geterror());
+  ORIEL_TRY_VOID(check_size(spec, name));
+  return input;
 }
 
 // OpenImageIO and what it calls may throw.
@@ -150,6 +177,38 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& 
     if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
       return invalid(name, "found a corrupt image: {}", reader->input->geterror());
     spread(image.texels, count, channels);
+    return image;
+  });
+}
+
+Result<ImageSize> sky_image_size(const std::filesystem::path& path) {
+  return guarded(path.string(), [&]() -> Result<ImageSize> {
+    ORIEL_TRY(const auto input, open_sky(path));
+    return ImageSize{static_cast<std::uint32_t>(input->spec().width), static_cast<std::uint32_t>(input->spec().height)};
+  });
+}
+
+Result<SkyImage> read_sky_image(const std::filesystem::path& path) {
+  return guarded(path.string(), [&]() -> Result<SkyImage> {
+    ORIEL_TRY(const auto input, open_sky(path));
+    const OIIO::ImageSpec& spec = input->spec();
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::array<int, 3> rgb = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+    if (channels == 1 || spec.channelindex("Y") == 0) rgb = {0, 0, 0};
+    if (std::min({rgb[0], rgb[1], rgb[2]}) < 0)
+      return invalid(path.string(), "found {} channels without R, G and B, expected them, or Y alone", channels);
+    SkyImage image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}, 0};
+    std::vector<float> row(image.width * channels);
+    image.texels.reserve(std::size_t{image.width} * image.height);
+    for (int y = 0; y < spec.height; ++y) {
+      if (!input->read_scanlines(0, 0, spec.y + y, spec.y + y + 1, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                                 row.data()))
+        return invalid(path.string(), "found a corrupt image at row {}: {}", y, input->geterror());
+      for (std::size_t x = 0; x < image.width; ++x) {
+        const float* in = row.data() + x * channels;
+        image.texels.emplace_back(in[rgb[0]], in[rgb[1]], in[rgb[2]]);
+      }
+    }
     return image;
   });
 }

@@ -1,6 +1,7 @@
-// PNG and JPEG into RGBA8. The only door to OpenImageIO.
+// PNG and JPEG into RGBA8, Radiance and OpenEXR skies into floats. The only door to OpenImageIO.
 #pragma once
 
+#include <filesystem>
 #include <span>
 
 #include "bake/scene/scene.h"
@@ -22,5 +23,10 @@ Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string
 // for other formats (named where known), broken data, and sides beyond kMaxImageSize. May run in several threads at
 // once.
 Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& name);
+
+// A Radiance (.hdr) or OpenEXR file, told by its first bytes: channels R, G and B, or one channel as grey; values as
+// they stand, which may be anything a float can be; not rotated. Errors: kIo; kInvalid as decode_image.
+Result<ImageSize> sky_image_size(const std::filesystem::path& path);
+Result<SkyImage> read_sky_image(const std::filesystem::path& path);
 
 }  // namespace oriel

@@ -5,6 +5,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/scene/images.h"
+#include "bake/scene/light/lighting.h"
 #include "bake/scene/repair.h"
 #include "bake/scene/viewpoints.h"
 #include "bake/scene/warning_group.h"
@@ -165,9 +166,6 @@ Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& options, Context& context) {
-  for (int c = 0; c < 3; ++c)
-    if (!(options.sky[c] >= 0 && options.sky[c] <= 1e30f))
-      return fail(ErrorCode::kUsage, "sky", "found radiance {}, expected 0 to 1e30", options.sky[c]);
   ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes));
   gltf::MemoryBudget budget(options.max_bytes);
   const std::string file = path.filename().string();
@@ -187,9 +185,9 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
   ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
   out.scene.materials = document.materials;
-  out.scene.sky = options.sky;
   ORIEL_TRY_VOID(place_meshes(document, meshes, poses, accessors, budget, out.scene, context));
   ORIEL_TRY_VOID(place_viewpoints(document, poses, accessors, out.scene, context));
+  ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
   ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(context));
   warn_of_topology(out.scene, context);
   if (context.stopped()) return fail(ErrorCode::kStopped, file, "stopped");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
@@ -9,8 +10,14 @@
 namespace oriel {
 
 struct ImportOptions {
-  int scene = -1;                                     // which scene of the file; -1: its default, else the first
-  Vec3 sky{0};                                        // constant sky radiance, cd/m²
+  int scene = -1;                      // which scene of the file; -1: its default, else the first
+  Vec3 sky{0};                         // constant sky radiance, cd/m²; not read with a sky_file
+  std::filesystem::path sky_file;      // .hdr or .exr, latitude-longitude (see SkyImage); empty: none
+  float sky_scale = 1;                 // cd/m² per unit of that file
+  float sky_rotation_deg = 0;          // counter-clockwise seen from above
+  std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
+  // Node (or light) name and IES file: the profile of its point or spot light.
+  std::vector<std::pair<std::string, std::filesystem::path>> ies;
   std::uint64_t max_bytes = std::uint64_t{16} << 30;  // refuse files and allocations beyond it
 };
 
@@ -23,7 +30,7 @@ struct ImportedScene {
 // Everything is validated: JSON depth and types, every index, bounds, finite numbers, node cycles. Degenerate triangles
 // are dropped with one warning per mesh, a non-finite vertex is an error; what is not supported gets one warning
 // each through context.warning. Errors: kIo where a file cannot be read, kInvalid where the content breaks glTF 2.0
-// (found, expected and where) or requires an extension that Oriel does not know.
+// (found, expected and where) or requires an extension that Oriel does not know; those of apply_lighting.
 Result<ImportedScene> import_gltf(const std::filesystem::path& path, const ImportOptions& options, Context& context);
 
 }  // namespace oriel

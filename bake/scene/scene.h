@@ -60,14 +60,36 @@ struct Surface {
 
 enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
 
+// A luminaire's far-field luminous intensity, measured (IES LM-63, photometry of type C). Angles as there, degrees:
+// vertical 0 is the light's direction (node -Z), 180 its opposite; horizontal 0 is node +X, 90 node +Y, so it grows
+// counter-clockwise seen from the luminaire's top. Symmetries are unfolded at lookup.
+struct LightProfile {
+  std::string name;
+  std::vector<float> vertical_deg;    // ascending, at least 2; no light beyond the first and the last
+  std::vector<float> horizontal_deg;  // ascending: one (rotational symmetry), or 0 to 90, 180 or 360, or 90 to 270
+  std::vector<float> candela;         // >= 0; horizontal angle h, vertical v at h * vertical_deg.size() + v
+};
+
 // KHR_lights_punctual.
 struct Light {
   std::string name;
   LightType type = LightType::kPoint;
   Vec3 position{0};          // scene space
   Vec3 direction{0, 0, -1};  // unit, the way the light travels (spot, directional)
+  Vec3 right{1, 0, 0};       // unit, normal to direction: node +X, horizontal 0 of a profile
+  Vec3 color{1};             // linear
   Vec3 intensity{0};         // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles
+  float angular_radius_rad = 0;                           // directional: half its angular diameter, at most π/2
+  std::int32_t profile = -1;  // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
+};
+
+// Radiance from all around on a latitude-longitude grid: row 0 ends at +Y, the last row at -Y; the centre is +X and +Z
+// lies to its right, as in Blender and three.js; `rotation_rad` then turns it counter-clockwise seen from above.
+struct SkyImage {
+  std::uint32_t width = 0, height = 0;
+  std::vector<Vec3> texels;  // cd/m², >= 0; width * height; empty: there is no image
+  float rotation_rad = 0;
 };
 
 // All surfaces flattened into world-oriented triangles. Scene space is metres relative to `origin`, so that floats stay
@@ -87,7 +109,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;    // scene space
   std::vector<CameraPath> paths;  // scene space
-  Vec3 sky{0};                    // constant sky radiance, cd/m² (an option of the bake, not of glTF)
+  std::vector<LightProfile> profiles;
+  SkyImage sky_image;  // read it by sky_radiance() in light/sky.h
+  Vec3 sky{0};  // radiance of the sky, cd/m² (an option of the bake, not of glTF): constant, or the image's mean
 
   float radius() const { return 0.5f * glm::length(upper - lower); }
 };

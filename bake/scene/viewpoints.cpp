@@ -256,6 +256,8 @@ Status place_viewpoints(const Document& document, std::span<const NodePose> pose
       if (!node.name.empty()) light.name = node.name;
       light.position = pose.eye;
       light.direction = pose.forward;
+      light.right = glm::cross(pose.forward, pose.up);
+      if (node.angular_radius_rad >= 0) light.angular_radius_rad = node.angular_radius_rad;
       scene.lights.push_back(std::move(light));
     }
     if (node.camera < 0) continue;

@@ -9,22 +9,6 @@
 namespace oriel {
 namespace {
 
-// KHR_lights_punctual's spot falloff: smooth between the cones.
-float spot_falloff(const Light& light, const Vec3& towards_light) {
-  const float cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
-  const float cosine = glm::dot(light.direction, -towards_light);
-  const float t = std::clamp((cosine - cos_outer) / std::max(1e-3f, cos_inner - cos_outer), 0.0f, 1.0f);
-  return t * t;
-}
-
-// lm
-DVec3 punctual_power(const Light& light) {
-  const DVec3 intensity(light.intensity);
-  if (light.type == LightType::kPoint) return 4 * kPiD * intensity;
-  const double ci = std::cos(light.inner_cone_rad), co = std::cos(light.outer_cone_rad);
-  return 2 * kPiD * ((1 - ci) + (ci - co) / 3) * intensity;  // ∫ t² over the falloff, t linear in the cosine
-}
-
 // How far off its plane an emitter's sampled point may lie by rounding, as offset_origin reckons it.
 float emitter_margin(const Scene& scene, std::uint32_t triangle) {
   float magnitude = 0;
@@ -33,81 +17,147 @@ float emitter_margin(const Scene& scene, std::uint32_t triangle) {
   return magnitude * (32 * 0x1p-24f);
 }
 
+bool usable(double weight) {
+  return weight > 0 && std::isfinite(weight);
+}
+
+BoundedLight triangle_bounds(const Scene& scene, std::uint32_t triangle, const Vec3& normal, bool double_sided,
+                             double power) {
+  const UVec3& t = scene.triangles[triangle];
+  const Vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];
+  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), normal, double_sided ? kPi : 0, kPi / 2, power};
+}
+
+BoundedLight punctual_bounds(const Scene& scene, const Light& light, double power) {
+  float reach = kPi;
+  if (light.profile >= 0)
+    reach = scene.profiles[static_cast<std::size_t>(light.profile)].vertical_deg.back() * (kPi / 180);
+  else if (light.type == LightType::kSpot)
+    reach = light.outer_cone_rad;
+  return {light.position, light.position, light.direction, reach, 0, power};
+}
+
+// As if the sample's light had been chosen with a probability.
+LightSample chosen_with(LightSample s, float probability) {
+  s.estimate /= probability;
+  s.pdf *= probability;
+  return s;
+}
+
 }  // namespace
 
 LightSet::LightSet(const Scene& scene) : scene_(&scene) {
+  std::vector<BoundedLight> bounds;
+  add_triangles(bounds);
+  add_lights(bounds);
+  tree_ = LightTree(bounds);
+  if (!scene.sky_image.texels.empty()) sky_ = SkySampler(scene.sky_image);
+  if (!near_.empty()) kinds_.push_back(Kind::kNear);
+  if (!directional_.empty()) kinds_.push_back(Kind::kDirectional);
+  if (!sky_.empty()) kinds_.push_back(Kind::kSky);
+}
+
+void LightSet::add_triangles(std::vector<BoundedLight>& bounds) {
+  const Scene& scene = *scene_;
   std::vector<char> emits(scene.materials.size());
   bool any = false;
   for (std::size_t m = 0; m < emits.size(); ++m) {
     const SceneMaterial& material = scene.materials[m];
     any |= emits[m] = !material.unlit && max_component(material.emission) > 0;
   }
-  if (any) triangle_pdf_.assign(scene.triangles.size(), 0);
+  if (any) triangle_near_.assign(scene.triangles.size(), ~0u);
   for (std::uint32_t t = 0; any && t < scene.triangles.size(); ++t) {
     const std::uint32_t m = scene.surfaces[scene.triangle_surface[t]].material;
     if (!emits[m]) continue;
-    const double area = triangle_area(scene, t) * (scene.materials[m].double_sided ? 2 : 1);
-    const DVec3 flux = kPiD * area * DVec3(mean_emission(scene, t));
+    const bool double_sided = scene.materials[m].double_sided;
+    const double area = triangle_area(scene, t);
+    const DVec3 flux = kPiD * area * (double_sided ? 2 : 1) * DVec3(mean_emission(scene, t));
     power_ += flux;
-    add({false, t, 0, geometric_normal(scene, t), emitter_margin(scene, t), scene.materials[m].double_sided},
-        luminance(Vec3(flux)));
-  }
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    if (light.type == LightType::kDirectional) {
-      const double r = scene.radius();
-      add({true, i, 0, {}, 0, false},
-          luminance(light.intensity) * kPiD * r * r);  // what falls on the scene's bounding disk
-    } else {
-      const DVec3 flux = punctual_power(light);
-      power_ += flux;
-      add({true, i, 0, {}, 0, false}, luminance(Vec3(flux)));
-    }
-  }
-  const double total = cdf_.empty() ? 0 : cdf_.back();
-  for (std::size_t i = 0; i < picks_.size(); ++i) {
-    Pick& pick = picks_[i];
-    pick.probability = static_cast<float>((cdf_[i] - (i > 0 ? cdf_[i - 1] : 0)) / total);
-    if (!pick.punctual)
-      triangle_pdf_[pick.index] = pick.probability / static_cast<float>(triangle_area(scene, pick.index));
+    const double weight = luminance(Vec3(flux));
+    if (!usable(weight)) continue;
+    const Vec3 normal = geometric_normal(scene, t);
+    triangle_near_[t] = static_cast<std::uint32_t>(near_.size());
+    near_.push_back({false, t, normal, static_cast<float>(area), emitter_margin(scene, t), double_sided});
+    bounds.push_back(triangle_bounds(scene, t, normal, double_sided, weight));
   }
 }
 
-void LightSet::add(const Pick& pick, double weight) {
-  if (!(weight > 0) || !std::isfinite(weight)) return;
-  picks_.push_back(pick);
-  cdf_.push_back((cdf_.empty() ? 0 : cdf_.back()) + weight);
+void LightSet::add_lights(std::vector<BoundedLight>& bounds) {
+  for (std::uint32_t i = 0; i < scene_->lights.size(); ++i) {
+    const Light& light = scene_->lights[i];
+    if (light.type == LightType::kDirectional) {
+      const double weight = luminance(light.intensity);
+      if (!usable(weight)) continue;
+      directional_.push_back(i);
+      directional_cdf_.push_back((directional_cdf_.empty() ? 0 : directional_cdf_.back()) + weight);
+      continue;
+    }
+    const DVec3 flux = punctual_power(*scene_, light);
+    power_ += flux;
+    const double weight = luminance(Vec3(flux));
+    if (!usable(weight)) continue;
+    near_.push_back({true, i, {}, 0, 0, false});
+    bounds.push_back(punctual_bounds(*scene_, light, weight));
+  }
 }
 
 LightSample LightSet::sample(const Vec3& p, float u, const Vec2& v) const {
-  if (picks_.empty()) return {};
-  const auto at = std::upper_bound(cdf_.begin(), cdf_.end(), static_cast<double>(u) * cdf_.back());
-  const Pick& pick = picks_[std::min<std::size_t>(at - cdf_.begin(), picks_.size() - 1)];
-  return pick.punctual ? sample_punctual(pick, p) : sample_triangle(pick, p, v);
+  if (kinds_.empty()) return {};
+  const auto count = static_cast<float>(kinds_.size());
+  const std::size_t kind = std::min(static_cast<std::size_t>(u * count), kinds_.size() - 1);
+  const float rest = std::clamp(u * count - static_cast<float>(kind), 0.0f, 1 - 0x1p-24f);
+  switch (kinds_[kind]) {
+    case Kind::kNear:
+      return chosen_with(sample_near(p, rest, v), 1 / count);
+    case Kind::kDirectional:
+      return chosen_with(sample_directional(p, rest, v), 1 / count);
+    case Kind::kSky:
+      break;
+  }
+  return chosen_with(sample_sky(v), 1 / count);
 }
 
-LightSample LightSet::sample_triangle(const Pick& pick, const Vec3& p, const Vec2& v) const {
+LightSample LightSet::sample_near(const Vec3& p, float u, const Vec2& v) const {
+  const LightTree::Pick pick = tree_.pick(p, u);
+  const Near& near = near_[pick.light];
+  return chosen_with(near.punctual ? sample_light(near.index, p, v) : sample_triangle(near, p, v), pick.probability);
+}
+
+LightSample LightSet::sample_directional(const Vec3& p, float u, const Vec2& v) const {
+  const std::vector<double>& cdf = directional_cdf_;
+  const auto at = std::upper_bound(cdf.begin(), cdf.end(), static_cast<double>(u) * cdf.back()) - cdf.begin();
+  const std::size_t i = std::min(static_cast<std::size_t>(at), cdf.size() - 1);
+  return chosen_with(sample_light(directional_[i], p, v),
+                     static_cast<float>((cdf[i] - (i > 0 ? cdf[i - 1] : 0)) / cdf.back()));
+}
+
+LightSample LightSet::sample_triangle(const Near& near, const Vec3& p, const Vec2& v) const {
   LightSample s;
   const Vec2 barycentric = square_to_triangle(v);
-  const Vec3 to = point_on(*scene_, pick.index, barycentric) - p;
+  const Vec3 to = point_on(*scene_, near.index, barycentric) - p;
   const float d2 = length2(to);
   if (!(d2 > 0)) return s;
   s.distance = std::sqrt(d2);
   s.direction = to / s.distance;
-  const float cosine = -glm::dot(pick.normal, s.direction);
-  if (pick.double_sided ? cosine == 0 : cosine <= 0) return s;
-  s.pdf = triangle_pdf_[pick.index] * d2 / std::abs(cosine);
-  s.estimate = shade_point(*scene_, pick.index, barycentric).emission / s.pdf;
-  s.distance -= s.distance * 0x1p-14f + pick.margin / std::abs(cosine);  // stop short of the emitter itself
+  const float cosine = -glm::dot(near.normal, s.direction);
+  if (near.double_sided ? cosine == 0 : cosine <= 0) return s;
+  s.pdf = d2 / (near.area * std::abs(cosine));
+  s.estimate = shade_point(*scene_, near.index, barycentric).emission / s.pdf;
+  s.distance -= s.distance * 0x1p-14f + near.margin / std::abs(cosine);  // stop short of the emitter itself
   return s;
 }
 
-LightSample LightSet::sample_punctual(const Pick& pick, const Vec3& p) const {
-  const Light& light = scene_->lights[pick.index];
+LightSample LightSet::sample_light(std::uint32_t index, const Vec3& p, const Vec2& v) const {
+  const Light& light = scene_->lights[index];
   LightSample s;
   if (light.type == LightType::kDirectional) {
     s.direction = -light.direction;
-    s.estimate = light.intensity / pick.probability;
+    s.estimate = light.intensity;
+    if (light.angular_radius_rad > 0) {
+      // Radiance E / (π sin²a) over the density 1 / (2π (1 - cos a)): the facing plane gets E.
+      s.direction = sample_cone(s.direction, light.angular_radius_rad, v);
+      s.estimate *= 2 / (1 + std::cos(light.angular_radius_rad));
+    }
     return s;
   }
   const Vec3 to = light.position - p;
@@ -115,25 +165,31 @@ LightSample LightSet::sample_punctual(const Pick& pick, const Vec3& p) const {
   if (!(d2 > 0)) return s;
   s.distance = std::sqrt(d2);
   s.direction = to / s.distance;
-  const float falloff = light.type == LightType::kSpot ? spot_falloff(light, s.direction) : 1.0f;
-  s.estimate = light.intensity * (falloff / d2 / pick.probability);
+  s.estimate = punctual_intensity(*scene_, light, -s.direction) / d2;
   return s;
 }
 
-LightSample LightSet::sample_light(std::uint32_t light, const Vec3& p, const Vec2&) const {
-  Pick pick{};
-  pick.punctual = true;
-  pick.index = light;
-  pick.probability = 1;
-  return sample_punctual(pick, p);
+LightSample LightSet::sample_sky(const Vec2& v) const {
+  const SkySampler::Sample sky = sky_.sample(v);
+  LightSample s;
+  s.direction = sky.direction;
+  s.pdf = sky.pdf;
+  if (s.pdf > 0) s.estimate = sky_radiance(*scene_, s.direction) / s.pdf;
+  return s;
 }
 
 float LightSet::pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const {
-  if (triangle_pdf_.empty() || triangle_pdf_[triangle] == 0) return 0;
+  if (triangle_near_.empty() || triangle_near_[triangle] == ~0u) return 0;
+  const std::uint32_t near = triangle_near_[triangle];
   const Vec3 to = on - p;
   const float d2 = length2(to);
   const float cosine = std::abs(glm::dot(normal, to)) / std::sqrt(d2);
-  return cosine > 0 ? triangle_pdf_[triangle] * d2 / cosine : 0;
+  if (!(cosine > 0)) return 0;
+  return tree_.probability(p, near) / static_cast<float>(kinds_.size()) * d2 / (near_[near].area * cosine);
+}
+
+float LightSet::pdf(const Vec3& direction) const {
+  return sky_.empty() ? 0 : sky_.pdf(direction) / static_cast<float>(kinds_.size());
 }
 
 }  // namespace oriel

@@ -1,8 +1,11 @@
-// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights. The constant sky
-// is left to cosine-distributed rays, which sample it best.
+// Everything that emits, sampled explicitly: emissive triangles, point, spot and directional lights, and the image of a
+// sky. A constant sky is left to cosine-distributed rays, which sample it best.
 #pragma once
 
 #include "bake/trace/accel.h"
+#include "bake/trace/lights/light_tree.h"
+#include "bake/trace/lights/punctual.h"
+#include "bake/trace/lights/sky_sampler.h"
 
 namespace oriel {
 
@@ -15,40 +18,62 @@ struct LightSample {
 };
 
 // Immutable; holds a reference to the scene.
+//
+// A sample first chooses, evenly, among the kinds that the scene has: near lights (triangles, points, spots), which a
+// light tree then chooses from; directional lights, by their illuminance; the sky image. A sun and a sky that a room
+// sees through a window only thus never crowd out its lamps, nor the reverse.
+//
+// A directional light with an angular radius is sampled over its disk, uniformly. It counts as a delta light all the
+// same (pdf 0): no ray can meet it, so light sampling alone answers for it, in full.
 class LightSet {
  public:
   explicit LightSet(const Scene& scene);
 
-  bool empty() const { return picks_.empty(); }
+  bool empty() const { return kinds_.empty(); }
   // Emitted power per channel, lm: emissive triangles, point and spot lights. Not the sky, not directional lights.
   DVec3 power() const { return power_; }
 
-  // One light in proportion to its power and one point on it, seen from p. u picks the light, v the point. An estimate
-  // of 0 where that point cannot shine on p.
+  // One light and one point on it, seen from p. u picks the light, v the point. An estimate of 0 where that point
+  // cannot shine on p.
   LightSample sample(const Vec3& p, float u, const Vec2& v) const;
-  // Scene::lights[light] alone, probability of choice 1.
-  LightSample sample_light(std::uint32_t light, const Vec3& p, const Vec2& v) const;
   // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that
   // unit normal (either side); 0 for triangles that are not sampled.
   float pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const;
+  // The density per steradian with which sample() chooses, from anywhere, a direction to the sky; 0 for a constant one.
+  float pdf(const Vec3& direction) const;
+
+  // Scene::lights[light] alone, as if it were chosen with probability 1.
+  LightSample sample_light(std::uint32_t light, const Vec3& p, const Vec2& v) const;
+  // The sky image alone, chosen with probability 1. For samples_sky() only, which is false for a constant or black sky.
+  bool samples_sky() const { return !sky_.empty(); }
+  LightSample sample_sky(const Vec2& v) const;
+  float sky_pdf(const Vec3& direction) const { return sky_.pdf(direction); }
 
  private:
-  struct Pick {
+  enum class Kind : std::uint8_t { kNear, kDirectional, kSky };
+  struct Near {
     bool punctual;
     std::uint32_t index;  // of a triangle or of Scene::lights
-    float probability;
-    Vec3 normal;        // of a triangle, front side
-    float margin;       // of a triangle: see emitter_margin, metres
-    bool double_sided;  // triangles
+    // Of a triangle:
+    Vec3 normal;   // unit, front side
+    float area;    // m²
+    float margin;  // see emitter_margin, metres
+    bool double_sided;
   };
-  LightSample sample_triangle(const Pick& pick, const Vec3& p, const Vec2& v) const;
-  LightSample sample_punctual(const Pick& pick, const Vec3& p) const;
-  void add(const Pick& pick, double weight);
+  void add_triangles(std::vector<BoundedLight>& bounds);
+  void add_lights(std::vector<BoundedLight>& bounds);
+  LightSample sample_near(const Vec3& p, float u, const Vec2& v) const;
+  LightSample sample_directional(const Vec3& p, float u, const Vec2& v) const;
+  LightSample sample_triangle(const Near& near, const Vec3& p, const Vec2& v) const;
 
   const Scene* scene_;
-  std::vector<Pick> picks_;
-  std::vector<double> cdf_;          // cumulative weights, unnormalised until the constructor's end
-  std::vector<float> triangle_pdf_;  // by triangle: probability of its pick over its area, per m²; empty: no emitter
+  std::vector<Kind> kinds_;
+  std::vector<Near> near_;
+  LightTree tree_;                            // over near_
+  std::vector<std::uint32_t> triangle_near_;  // by triangle: into near_, ~0u where it does not emit; empty: none does
+  std::vector<std::uint32_t> directional_;    // into Scene::lights
+  std::vector<double> directional_cdf_;       // cumulative illuminance
+  SkySampler sky_;
   DVec3 power_{0};
 };
 

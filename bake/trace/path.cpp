@@ -105,7 +105,8 @@ class Walk {
     for (; bounce < t_.options.max_bounces && passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
       Vec3& sink = first ? light.emitted : light.scattered;
       if (!hit) {
-        (first ? light.sky : light.scattered) += throughput_ * t_.accel.scene().sky;
+        const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
+        (first ? light.sky : light.scattered) += throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         break;
       }
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);

@@ -15,7 +15,7 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   ++rays;
   const Hit hit = t.accel.intersect(ray);
   if (!hit) {
-    light.other = t.accel.scene().sky;
+    light.other = sky_radiance(t.accel.scene(), ray.direction);
     return light;
   }
   SurfacePoint surface = surface_at(t.accel.scene(), hit, ray.direction);

@@ -33,11 +33,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/jobs"] = core;
   m["bake/scene"] = plus(assets, {"bake/jobs"});
   m["bake/scene/gltf"] = plus(assets, {"bake/jobs", "bake/scene"});  // the file format apart from the scene
-  m["bake/scene"].insert("bake/scene/gltf");
-  m["bake/trace"] = plus(assets, {"bake/jobs", "bake/scene"});
-  m["bake/atlas"] = m["bake/trace"];
+  m["bake/scene/light"] = m["bake/scene/gltf"];
+  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light"});
+  m["bake/trace"] = m["bake/atlas"] = plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light"});
   m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
+  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
+  m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});

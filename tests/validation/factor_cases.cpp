@@ -40,7 +40,7 @@ Case under_disk(const std::string& label, double radius, double height) {
   QuadScene scene;
   add_disk(scene, radius, {0, 0, height});
   Case c;
-  c.label = label;
+  c.id = label;
   c.scene = scene.finish();
   c.lux_error = 0.0002;
   return c;
@@ -94,7 +94,7 @@ void add_spheres(const Suite& suite, std::vector<Case>& cases) {
     scene.parts().sphere("sphere", scene.material(DVec3(0), DVec3(1)),
                          Vec3(from_case(d * DVec3(std::sin(angle), 0, std::cos(angle)))), in["R"], 5);
     Case c;
-    c.label = "VF-08";
+    c.id = "VF-08";
     c.scene = scene.finish();
     c.lux_error = 0.0002;
     c.readings.push_back(at(fmt::format("R {} d {} theta {}", in["R"].dump(), in["d"].dump(), in["theta_deg"].dump()),

@@ -69,6 +69,19 @@ void take_worst(const Reading& r, const Measured& m, Measured& worst, bool& firs
   first = false;
 }
 
+Measured combine(const Reading& r, const std::vector<Probe>& probes, const std::vector<PointIlluminance>& read) {
+  Measured sum{r.offset, 0}, worst;
+  bool first = true;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const double error = std::abs(r.scale) * read[i].standard_error[r.channel];
+    sum.value += r.scale * probes[i].weight * part_of(read[i], r);
+    sum.error += std::pow(probes[i].weight * error, 2);
+    take_worst(r, {r.offset + r.scale * part_of(read[i], r), error}, worst, first);
+  }
+  sum.error = std::sqrt(sum.error);
+  return r.over == Over::kWorst ? worst : sum;
+}
+
 // Triangle under a point of the scene, whose front is on the probe's side: nearest plane within rounding.
 std::uint32_t triangle_at(const Accel& accel, const Probe& p) {
   const Scene& scene = accel.scene();
@@ -164,35 +177,33 @@ class BakedTexture {
 }  // namespace
 
 Measurements measure_by_lux(const Case& c, std::uint64_t seed) {
-  std::vector<MeasurePoint> points;
-  std::vector<std::vector<Probe>> probes;
-  for (const Reading& r : c.readings) {
-    probes.push_back(r.over == Over::kPoints ? r.probes : spread(c.scene, r));
-    for (const Probe& p : probes.back()) points.push_back({p.position, p.normal, 0});
-  }
   Context context;
   context.seed = seed;
   const Accel accel = *Accel::build(c.scene);
   const LightSet lights(c.scene);
-  LuxOptions options;
-  options.relative_error = c.lux_error;
-  const auto results = *illuminance_at({accel, lights, {}}, points, options, context);
+  // Readings of single points at once, so that the floor of their error is that of a table of points.
+  std::vector<MeasurePoint> single, all;
+  for (const Reading& r : c.readings)
+    if (r.over == Over::kPoints && r.probes.size() == 1)
+      single.push_back({r.probes[0].position, r.probes[0].normal, 0});
+  const auto read_single = *illuminance_at({accel, lights, {}}, single, {.relative_error = c.lux_error}, context);
 
   Measurements out;
-  auto at = results.begin();
-  for (std::size_t i = 0; i < c.readings.size(); ++i) {
-    const Reading& r = c.readings[i];
-    Measured sum{r.offset, 0}, worst;
-    bool first = true;
-    for (const Probe& p : probes[i]) {
-      const double error = std::abs(r.scale) * at->standard_error[r.channel];
-      sum.value += r.scale * p.weight * part_of(*at, r);
-      sum.error += p.weight * p.weight * error * error;
-      take_worst(r, {r.offset + r.scale * part_of(*at, r), error}, worst, first);
-      ++at;
+  auto next = read_single.begin();
+  for (const Reading& r : c.readings) {
+    if (r.over == Over::kPoints && r.probes.size() == 1) {
+      out.push_back({r.offset + r.scale * part_of(*next, r), std::abs(r.scale) * next->standard_error[r.channel]});
+      ++next;
+      continue;
     }
-    sum.error = std::sqrt(sum.error);
-    out.push_back(r.over == Over::kWorst ? worst : sum);
+    const std::vector<Probe> probes = r.over == Over::kPoints ? r.probes : spread(c.scene, r);
+    all.clear();
+    for (const Probe& p : probes) all.push_back({p.position, p.normal, 0});
+    // The errors of a mean's points average out.
+    const double error =
+        r.over == Over::kWorst ? c.lux_error : c.lux_error * std::sqrt(0.5 * static_cast<double>(probes.size()));
+    const auto read = *illuminance_at({accel, lights, {}}, all, {.relative_error = std::min(0.05, error)}, context);
+    out.push_back(combine(r, probes, read));
   }
   return out;
 }

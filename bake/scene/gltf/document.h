@@ -87,6 +87,7 @@ struct MeshDesc {
 struct NodeDesc {
   std::string name;
   int mesh = -1, camera = -1, light = -1, parent = -1;
+  float angular_radius_rad = -1;  // for its directional light; < 0: the light's own
   std::vector<std::uint32_t> children;
   bool has_matrix = false;
   DMat4 matrix{1};                                 // parent_from_node

@@ -103,6 +103,12 @@ Json Json::extension(const char* name) const {
   return (*this)["extensions"][name];
 }
 
+Json Json::extra(const char* name) const {
+  const Json extras = (*this)["extras"];
+  if (extras.present() && !extras.value_->is_object()) return Json(document_, nullptr, extras.path_);
+  return extras[name];
+}
+
 std::vector<std::string> Json::keys() const {
   std::vector<std::string> names;
   if (!value_) return names;

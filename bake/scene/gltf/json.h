@@ -58,6 +58,8 @@ class Json {
   Json need(const char* key) const;
   // extensions[name], absent where either is.
   Json extension(const char* name) const;
+  // extras[name], absent where either is, and where extras are no object: they are anybody's.
+  Json extra(const char* name) const;
   std::vector<std::string> keys() const;
 
   // Elements of an array; 0 where absent.

@@ -68,6 +68,12 @@ void parse_transform(const Json& value, NodeDesc& node) {
     matrix.error("found a matrix that shears or is singular, expected a translation, rotation and scale");
 }
 
+// Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
+float angular_radius(const Json& value, double fallback) {
+  return static_cast<float>(value.extra("oriel")["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) * kPiD /
+                            360);
+}
+
 NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, const Document& document) {
   NodeDesc node;
   node.name = value["name"].name();
@@ -75,6 +81,7 @@ NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, con
   node.camera = value["camera"].index(document.cameras.size());
   value["skin"].index(skins);
   node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
+  node.angular_radius_rad = angular_radius(value, -1);
   parse_transform(value, node);
   const Json children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i)
@@ -119,15 +126,18 @@ Light parse_light(const Json& value, std::size_t i, Document& document) {
     light.type = LightType::kDirectional;
   else if (type != "point")
     value["type"].expected("point, spot or directional");
+  light.angular_radius_rad = angular_radius(value, 0);
   std::array<double, 3> color{1, 1, 1};
   value["color"].numbers(color);
   const double intensity = value["intensity"].number(1, 0);
   for (int c = 0; c < 3; ++c) {
     const double product = color[static_cast<std::size_t>(c)] * intensity;
-    if (product >= 0 && product <= 1e30)
-      light.intensity[c] = static_cast<float>(product);
-    else
+    light.color[c] = static_cast<float>(color[static_cast<std::size_t>(c)]);
+    light.intensity[c] = static_cast<float>(product);
+    if (!(product >= 0 && product <= 1e30))
       value.error(fmt::format("found color * intensity {}, expected 0 to 1e30", product));
+    if (!(light.color[c] >= 0 && light.color[c] <= 1e30f))
+      value.error(fmt::format("found color {}, expected 0 to 1e30", light.color[c]));
   }
   if (value["range"].present())
     document.warnings.push_back(fmt::format("{}: range {} is ignored: light falls off with the square of the distance",

@@ -8,9 +8,12 @@
 #include "bake/trace/bsdf.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
+#include "tests/bake/support/chi2.h"
 
 namespace oriel {
 namespace {
+
+using test::chi2_excess;
 
 TEST(Sampler, IsAFunctionOfItsArguments) {
   Sampler a(1, 2, 3), b(1, 2, 3), c(1, 2, 4), d(2, 2, 3);
@@ -36,42 +39,6 @@ TEST(Sampler, PairsAreStratified) {
     EXPECT_EQ(columns.size(), 256u);
     EXPECT_EQ(rows.size(), 256u);
   }
-}
-
-// χ² of directions on the hemisphere in an equal-area grid of (cosθ, φ): how many standard deviations above its mean.
-template <class Draw, class Pdf>
-double chi2_excess(const Draw& draw, const Pdf& pdf) {
-  constexpr int kRows = 16, kColumns = 24, kSub = 12;
-  constexpr std::uint32_t kSamples = 200000;
-  std::vector<double> found(kRows * kColumns), expected(kRows * kColumns);
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
-    // Independent numbers: Sobol's are too even for a χ² test.
-    const auto u = [&](std::uint64_t k) { return static_cast<float>(mix64(mix64(i * 8 + k)) >> 40) * 0x1p-24f; };
-    const auto w = draw(u(0), Vec2(u(1), u(2)));
-    if (!w || w->z <= 0) continue;
-    const double phi = std::atan2(w->y, w->x) / (2 * kPiD) + 0.5;
-    const int row = std::min(kRows - 1, static_cast<int>(w->z * kRows)),
-              column = std::min(kColumns - 1, static_cast<int>(phi * kColumns));
-    found[row * kColumns + column] += 1;
-  }
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns; ++column)
-      for (int a = 0; a < kSub; ++a)
-        for (int b = 0; b < kSub; ++b) {
-          const double z = (row + (a + 0.5) / kSub) / kRows,
-                       phi = 2 * kPiD * ((column + (b + 0.5) / kSub) / kColumns - 0.5);
-          const double r = std::sqrt(1 - z * z);
-          expected[row * kColumns + column] += pdf(Vec3(r * std::cos(phi), r * std::sin(phi), z)) * kSamples * 2 *
-                                               kPiD / (kRows * kColumns * kSub * kSub);
-        }
-  double chi2 = 0;
-  int cells = 0;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (expected[i] > 10) {
-      chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
-      ++cells;
-    }
-  return (chi2 - cells) / std::sqrt(2.0 * cells);
 }
 
 TEST(Warp, CosineHemisphereMatchesItsPdf) {
