@@ -49,6 +49,7 @@ struct Case {
   GridTolerance grid;    // all zero: none
   double texel_m = 0;    // of the lightmap that resolves what the readings ask for; 0: not read from a texture
   double lux_error = 0;  // relative standard error a point
+  int rule = 16;         // points along each side of a quad, for means at points; an eighth for the worst
 };
 
 }  // namespace oriel::validation

@@ -30,8 +30,8 @@ bool named(const Reading& r, const Surface& surface) {
 }
 
 // Points all over a reading's surfaces, weights adding up to 1: a product rule on quads, centroids on other meshes.
-std::vector<Probe> spread(const Scene& scene, const Reading& r) {
-  const auto rule = gauss_legendre(r.over == Over::kMean ? 16 : 6);
+std::vector<Probe> spread(const Scene& scene, const Reading& r, int points) {
+  const auto rule = gauss_legendre(r.over == Over::kMean ? points : std::max(1, points / 8));
   std::vector<Probe> probes;
   double area = 0;
   const auto place = [&](const DVec3& p, std::uint32_t triangle, double share) {
@@ -103,7 +103,7 @@ Vec2 barycentric_of(const Scene& scene, std::uint32_t triangle, const DVec3& p) 
 class BakedTexture {
  public:
   BakedTexture(const Case& c, const RadiosityOptions& options, std::uint64_t seed)
-      : scene_(c.scene), accel_(*Accel::build(scene_)), lights_(scene_) {
+      : scene_(c.scene), texel_m_(c.texel_m), accel_(*Accel::build(scene_)), lights_(scene_) {
     Context context;
     context.seed = seed;
     AtlasOptions atlas;
@@ -118,6 +118,7 @@ class BakedTexture {
   Measured read(const Reading& r) const {
     Measured m{0, 0};
     if (r.over == Over::kPoints) {
+      if (!resolved(r)) return {std::numeric_limits<double>::quiet_NaN(), 0};
       for (const Probe& p : r.probes) {
         const std::uint32_t triangle = triangle_at(accel_, p);
         const Vec2 at = barycentric_of(scene_, triangle, p.position);
@@ -132,6 +133,22 @@ class BakedTexture {
   }
 
  private:
+  // No probe lies nearer than a texel to an edge of its quad: beyond the last texels' centres there is nothing to
+  // interpolate.
+  bool resolved(const Reading& r) const {
+    return std::all_of(r.probes.begin(), r.probes.end(), [&](const Probe& p) {
+      const Surface& s = scene_.surfaces[scene_.triangle_surface[triangle_at(accel_, p)]];
+      if (s.vertex_count != 4) return true;
+      const auto corner = [&](std::uint32_t i) { return DVec3(scene_.positions[s.first_vertex + i]); };
+      return std::ranges::all_of(std::array{1u, 3u}, [&](std::uint32_t i) {
+        const DVec3 edge = corner(i) - corner(0);
+        const double length = glm::length(edge),
+                     along = glm::dot(p.position - scene_.origin - corner(0), edge) / length;
+        return along >= texel_m_ && along <= length - texel_m_;
+      });
+    });
+  }
+
   // The texel's surface that belongs to the reading, m².
   double area_of(const Reading& r, const TexelMapPage& page, std::size_t i) const {
     double area = 0;
@@ -166,6 +183,7 @@ class BakedTexture {
   }
 
   const Scene& scene_;
+  double texel_m_;
   Accel accel_;
   LightSet lights_;
   Atlas atlas_;
@@ -196,7 +214,7 @@ Measurements measure_by_lux(const Case& c, std::uint64_t seed) {
       ++next;
       continue;
     }
-    const std::vector<Probe> probes = r.over == Over::kPoints ? r.probes : spread(c.scene, r);
+    const std::vector<Probe> probes = r.over == Over::kPoints ? r.probes : spread(c.scene, r, c.rule);
     all.clear();
     for (const Probe& p : probes) all.push_back({p.position, p.normal, 0});
     // The errors of a mean's points average out.

@@ -91,9 +91,11 @@ int run(const std::set<std::string>& arguments) {
     const auto start = std::chrono::steady_clock::now();
     for (const Case& c : make()) {
       const Measurements lux = measure_by_lux(c, kSeed);
-      const Measurements texture = textures && c.texel_m > 0
-                                       ? measure_by_texture(c, {.samples = thorough ? 16384u : 1024u}, kSeed)
-                                       : Measurements{};
+      const Measurements texture =
+          textures && c.texel_m > 0
+              ? measure_by_texture(
+                    c, {.estimator = Estimator::kCached, .samples = 16384, .error = thorough ? 0.002 : 0.005}, kSeed)
+              : Measurements{};
       count(c, lux, by_lux);
       count(c, texture, by_texture);
       if (grids) {
