@@ -46,7 +46,7 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
 }
 
-void add_radiosity_options(CLI::App& app, Texts& texts) {
+void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option(
          "--estimator", texts.estimator,
          "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred "
@@ -62,6 +62,17 @@ void add_radiosity_options(CLI::App& app, Texts& texts) {
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
       ->check(CLI::Range(1u, 1u << 24))
       ->excludes(error);
+  app.add_option(
+         "--bounces", bake.radiosity.bounces,
+         "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that "
+         "stop there")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  app.add_flag_callback(
+      "--hidden-black", [&bake] { bake.radiosity.hidden = Hidden::kBlack; },
+      "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
+      "out: "
+      "dark rims, but comparable");
 }
 
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
@@ -150,7 +161,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_atlas_options(app, texts, args.bake);
-  add_radiosity_options(app, texts);
+  add_radiosity_options(app, texts, args.bake);
   add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");

@@ -15,6 +15,21 @@ constexpr float kFar = 60;
 // Triangles that fill less than this of the sphere are sampled by area, sr.
 constexpr float kSmallSolidAngle = 0.02f;
 
+Vec3 mirrored(const Vec3& n, const Vec3& plane) {
+  return n - 2 * glm::dot(n, plane) * plane;
+}
+
+}  // namespace
+
+float incidence(const Receiver& r, const Vec3& direction) {
+  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
+  const float straight = std::max(0.0f, glm::dot(r.normal, direction));
+  if (r.normal == r.geometric_normal) return straight;
+  return straight + std::max(0.0f, glm::dot(mirrored(r.normal, r.geometric_normal), direction));
+}
+
+namespace {
+
 // Lambert's edge vector: the angle under which the edge is seen, along the normal of the plane through eye and edge.
 Vec3 edge_vector(const Vec3& a, const Vec3& b) {
   const Vec3 normal = glm::cross(a, b);
@@ -45,10 +60,6 @@ Vec3 polygon_vector(const ClippedPolygon& p) {
   return 0.5f * sum;
 }
 
-Vec3 mirrored(const Vec3& n, const Vec3& plane) {
-  return n - 2 * glm::dot(n, plane) * plane;
-}
-
 // Signed: positive where the receiver is on the front side.
 float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver& r) {
   ClippedPolygon all{{corners[0] - r.position, corners[1] - r.position, corners[2] - r.position}, 3};
@@ -63,9 +74,93 @@ float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver&
   return sum;
 }
 
-// Arvo 1995, "Stratified Sampling of Spherical Triangles". a, b, c: unit; angles at the corners.
-Vec3 sample_spherical_triangle(const Vec3& a, const Vec3& b, const Vec3& c, float alpha, float area, const Vec2& u) {
-  const float phi = area * u.x - alpha;
+float corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = glm::cross(at, b), ac = glm::cross(at, c);
+  return std::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
+}
+
+// A triangle of a polygon as seen from a receiver.
+struct SeenTriangle {
+  std::array<Vec3, 3> to;         // from the receiver to its corners
+  std::array<Vec3, 3> direction;  // the same, unit; only where solid_angle > 0
+  std::array<float, 3> cosine;    // incidence() there, with a floor that keeps every direction possible
+  float area = 0;                 // m²
+  float solid_angle = 0;          // 0 where the receiver touches a corner
+
+  // Nearly its irradiance over its radiance.
+  float weight() const { return solid_angle * (cosine[0] + cosine[1] + cosine[2]); }
+};
+
+SeenTriangle see(const std::array<Vec3, 3>& corners, float area, const Receiver& r) {
+  SeenTriangle t;
+  t.area = area;
+  float length[3], largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.to[i] = corners[i] - r.position;
+    length[i] = std::sqrt(length2(t.to[i]));
+    if (!(length[i] > 0)) return t;
+    t.direction[i] = t.to[i] / length[i];
+    t.cosine[i] = incidence(r, t.direction[i]);
+    largest = std::max(largest, t.cosine[i]);
+  }
+  for (float& c : t.cosine) c = std::max(c, std::max(0.1f * largest, 0.01f));
+  const auto& [a, b, c] = t.direction;
+  const float triple = std::abs(glm::dot(a, glm::cross(b, c)));  // Van Oosterom & Strackee 1983
+  t.solid_angle = 2 * std::atan2(triple, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+  return t;
+}
+
+// One triangle, few of them by what they contribute, many by area; u.x is stretched to be used again.
+SeenTriangle choose_triangle(const PolygonLight& light, const Receiver& r, Vec2& u, float& probability) {
+  constexpr std::size_t kFew = 8;
+  const auto& cumulative = light.cumulative_area;
+  const auto area = [&](std::size_t k) { return static_cast<float>(cumulative[k] - (k > 0 ? cumulative[k - 1] : 0)); };
+  const std::size_t count = light.corners.size();
+  if (count == 1) return see(light.corners[0], area(0), r);
+  std::size_t chosen = 0;
+  float before = 0;
+  if (count <= kFew) {
+    std::array<SeenTriangle, kFew> seen;
+    float sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += (seen[k] = see(light.corners[k], area(k), r)).weight();
+    if (sum > 0) {
+      const float target = u.x * sum;
+      while (chosen + 1 < count && target >= before + seen[chosen].weight()) before += seen[chosen++].weight();
+      const float weight = std::max(seen[chosen].weight(), 1e-30f);
+      u.x = std::clamp((target - before) / weight, 0.0f, 0x1.fffffep-1f);
+      probability = weight / sum;
+      return seen[chosen];
+    }
+  }
+  const double target = double{u.x} * light.area_m2();
+  chosen = std::min<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin(),
+                                 count - 1);
+  u.x = std::clamp(static_cast<float>((target - (chosen > 0 ? cumulative[chosen - 1] : 0)) / area(chosen)), 0.0f,
+                   0x1.fffffep-1f);
+  probability = static_cast<float>(area(chosen) / light.area_m2());
+  return see(light.corners[chosen], area(chosen), r);
+}
+
+// u in [0,1) with a density that is linear from a to b; returns the density.
+float warp_linear(float a, float b, float& u) {
+  const float root = std::sqrt(a * a + (b * b - a * a) * u);
+  u = std::min(a == b ? u : (root - a) / (b - a), 0x1.fffffep-1f);
+  return 2 * (a + (b - a) * u) / (a + b);
+}
+
+// Bilinear between the cosines at the corners, where sample_spherical_triangle puts them: the second at u.y = 0, the
+// first and third at the ends of u.y = 1. Returns the density.
+float warp_by_cosines(const std::array<float, 3>& cosine, Vec2& u) {
+  const float pdf_y = warp_linear(cosine[1], 0.5f * (cosine[0] + cosine[2]), u.y);
+  const float left = cosine[1] + (cosine[0] - cosine[1]) * u.y, right = cosine[1] + (cosine[2] - cosine[1]) * u.y;
+  return pdf_y * warp_linear(left, right, u.x);
+}
+
+// Arvo 1995, "Stratified Sampling of Spherical Triangles".
+Vec3 sample_spherical_triangle(const SeenTriangle& triangle, const Vec2& u) {
+  const auto& [a, b, c] = triangle.direction;
+  const float alpha = corner_angle(a, b, c);
+  const float phi = triangle.solid_angle * u.x - alpha;
   const float s = std::sin(phi), t = std::cos(phi);
   const float cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
   const float cos_c = glm::dot(a, b);
@@ -78,11 +173,6 @@ Vec3 sample_spherical_triangle(const Vec3& a, const Vec3& b, const Vec3& c, floa
   const float z = 1 - u.y * (1 - glm::dot(on_edge, b));
   const Vec3 from_b = normalize_or(on_edge - glm::dot(on_edge, b) * b, b);
   return glm::normalize(z * b + std::sqrt(std::max(0.0f, 1 - z * z)) * from_b);
-}
-
-float corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = glm::cross(at, b), ac = glm::cross(at, c);
-  return std::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
 }
 
 // Edges as ordered pairs of positions; triangles of one polygon that share an edge run along it in opposite directions.
@@ -166,13 +256,6 @@ std::vector<PolygonLight> find_polygon_lights(const Scene& scene) {
   return lights;
 }
 
-float incidence(const Receiver& r, const Vec3& direction) {
-  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
-  const float straight = std::max(0.0f, glm::dot(r.normal, direction));
-  if (r.normal == r.geometric_normal) return straight;
-  return straight + std::max(0.0f, glm::dot(mirrored(r.normal, r.geometric_normal), direction));
-}
-
 float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
   const Vec3 to = light.center - r.position;
   const float height = -glm::dot(light.normal, to);  // of the receiver over the light's plane
@@ -195,42 +278,28 @@ float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
   return std::clamp(height > 0 ? sum : -sum, 0.0f, kPi);
 }
 
-std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Vec3& p, const Vec2& u) {
-  // One triangle by its area, with what remains of u.x used again.
-  const double target = static_cast<double>(u.x) * light.area_m2();
-  const auto& cumulative = light.cumulative_area;
-  const std::size_t k = std::min<std::size_t>(
-      std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin(), cumulative.size() - 1);
-  const double before = k > 0 ? cumulative[k - 1] : 0, area = cumulative[k] - before;
-  const Vec2 rest(std::clamp(static_cast<float>((target - before) / area), 0.0f, 0x1.fffffep-1f), u.y);
-  const auto& t = light.corners[k];
-  const float height = glm::dot(light.normal, p - light.center);
+std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Receiver& receiver, const Vec2& u) {
+  const float height = glm::dot(light.normal, receiver.position - light.center);
   if (light.double_sided ? height == 0 : height <= 0) return std::nullopt;
-
+  Vec2 rest = u;
+  float probability = 1;
+  const SeenTriangle triangle = choose_triangle(light, receiver, rest, probability);
   PolygonSample s;
-  const Vec3 to[3] = {t[0] - p, t[1] - p, t[2] - p};
-  const float d[3] = {glm::length(to[0]), glm::length(to[1]), glm::length(to[2])};
-  const double share = area / light.area_m2();
-  if (d[0] > 0 && d[1] > 0 && d[2] > 0) {
-    const Vec3 a = to[0] / d[0], b = to[1] / d[1], c = to[2] / d[2];
-    const float triple = std::abs(glm::dot(a, glm::cross(b, c)));  // Van Oosterom & Strackee 1983
-    const float solid = 2 * std::atan2(triple, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
-    if (solid > kSmallSolidAngle) {
-      s.direction = sample_spherical_triangle(a, b, c, corner_angle(a, b, c), solid, rest);
-      const float cosine = std::abs(glm::dot(light.normal, s.direction));
-      if (!(cosine > 0)) return std::nullopt;
-      s.distance = std::abs(height) / cosine;
-      s.solid_angle = static_cast<float>(solid / share);
-    }
-  }
-  if (s.solid_angle == 0) {
+  if (triangle.solid_angle > kSmallSolidAngle) {
+    const float pdf = warp_by_cosines(triangle.cosine, rest);
+    s.direction = sample_spherical_triangle(triangle, rest);
+    const float cosine = std::abs(glm::dot(light.normal, s.direction));
+    if (!(cosine > 0)) return std::nullopt;
+    s.distance = std::abs(height) / cosine;
+    s.solid_angle = triangle.solid_angle / (probability * pdf);
+  } else {
     const Vec2 w = square_to_triangle(rest);
-    const Vec3 on = to[0] + w.x * (to[1] - to[0]) + w.y * (to[2] - to[0]);
-    s.distance = glm::length(on);
+    const Vec3 on = triangle.to[0] + w.x * (triangle.to[1] - triangle.to[0]) + w.y * (triangle.to[2] - triangle.to[0]);
+    s.distance = std::sqrt(length2(on));
     if (!(s.distance > 0)) return std::nullopt;
     s.direction = on / s.distance;
     s.solid_angle =
-        static_cast<float>(light.area_m2()) * std::abs(glm::dot(light.normal, s.direction)) / (s.distance * s.distance);
+        triangle.area / probability * std::abs(glm::dot(light.normal, s.direction)) / (s.distance * s.distance);
   }
   if (!(s.solid_angle > 0) || !is_finite(s.direction)) return std::nullopt;
   // Stop short of the emitter itself, as far as rounding may put its points off its plane.

@@ -50,8 +50,10 @@ struct PolygonSample {
   float distance = 0;       // that a shadow ray must go; <= 0 where the light touches the point
   float solid_angle = 0;    // 1 / pdf per steradian
 };
-// Uniform in solid angle where the triangle is large as seen from p (Arvo 1995), else uniform in area. Nothing where
-// the point sees the polygon edge-on or from behind. u in [0,1)².
-std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Vec3& p, const Vec2& u);
+// Nearly in proportion to incidence() per solid angle where a triangle is large as seen from the receiver: spherical
+// triangles (Arvo 1995) warped by the cosines at their corners (Hart et al. 2020); else by area. Then incidence times
+// solid_angle hardly varies, and a ratio of such weights hardly has a bias. Nothing where the point sees the polygon
+// edge-on or from behind. u in [0,1)².
+std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Receiver& receiver, const Vec2& u);
 
 }  // namespace oriel

@@ -81,7 +81,7 @@ void Meter::sample_polygons(const Place& place, std::uint32_t r, std::uint64_t s
   for (std::size_t f = place.first_facing; f < place.end_facing; ++f) {
     const PolygonLight& light = polygons_[facing_[f].light];
     Sampler sampler(context_.seed + 0xd1ec + facing_[f].light, stream, k);
-    const auto s = sample_polygon(light, place.receiver.position, sampler.next2());
+    const auto s = sample_polygon(light, place.receiver, sampler.next2());
     if (!s) continue;
     const float weight = incidence(place.receiver, s->direction) * s->solid_angle;
     if (!(weight > 0)) continue;

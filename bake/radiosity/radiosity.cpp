@@ -119,6 +119,13 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
   report.relative_error = std::sqrt(squares / (3.0 * static_cast<double>(report.texels)));
 }
 
+void darken_hidden(const TexelMapPage& map, const std::vector<float>& visible, LightmapPage& page) {
+  for (std::size_t i = 0; i < map.texel.size(); ++i) {
+    page.irradiance[map.texel[i]] *= visible[i];
+    page.standard_error[map.texel[i]] *= visible[i];
+  }
+}
+
 Status bake_reference(const Baker& baker, std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                       Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
   std::vector<Run> runs;
@@ -166,7 +173,10 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   result.report.rays = rays;
   result.report.back_charts = static_cast<std::size_t>(std::count(back.begin(), back.end(), 1));
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
-    fill_buried(atlas, texel_map[p], result.pages[p]);
+    if (options.hidden == Hidden::kBlack)
+      darken_hidden(texel_map[p], result.visible[p], result.pages[p]);
+    else
+      fill_buried(atlas, texel_map[p], result.pages[p]);
     dilate(options.dilation, result.pages[p]);
   }
   return result;

@@ -18,13 +18,21 @@ enum class Estimator : std::uint8_t {
   kCached,     // bounces cached in the lightmap, one final gather, filtered
 };
 
+// What texels hold of the parts of them that lie inside other geometry.
+enum class Hidden : std::uint8_t {
+  kLeftOut,  // the light of what can be seen: no dark rims where objects stand on a floor
+  kBlack,    // no light, as most bakers have it: for comparing with them
+};
+
 struct RadiosityOptions {
   Estimator estimator = Estimator::kReference;
   std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
                                 // cached: gather rays a texel, at most
-  double error = 0;      // cached: stop at this relative error (RadiosityReport::relative_error); 0: take all samples
+  double error = 0;  // cached: stop at this relative error (RadiosityReport::relative_error); 0: take all samples
+  int bounces = 0;   // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
   FilterOptions filter = {};  // cached
-  int dilation = 4;      // texels by which charts are extended beyond their border
+  Hidden hidden = Hidden::kLeftOut;
+  int dilation = 4;  // texels by which charts are extended beyond their border
 };
 
 struct RadiosityReport {

@@ -113,6 +113,8 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"error", o.radiosity.error},
       {"filter_passes", o.radiosity.filter.passes},
       {"filter_strength", o.radiosity.filter.strength},
+      {"bounces", o.radiosity.bounces},
+      {"hidden", o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"},
       {"dilation", o.radiosity.dilation},
       {"radiance", o.with_radiance},
       {"material", o.with_material},

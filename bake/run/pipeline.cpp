@@ -62,6 +62,12 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
   return {};
 }
 
+PathOptions path_options(const BakeOptions& options) {
+  PathOptions paths;
+  if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
+  return paths;
+}
+
 }  // namespace
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
@@ -83,7 +89,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   warn_about_light(scene, lights, context);
 
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
-              auto baked = bake_radiosity({accel, lights, {}}, atlas, texel_map, options.radiosity, context);
+              auto baked =
+                  bake_radiosity({accel, lights, path_options(options)}, atlas, texel_map, options.radiosity, context);
               if (baked) rays = baked->report.rays;
               return baked;
             }));

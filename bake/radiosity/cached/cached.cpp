@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr double kDirectShare = 0.3;                    // of the squared error asked for
-constexpr double kTailShare = 0.25;                     // of the error asked for: what further bounces may add
+constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedBake {
@@ -34,9 +34,15 @@ class CachedBake {
   Status run(Radiosity& result) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
     ORIEL_TRY_VOID(first_direct());
-    ORIEL_TRY(Sweeps sweeps, sweep(texels_, around_, means_of_direct(), {256, kTailShare * target()}, context_, rays_));
-    irradiance_ = means_of_direct();
-    for (std::size_t i = 0; i < texels_.count(); ++i) irradiance_[i] += sweeps.gathered[i];
+    Sweeps sweeps;
+    if (options_.bounces != 1) {  // the gather itself is one
+      const SweepOptions how{256, options_.bounces > 0 ? options_.bounces - 1 : 0,
+                             kTailShare * std::max(target(), 1e-3)};
+      ORIEL_TRY(sweeps, sweep(texels_, around_, direct_.value, how, context_, rays_));
+    }
+    irradiance_ = direct_.value;
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if (!sweeps.gathered.empty()) irradiance_[i] += sweeps.gathered[i];
     ORIEL_TRY_VOID(gather_to_target());
     ORIEL_TRY_VOID(refine_direct());
     store(result);
@@ -48,12 +54,6 @@ class CachedBake {
 
  private:
   double target() const { return options_.error; }
-
-  std::vector<Vec3> means_of_direct() const {
-    std::vector<Vec3> mean(texels_.count());
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = direct_.mean(i);
-    return mean;
-  }
 
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
@@ -72,7 +72,7 @@ class CachedBake {
   double relative2(std::size_t i, const Vec3& variance) const {
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
-      const double value = double{direct_.mean(i)[c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
+      const double value = double{direct_.value[i][c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
       const double denominator = value * value + floor * floor;
       if (denominator > 0) sum += variance[c] / denominator;
     }
@@ -85,7 +85,7 @@ class CachedBake {
     count_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
-      sum += DVec3(direct_.mean(i)) + DVec3(estimate_.value[i]);
+      sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
       ++count_;
     }
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
@@ -175,7 +175,7 @@ class CachedBake {
       result.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
       page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
       if (texels_.visible[i] == 0) continue;
-      page.irradiance[texel] = glm::max(direct_.mean(i) + estimate_.value[i], Vec3(0));
+      page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
       page.standard_error[texel] = glm::sqrt(direct_.variance[i] + estimate_.variance[i]);
     }
   }

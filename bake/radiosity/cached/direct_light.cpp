@@ -31,7 +31,7 @@ class DirectGroup {
     }
     if (!d_.closed_form_) sample_surfaces();
     for (std::size_t i = 0; i < list_.size(); ++i) {
-      for (int h = 0; h < kHalves; ++h) sums.half[h][list_[i]] = tallies_[i].total[h];
+      sums.value[list_[i]] = tallies_[i].total;
       sums.variance[list_[i]] = tallies_[i].variance;
       sums.per_half[list_[i]] = per_half_;
     }
@@ -49,10 +49,10 @@ class DirectGroup {
     std::uint32_t point = 0;
     Vec3 weight{0};
   };
-  // By texel and half, of the light at hand: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
+  // By texel. Of the light at hand: Σ unoccluded irradiance, and by half Σ weights, Σ weights * transmittance.
   struct Tally {
-    Vec3 open[kHalves] = {Vec3(0), Vec3(0)}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
-    Vec3 total[kHalves] = {Vec3(0), Vec3(0)}, variance{0};
+    Vec3 open{0}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
+    Vec3 total{0}, variance{0};  // of all lights so far
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const {
@@ -86,9 +86,9 @@ class DirectGroup {
       const Receiver receiver = point.site.receiver();
       const float open = polygon_irradiance(light, receiver);
       if (!(open > 0)) continue;
-      tallies_[point.texel].open[point.half] += Vec3(open);
+      tallies_[point.texel].open += Vec3(open);
       Sampler sampler(d_.seed_ + 0xd1ec + l, stream_of(list_[point.texel], point.half), point.k);
-      const auto s = sample_polygon(light, point.site.origin, sampler.next2());
+      const auto s = sample_polygon(light, receiver, sampler.next2());
       if (!s) continue;
       const float weight = incidence(receiver, s->direction) * s->solid_angle;
       if (weight > 0) shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
@@ -102,7 +102,7 @@ class DirectGroup {
       const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
       const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
       if (!(max_component(value) > 0)) continue;
-      tallies_[point.texel].open[point.half] += value;
+      tallies_[point.texel].open += value;
       shoot(p, {point.site.origin, s.direction, s.distance}, value);
     }
   }
@@ -131,23 +131,24 @@ class DirectGroup {
   }
 
   // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
-  // only.
+  // only. One ratio over all samples: its bias falls with their number.
   void finish_light(const Vec3& radiance) {
     trace();
-    const float n = static_cast<float>(per_half_);
+    const auto n = static_cast<float>(kHalves * per_half_);
     for (Tally& t : tallies_) {
-      Vec3 weight(0), passed(0), open(0);
-      for (int h = 0; h < kHalves; ++h) {
-        const Vec3 share = t.passed[h] / glm::max(t.weight[h], Vec3(1e-30f));
-        t.total[h] += radiance * t.open[h] * share / n;
-        weight += t.weight[h], passed += t.passed[h], open += t.open[h];
-        t.open[h] = t.weight[h] = t.passed[h] = Vec3(0);
-      }
-      // A mix p of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
-      const Vec3 p = passed / glm::max(weight, Vec3(1e-30f));
-      const Vec3 value = radiance * open / (kHalves * n);
-      t.variance += value * value * p * (Vec3(1) - p) / std::pow(kHalves * n, 1.5f);
+      const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
+      const Vec3 halves = 0.5f * (ratio(t.passed[0], t.weight[0]) + ratio(t.passed[1], t.weight[1]));
+      const Vec3 open = radiance * t.open / n;
+      t.total += open * (2.0f * share - halves);
+      // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
+      t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+      forget_light(t);
     }
+  }
+  static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
+  static void forget_light(Tally& t) {
+    t.open = Vec3(0);
+    for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
   }
 
   // Emitters without a closed form: one sampled light a point, combined with the gather's own hits on emitters.
@@ -177,12 +178,12 @@ void DirectGroup::sample_surfaces() {
     if (max_component(value) > 0) shoot(p, {point.site.origin, s.direction, s.distance}, value);
   }
   trace();
-  const float n = static_cast<float>(per_half_);
+  const auto n = static_cast<float>(per_half_);
   for (Tally& t : tallies_) {
-    for (int h = 0; h < kHalves; ++h) t.total[h] += t.passed[h] / n;
+    t.total += (t.passed[0] + t.passed[1]) / (kHalves * n);
     const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
     t.variance += 0.25f * difference * difference;
-    for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
+    forget_light(t);
   }
 }
 
@@ -202,7 +203,7 @@ DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::sp
 Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
                              DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
   return parallel_for(
-      context, "radiosity", (list.size() + kGroup - 1) / kGroup,
+      context, "direct light", (list.size() + kGroup - 1) / kGroup,
       [&](std::size_t g) {
         const std::size_t first = g * kGroup;
         DirectGroup group(*this, list.subspan(first, std::min(kGroup, list.size() - first)), per_half);

@@ -7,14 +7,11 @@ namespace oriel {
 
 // What the direct estimate of a texel knows. Lux.
 struct DirectSums {
-  std::array<std::vector<Vec3>, kHalves> half;
-  std::vector<Vec3> variance;           // of the mean of both halves, predicted from the mix of lit and dark samples
-  std::vector<std::uint32_t> per_half;  // samples for each light
+  std::vector<Vec3> value;
+  std::vector<Vec3> variance;           // of value, predicted from the mix of lit and dark samples
+  std::vector<std::uint32_t> per_half;  // samples of each half for each light
 
-  explicit DirectSums(std::size_t texels) : variance(texels), per_half(texels) {
-    for (auto& h : half) h.resize(texels);
-  }
-  Vec3 mean(std::size_t i) const { return 0.5f * (half[0][i] + half[1][i]); }
+  explicit DirectSums(std::size_t texels) : value(texels), variance(texels), per_half(texels) {}
 };
 
 class DirectLight {

@@ -69,7 +69,7 @@ Status gather(const Texels& texels, const Surroundings& around, const DirectionS
     group.run(per_half, sums);
     rays += group.rays();
   };
-  return parallel_for(context, "radiosity", (list.size() + kGroup - 1) / kGroup, body, &rays);
+  return parallel_for(context, "gather", (list.size() + kGroup - 1) / kGroup, body, &rays);
 }
 
 }  // namespace oriel

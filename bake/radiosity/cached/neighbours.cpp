@@ -142,7 +142,7 @@ Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& tex
   const Finder finder(transport, texels);
   const std::size_t runs = (texels.count() + kRun - 1) / kRun;
   std::vector<std::vector<Candidate>> free(runs);
-  ORIEL_TRY_VOID(parallel_for(context, "", runs, [&](std::size_t run) {
+  ORIEL_TRY_VOID(parallel_for(context, "neighbours", runs, [&](std::size_t run) {
     std::vector<Candidate> pairs;
     for (std::size_t i = run * kRun; i < std::min(texels.count(), (run + 1) * kRun); ++i)
       for (const Candidate& c : finder.candidates(static_cast<std::uint32_t>(i)))

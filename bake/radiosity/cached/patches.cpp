@@ -13,14 +13,15 @@ constexpr std::size_t kGroup = 16;  // patches whose rays of one number are trac
 constexpr int kMaxSweeps = 20000;
 
 struct PatchLink {
-  std::uint32_t texel;
+  std::uint32_t patch;
   Vec3 weight;
 };
 
 struct Patch {
   std::vector<std::uint32_t> texels;  // those that see light
   std::vector<PatchLink> links;       // weights divided by the number of rays
-  Vec3 source{0};                     // irradiance found that no texel holds, lux
+  DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
+                                      // sky, emitters behind mirrors
   double area_m2 = 0;
 };
 
@@ -46,10 +47,10 @@ class Solver {
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
     const DirectionSets sets(seed, options_.rays_per_patch);
-    return parallel_for(context, "", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
+    return parallel_for(context, "bounces", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
       const std::size_t first = g * kGroup, end = std::min(patches_.size(), first + kGroup);
       for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, sets);
-      for (std::size_t p = first; p < end; ++p) patches_[p].links.shrink_to_fit();
+      for (std::size_t p = first; p < end; ++p) join_links(patches_[p].links);
     });
   }
 
@@ -75,10 +76,28 @@ class Solver {
     Answers answers;
     around_.answer(batch, about, answers);
     const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
-    for (const Link& link : answers.links)
-      patches_[first + link.ray].links.push_back({link.texel, link.weight * share});
-    for (std::size_t i = 0; i < batch.size(); ++i) patches_[first + i].source += answers.light[i] * (kPi * share);
+    for (const Link& link : answers.links) {
+      Patch& patch = patches_[first + link.ray];
+      patch.source += DVec3(link.weight * direct_[link.texel] * share);
+      if (patch_of_[link.texel] != ~0u) patch.links.push_back({patch_of_[link.texel], link.weight * share});
+    }
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
     return batch.size() + answers.rays;
+  }
+
+  // Links to one patch become one: sweeps read half as much.
+  static void join_links(std::vector<PatchLink>& links) {
+    std::stable_sort(links.begin(), links.end(),
+                     [](const PatchLink& a, const PatchLink& b) { return a.patch < b.patch; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+      if (kept > 0 && links[kept - 1].patch == links[i].patch)
+        links[kept - 1].weight += links[i].weight;
+      else
+        links[kept++] = links[i];
+    links.resize(kept);
+    links.shrink_to_fit();
   }
 
   // Adds what one sweep finds to `next`; returns the norm of the change.
@@ -100,13 +119,11 @@ double Solver::sweep_once(Context& context, const std::vector<Vec3>& now, std::v
   std::vector<double> change((patches_.size() + kRun - 1) / kRun);
   (void)parallel_for(context, "", change.size(), [&](std::size_t run) {
     for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
-      Vec3 sum = patches_[p].source;
-      for (const PatchLink& link : patches_[p].links) {
-        const std::uint32_t other = patch_of_[link.texel];
-        sum += link.weight * (direct_[link.texel] + (other != ~0u ? now[other] : Vec3(0)));
-      }
-      next[p] = sum;
-      const Vec3 d = glm::abs(sum - now[p]);
+      // In double: a hundred bounces between white walls add up a hundred roundings.
+      DVec3 sum(patches_[p].source);
+      for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
+      next[p] = Vec3(sum);
+      const Vec3 d = glm::abs(next[p] - now[p]);
       change[run] += patches_[p].area_m2 * (d.r + d.g + d.b);
     }
   });
@@ -147,6 +164,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
     result.tail = q < 1 ? change / scale * q / (1 - q) : change / scale;
     before = change;
     if (q < 1 && result.tail < options_.tolerance) break;
+    if (result.count == options_.most) break;
     if (result.count >= kMaxSweeps) return tl::unexpected(no_end(solution_));
   }
   return {};

@@ -8,6 +8,7 @@ namespace oriel {
 
 struct SweepOptions {
   std::uint32_t rays_per_patch = 256;
+  int most = 0;             // sweeps; 0: until the tolerance holds
   double tolerance = 1e-3;  // of the mean: bound on what further sweeps could add
 };
 

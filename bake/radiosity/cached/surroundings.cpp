@@ -35,11 +35,11 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
       continue;
     }
     const Face face = faces_[hit.triangle];
-    if (!hit.front && !face.double_sided) continue;
     if (face.kind == Kind::kOther) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
     }
+    if (!hit.front && !face.double_sided) continue;
     const std::uint32_t texel = texels_.find(hit.triangle, hit.barycentric);
     if (texel != kNoTexel) answers.links.push_back({i, texel, texels_.albedo[texel]});
   }

@@ -145,7 +145,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
   place_triangles(atlas, texels);
   const SiteFinder finder(t, atlas, texel_map, back, context.seed);
-  ORIEL_TRY_VOID(parallel_for(context, "", (n + kRun - 1) / kRun, [&](std::size_t run) {
+  ORIEL_TRY_VOID(parallel_for(context, "texel points", (n + kRun - 1) / kRun, [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
       finder.find(texels, i, traced);
