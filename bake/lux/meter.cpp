@@ -1,6 +1,6 @@
 #include "bake/lux/meter.h"
 
-#include "bake/trace/buried.h"
+#include "bake/direct/buried.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 

@@ -7,7 +7,7 @@
 #include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/sides.h"
-#include "bake/trace/buried.h"
+#include "bake/direct/buried.h"
 
 namespace oriel {
 namespace {

@@ -133,7 +133,7 @@ class BakedTexture {
   }
 
  private:
-  // No probe lies nearer than a texel to an edge of its quad: beyond the last texels' centres there is nothing to
+  // No probe lies nearer than half a texel to an edge of its quad: beyond the last texels' centres there is nothing to
   // interpolate.
   bool resolved(const Reading& r) const {
     return std::all_of(r.probes.begin(), r.probes.end(), [&](const Probe& p) {
@@ -144,7 +144,7 @@ class BakedTexture {
         const DVec3 edge = corner(i) - corner(0);
         const double length = glm::length(edge),
                      along = glm::dot(p.position - scene_.origin - corner(0), edge) / length;
-        return along >= texel_m_ && along <= length - texel_m_;
+        return along >= 0.49 * texel_m_ && along <= length - 0.49 * texel_m_;
       });
     });
   }

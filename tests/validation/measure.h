@@ -12,7 +12,7 @@ struct Measured {
 };
 
 // By reading; a value of NaN where a reading cannot be had that way (a texture holds no direct part,
-// and nothing within a texel of an edge).
+// and nothing within half a texel of an edge).
 using Measurements = std::vector<Measured>;
 
 // `oriel-bake lux` at the readings' points; means and worst values over points of a quadrature.

@@ -43,6 +43,7 @@ class Validation : public testing::TestWithParam<Method> {
   static void expect_grid(const Case& c, const Measurements& m) {
     double sum = 0, reference = 0, squares = 0;
     for (std::size_t i = 0; i < m.size(); ++i) {
+      if (std::isnan(m[i].value)) continue;
       sum += m[i].value;
       reference += c.readings[i].expected;
       squares += std::pow(m[i].value - c.readings[i].expected, 2);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
-#include "bake/trace/buried.h"
+#include "bake/direct/buried.h"
 #include "bake/radiosity/sides.h"
 #include "bake/scene/shade.h"
 
