@@ -70,7 +70,7 @@ void add_points(const Json& j, Case& c) {
 void add_boxes(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   for (const char* id : {"ENC-04", "ENC-08"}) {
     const Json& j = suite.find(id);
-    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.02 : 0.05, 0.002);
+    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.02 : 0.025, 0.002);
     for (const auto& [face, e] : j["expected"]["mean_irradiance_per_face"].items()) {
       std::vector<std::string> nodes{face};
       if (id == std::string("ENC-08") && face == "z1") nodes = {"z1_lit", "z1_dark"};
@@ -140,7 +140,7 @@ void add_plates(const Suite& suite, bool thorough, std::vector<Case>& cases) {
 
 void add_furnaces(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   const Json& sink = suite.find("FUR-01");
-  Case c = new_case("FUR-01", "white room, black floor", suite.scene("FUR-01").value(), thorough ? 0.05 : 0.1, 0.004);
+  Case c = new_case("FUR-01", "white room, black floor", suite.scene("FUR-01").value(), thorough ? 0.025 : 0.05, 0.004);
   c.readings.push_back(mean_over("floor", {"z0"}, sink["expected"]["mean_irradiance_floor"], sink["tolerance"]["rel"]));
   cases.push_back(c);
 

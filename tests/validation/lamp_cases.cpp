@@ -70,7 +70,7 @@ Case ceiling_lamp(const Suite& suite) {
   Case c;
   c.id = "CIE-5.3-a";
   c.scene = scene.finish();
-  c.texel_m = 0.05;
+  c.texel_m = 0.0125;
   c.lux_error = 0.0005;
   add_named(j, "E_lux", 1, c);
   return c;
