@@ -35,7 +35,8 @@ void count(const Case& c, const Measurements& m, Totals& totals) {
     const double difference = std::abs(m[i].value - r.expected);
     ++totals.readings;
     totals.outside += difference > r.tolerance;
-    totals.covered += difference <= 1.96 * std::hypot(m[i].error, r.reference_error);
+    // Closed forms have no noise: what they differ by is rounding, and quadrature over a face.
+    totals.covered += difference <= 1.96 * std::hypot(m[i].error, r.reference_error) + 2e-4 * std::abs(r.expected);
     if (r.tolerance > 0) totals.worst = std::max(totals.worst, difference / r.tolerance);
   }
 }
