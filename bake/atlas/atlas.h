@@ -19,12 +19,27 @@ struct AtlasOptions {
   int max_page = 2048;             // largest side of a page, texels
   int padding = 2;                 // texels between charts, at least
   float flat_angle_deg = 1.0f;     // faces within it of a chart's plane are projected exactly
-  float curved_angle_deg = 40.0f;  // a curved chart's normals stay within it
+  float curved_angle_deg = 40.0f;  // a curved chart has no sharper edge, and is first grown to normals within it
+  float max_stretch = 1.1f;        // L2 stretch of a curved chart, at most
+  double time_limit_s = 0;         // then what is left gets quick, plain charts (a warning says so); 0: none. Where it
+                                   // strikes, the atlas depends on the speed of the machine
+  std::uint64_t memory_bytes = 0;  // of the baked lightmap: an error where the texels need more; 0: no limit
 };
 
 struct AtlasPage {
   std::uint32_t width = 0, height = 0;
   bool from_uv1 = false;  // the artist's coordinates
+};
+
+// How well the automatic charts show their surfaces, and how well they fill their pages. Stretch and distortion are 1
+// for an isometry at the mean density of texels (StretchSum in chart/stretch.h); charts drawn coarser count as they
+// are.
+struct AtlasReport {
+  double l2_stretch = 1, linf_stretch = 1;
+  double angle_distortion = 1, area_distortion = 1;
+  std::uint64_t page_texels = 0, covered_texels = 0;
+  std::uint64_t overlapping_texels = 0;  // touched by triangles of two charts
+  bool time_limit_struck = false;
 };
 
 struct Atlas {
@@ -35,11 +50,12 @@ struct Atlas {
   std::uint32_t chart_count = 0;
   double covered_share = 0;  // covered texels over all texels, automatic pages
   float texel_m = 0;         // the texel size used by automatic charts, metres
+  AtlasReport report;
 };
 
 // Errors: kInvalid when artist coordinates overlap (names both meshes), leave [0,1], have no area, or when kUv1 is
-// asked for and no mesh has TEXCOORD_1; kRuntime when it would need more than 4096 pages (says the texel size that
-// fits).
+// asked for and no mesh has TEXCOORD_1; kRuntime when it would need more than 4096 pages or more memory than
+// the limit (says the texel size that fits).
 Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context);
 
 }  // namespace oriel

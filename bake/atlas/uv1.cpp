@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "bake/atlas/polygon.h"
-#include "bake/atlas/surface_mesh.h"
 
 namespace oriel {
 namespace {
@@ -52,7 +51,7 @@ Status check_area(const Scene& scene, const Surface& surface, const Atlas& atlas
   double total = 0, lost = 0;
   std::uint32_t count = 0;
   for (std::uint32_t t = surface.first_triangle; t < surface.first_triangle + surface.triangle_count; ++t) {
-    const double world = triangle_frame(scene, t).area;
+    const double world = triangle_area(scene, t);
     total += world;
     if (has_area(in_texels(atlas, t))) continue;
     lost += world;

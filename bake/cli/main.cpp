@@ -58,8 +58,14 @@ int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinte
   return static_cast<int>(error.code);
 }
 
-// Fails before hours of work where their result could not be written, or would replace the scene.
-Status check_output(const std::filesystem::path& output, const std::filesystem::path& scene) {
+std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& scene, const ImportOptions& import) {
+  std::vector<std::filesystem::path> inputs{scene, import.sky_file};
+  for (const auto& [node, file] : import.ies) inputs.push_back(file);
+  return inputs;
+}
+
+// Fails before hours of work where their result could not be written, or would replace what is read.
+Status check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs) {
   namespace fs = std::filesystem;
   std::error_code ec;
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
@@ -69,9 +75,9 @@ Status check_output(const std::filesystem::path& output, const std::filesystem::
     return fail(ErrorCode::kIo, output.string(), "the folder {} cannot be written: {}", folder.string(),
                 std::strerror(errno));
   if (fs::is_directory(output, ec)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
-  if (fs::equivalent(output, scene, ec))
-    return fail(ErrorCode::kUsage, output.string(),
-                "is the scene itself, which would be overwritten: expected another name");
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(output, input, ec))
+      return fail(ErrorCode::kUsage, output.string(), "is an input, which would be overwritten: expected another name");
   return {};
 }
 
@@ -85,9 +91,9 @@ void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter&
 
 Status run_lux(const Arguments& args, Context& context) {
   if (!args.lux_output.empty()) {
-    ORIEL_TRY_VOID(check_output(args.lux_output, args.lux.scene));
-    if (std::error_code ec; std::filesystem::equivalent(args.lux_output, args.lux.points, ec))
-      return fail(ErrorCode::kUsage, args.lux_output.string(), "is the table of points itself: expected another name");
+    auto inputs = inputs_of(args.lux.scene, args.lux.import);
+    inputs.push_back(args.lux.points);
+    ORIEL_TRY_VOID(check_output(args.lux_output, inputs));
   }
   ORIEL_TRY(const Measurement measured, measure(args.lux, context));
   const std::string csv = lux_csv(measured.points, measured.results);
@@ -98,9 +104,10 @@ Status run_lux(const Arguments& args, Context& context) {
 }
 
 Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {
-  ORIEL_TRY_VOID(check_output(args.bake.output, args.bake.scene));
+  const auto inputs = inputs_of(args.bake.scene, args.bake.import);
+  ORIEL_TRY_VOID(check_output(args.bake.output, inputs));
   if (!args.report.empty()) {
-    ORIEL_TRY_VOID(check_output(args.report, args.bake.scene));
+    ORIEL_TRY_VOID(check_output(args.report, inputs));
     if (args.report.lexically_normal() == args.bake.output.lexically_normal())
       return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
   }

@@ -9,22 +9,28 @@ namespace {
 
 constexpr std::array<IVec2, 8> kNeighbours{IVec2{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
-// The mean of irradiance over those neighbours that `usable` accepts; false where there is none.
+struct Light {
+  Vec3 irradiance{0}, direction{0};  // direction only where the page has it
+};
+
+// The mean light of those neighbours that `usable` accepts; false where there is none.
 template <class Usable>
-bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usable& usable, Vec3& mean) {
+bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usable& usable, Light& mean) {
   const int width = static_cast<int>(page.width), height = static_cast<int>(page.height);
   const int x = static_cast<int>(texel) % width, y = static_cast<int>(texel) / width;
-  Vec3 sum(0);
+  Light sum;
   int count = 0;
   for (const IVec2& step : kNeighbours) {
     const int nx = x + step.x, ny = y + step.y;
     if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
     const auto neighbour = static_cast<std::uint32_t>(ny * width + nx);
     if (!usable(neighbour)) continue;
-    sum += page.irradiance[neighbour];
+    sum.irradiance += page.irradiance[neighbour];
+    if (!page.direction.empty()) sum.direction += page.direction[neighbour];
     ++count;
   }
-  if (count > 0) mean = sum / static_cast<float>(count);
+  const auto n = static_cast<float>(count);
+  if (count > 0) mean = {sum.irradiance / n, sum.direction / n};
   return count > 0;
 }
 
@@ -33,12 +39,12 @@ bool mean_of_neighbours(const LightmapPage& page, std::uint32_t texel, const Usa
 template <class Usable, class Fill>
 void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, const Usable& usable,
             const Fill& fill) {
-  std::vector<std::pair<std::uint32_t, Vec3>> found;
+  std::vector<std::pair<std::uint32_t, Light>> found;
   for (int round = 0; round < rounds && !pending.empty(); ++round) {
     found.clear();
     std::vector<std::uint32_t> left;
     for (const std::uint32_t texel : pending) {
-      Vec3 mean(0);
+      Light mean;
       if (mean_of_neighbours(
               page, texel, [&](std::uint32_t n) { return usable(texel, n); }, mean))
         found.emplace_back(texel, mean);
@@ -47,7 +53,8 @@ void spread(LightmapPage& page, std::vector<std::uint32_t> pending, int rounds, 
     }
     if (found.empty()) return;
     for (const auto& [texel, value] : found) {
-      page.irradiance[texel] = value;
+      page.irradiance[texel] = value.irradiance;
+      if (!page.direction.empty()) page.direction[texel] = value.direction;
       fill(texel);
     }
     pending = std::move(left);

@@ -21,6 +21,8 @@ struct Run {
 // What the paths of one texel found.
 struct TexelSums {
   DVec3 sum{0}, squares{0};
+  DVec3 vector{0};  // of luminance, as IrradianceSample's; negated where the back is baked
+  double mean = 0;
   std::uint32_t count = 0;
 };
 
@@ -40,12 +42,15 @@ class Baker {
       const Vec2 uv = sampler.next2();
       const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
       if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
-      const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays);
+      const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays, options_.directional);
       const DVec3 value(e.direct + e.indirect);
       sums.sum += value;
       sums.squares += value * value;
+      sums.vector += DVec3(e.vector);
+      sums.mean += e.mean;
       ++sums.count;
     }
+    if (back_[atlas_.chart[map.fragments[map.first[i]].triangle]]) sums.vector = -sums.vector;
     return sums;
   }
 
@@ -73,6 +78,12 @@ class Baker {
   const Context& context_;
 };
 
+Vec3 direction_of(const TexelSums& sums) {
+  if (!(sums.mean > 0)) return Vec3(0);
+  const DVec3 d = sums.vector / sums.mean;
+  return Vec3(d / std::max(1.0, glm::length(d)));  // longer than 1 by rounding only
+}
+
 void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::size_t texel) {
   // A handful of points that escaped the probes do not make a texel visible.
   if (sums.count * 16 < asked || sums.count == 0) {
@@ -84,6 +95,7 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
   // One path says nothing of its spread: its error is taken to be as large as itself.
   const DVec3 variance = sums.count < 2 ? mean * mean : glm::max(DVec3(0), sums.squares / n - mean * mean);
   page.irradiance[texel] = Vec3(mean);
+  if (!page.direction.empty()) page.direction[texel] = direction_of(sums);
   page.standard_error[texel] = Vec3(glm::sqrt(variance / std::max(1.0, n - 1)));
   page.state[texel] = TexelState::kValid;
 }
@@ -156,6 +168,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
     LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size),
                       std::vector<TexelState>(size)};
+    if (options.directional) page.direction.resize(size);
     result.pages.push_back(std::move(page));
     result.visible.emplace_back(map.texel.size());
   }

@@ -32,7 +32,8 @@ struct RadiosityOptions {
   int bounces = 0;   // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
-  int dilation = 4;  // texels by which charts are extended beyond their border
+  int dilation = 4;          // texels by which charts are extended beyond their border
+  bool directional = false;  // fill LightmapPage::direction
 };
 
 struct RadiosityReport {

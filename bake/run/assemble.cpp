@@ -9,7 +9,9 @@ namespace {
 // Copies vertices on demand, one for each (scene vertex, lightmap uv) pair.
 class VertexSplitter {
  public:
-  VertexSplitter(const Scene& scene, Mesh& mesh) : scene_(scene), mesh_(mesh), first_(scene.positions.size(), kNone) {}
+  VertexSplitter(const Scene& scene, Mesh& mesh) : scene_(scene), mesh_(mesh), first_(scene.positions.size(), kNone) {
+    for (const SceneMaterial& material : scene.materials) mapped_ |= material.normal_texture.image >= 0;
+  }
 
   std::uint32_t vertex(std::uint32_t v, const Vec2& lightmap_uv, const SceneMaterial& material) {
     for (std::uint32_t at = first_[v]; at != kNone; at = next_[at])
@@ -17,10 +19,13 @@ class VertexSplitter {
     const auto added = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.push_back(scene_.positions[v]);
     mesh_.normals.push_back(scene_.normals[v]);
-    const TextureSlot& slot = material.base_color_texture;
-    const Vec2 uv = slot.texcoord == 0 ? scene_.uv0[v] : scene_.uv1[v];
-    mesh_.uvs.push_back(slot.image < 0 ? Vec2(0) : Vec2(slot.image_from_uv * Vec3(uv, 1)));
+    mesh_.uvs.push_back(texture_uv(material.base_color_texture, v));
     mesh_.lightmap_uvs.push_back(lightmap_uv);
+    if (mapped_) {
+      const bool own = material.normal_texture.image >= 0 && !scene_.tangents.empty();
+      mesh_.normal_uvs.push_back(texture_uv(material.normal_texture, v));
+      mesh_.tangents.push_back(own ? scene_.tangents[v] : Vec4(0));
+    }
     if (!scene_.colors.empty()) mesh_.colors.push_back(scene_.colors[v]);
     next_.push_back(first_[v]);
     first_[v] = added;
@@ -29,9 +34,40 @@ class VertexSplitter {
 
  private:
   static constexpr std::uint32_t kNone = ~0u;
+
+  Vec2 texture_uv(const TextureSlot& slot, std::uint32_t v) const {
+    const Vec2 uv = slot.texcoord == 0 ? scene_.uv0[v] : scene_.uv1[v];
+    return slot.image < 0 ? Vec2(0) : Vec2(slot.image_from_uv * Vec3(uv, 1));
+  }
+
   const Scene& scene_;
   Mesh& mesh_;
   std::vector<std::uint32_t> first_, next_;  // a list of copies by scene vertex
+  bool mapped_ = false;                      // some material has a normal map
+};
+
+// A pack's textures of one kind, one for each image and way of reading it.
+class TextureList {
+ public:
+  TextureList(const Scene& scene, std::vector<Texture>& textures) : scene_(scene), textures_(textures) {}
+
+  // -1 where the slot is empty.
+  std::int32_t index(const TextureSlot& slot) {
+    if (slot.image < 0) return -1;
+    const auto [at, added] = known_.try_emplace({slot.image, slot.wrap_s, slot.wrap_t, slot.nearest},
+                                                static_cast<std::int32_t>(textures_.size()));
+    if (added) {
+      const Image& image = scene_.images[static_cast<std::size_t>(slot.image)];
+      textures_.push_back(
+          {image.name, image.width, image.height, slot.wrap_s, slot.wrap_t, slot.nearest, image.texels});
+    }
+    return at->second;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<Texture>& textures_;
+  std::map<std::tuple<std::int32_t, Wrap, Wrap, bool>, std::int32_t> known_;
 };
 
 MeshPart& part_for(Mesh& mesh, const Surface& surface, std::int32_t page, bool new_surface) {
@@ -76,9 +112,8 @@ AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas) {
   return out;
 }
 
-void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vector<Material>& materials,
-                        std::vector<Texture>& textures) {
-  std::map<std::tuple<std::int32_t, Wrap, Wrap, bool>, std::int32_t> known;
+void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack) {
+  TextureList colors(scene, pack.textures), normals(scene, pack.normal_textures);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const SceneMaterial& in = scene.materials[i];
     const MaterialSummary& mean = maps.summaries[i];
@@ -98,18 +133,10 @@ void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vecto
     m.emission = mean.emission;
     m.kernel = maps.kernel[i];
     m.fresnel_map = maps.fresnel_map[i];
-    const TextureSlot& slot = in.base_color_texture;
-    if (slot.image >= 0) {
-      const auto [at, added] = known.try_emplace({slot.image, slot.wrap_s, slot.wrap_t, slot.nearest},
-                                                 static_cast<std::int32_t>(textures.size()));
-      if (added) {
-        const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
-        textures.push_back(
-            {image.name, image.width, image.height, slot.wrap_s, slot.wrap_t, slot.nearest, image.texels});
-      }
-      m.base_color_texture = at->second;
-    }
-    materials.push_back(std::move(m));
+    m.base_color_texture = colors.index(in.base_color_texture);
+    m.normal_texture = normals.index(in.normal_texture);
+    m.normal_scale = in.normal_scale;
+    pack.materials.push_back(std::move(m));
   }
 }
 

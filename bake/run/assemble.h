@@ -15,8 +15,7 @@ struct AssembledMesh {
 // Vertices are split where lightmap coordinates part; parts are runs of one surface on one page, in the scene's order.
 AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas);
 
-// Pack materials with indices into `maps` (K, R), and the base colour textures that they use.
-void assemble_materials(const Scene& scene, const MaterialMaps& maps, std::vector<Material>& materials,
-                        std::vector<Texture>& textures);
+// Pack materials with indices into `maps` (K, R), and the base colour and normal textures that they use.
+void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack);
 
 }  // namespace oriel

@@ -9,10 +9,11 @@
 
 namespace oriel {
 
-// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does. 0 for
-// triangles without a chart.
+// Irradiance at a point of a triangle, lux: bilinear between texel centres, as the player's hardware does, and with a
+// directional lightmap that of the normal `tilted` instead of `normal` (both unit, front side). 0 for triangles without
+// a chart.
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
-                      const Vec2& barycentric);
+                      const Vec2& barycentric, const Vec3& tilted, const Vec3& normal);
 
 // Radiance that a hit surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
 // specular part as a wide lobe R E/π, and its own emission. Constant cost: no further ray.

@@ -1,5 +1,6 @@
 #include "bake/run/measure.h"
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/options.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
@@ -51,7 +52,7 @@ Result<Measurement> measure(const MeasureJob& job, Context& context) {
   const Scene& scene = imported.scene;
   Measurement m;
   ORIEL_TRY(m.points, points_of(job, scene));
-  ORIEL_TRY(const Accel accel, Accel::build(scene, {job.reproducible}));
+  ORIEL_TRY(const Accel accel, Accel::build(scene, {job.reproducible, thread_count(context)}));
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
   ORIEL_TRY(m.results, illuminance_at({accel, lights, {}}, m.points, job.lux, context));

@@ -26,6 +26,10 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
   return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
 }
 
+const char* directional_name(Directional directional) {
+  return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
+}
+
 }  // namespace
 
 Result<float> parse_length(const std::string& text) {
@@ -108,6 +112,8 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"resolution", o.atlas.resolution},
       {"max_page", o.atlas.max_page},
       {"padding", o.atlas.padding},
+      {"lightmap_memory", o.atlas.memory_bytes},
+      {"atlas_time_limit_s", o.atlas.time_limit_s},
       {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},
       {"error", o.radiosity.error},
@@ -116,6 +122,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"bounces", o.radiosity.bounces},
       {"hidden", o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"},
       {"dilation", o.radiosity.dilation},
+      {"directional", directional_name(o.directional)},
       {"radiance", o.with_radiance},
       {"material", o.with_material},
       {"max_reflectors", o.reflectors.max_reflectors},

@@ -14,12 +14,16 @@
 
 namespace oriel {
 
+// Whether the lightmap holds directions: where a normal map wants them, always, never.
+enum class Directional { kAuto, kOn, kOff };
+
 struct BakeOptions {
   std::filesystem::path scene;   // .glb or .gltf
   std::filesystem::path output;  // .oriel
   ImportOptions import;
   AtlasOptions atlas;
-  RadiosityOptions radiosity;
+  RadiosityOptions radiosity;  // radiosity.directional follows from the next
+  Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
   ViewOptions views;
   CaptureOptions capture;

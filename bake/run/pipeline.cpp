@@ -1,7 +1,9 @@
 #include "bake/run/pipeline.h"
 
+#include <algorithm>
 #include <chrono>
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/report.h"
@@ -68,6 +70,20 @@ PathOptions path_options(const BakeOptions& options) {
   return paths;
 }
 
+// Whether the lightmap is to hold directions; why not is noted.
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
+  if (wanted == Directional::kOn) return true;
+  const bool mapped = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    return material.normal_texture.image >= 0 && !material.unlit;
+  });
+  if (mapped && wanted == Directional::kAuto) return true;
+  omissions.emplace_back(mapped
+                             ? "directional lightmaps: left out by --directional off; normal maps tilt reflections only"
+                             : "directional lightmaps: no material has a normal map");
+  return false;
+}
+
 }  // namespace
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
@@ -83,14 +99,17 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
   ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
-  ORIEL_TRY(const Accel accel,
-            timed("accelerator", [&](auto&) { return Accel::build(scene, {options.reproducible}); }));
+  ORIEL_TRY(const Accel accel, timed("accelerator", [&](auto&) {
+              return Accel::build(scene, {options.reproducible, thread_count(context)});
+            }));
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 
+  RadiosityOptions radiosity_options = options.radiosity;
+  radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
               auto baked =
-                  bake_radiosity({accel, lights, path_options(options)}, atlas, texel_map, options.radiosity, context);
+                  bake_radiosity({accel, lights, path_options(options)}, atlas, texel_map, radiosity_options, context);
               if (baked) rays = baked->report.rays;
               return baked;
             }));
@@ -111,7 +130,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
     materials.kernels.clear();
     for (auto& kernel : materials.kernel) kernel = -1;
   }
-  assemble_materials(scene, materials, pack.materials, pack.textures);
+  assemble_materials(scene, materials, pack);
   pack.mesh = std::move(mesh.mesh);
   pack.kernels = std::move(materials.kernels);
   pack.fresnel_maps = std::move(materials.fresnel_maps);

@@ -21,6 +21,20 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+Json atlas_json(const Atlas& atlas) {
+  const AtlasReport& r = atlas.report;
+  return {{"pages", atlas.pages.size()},
+          {"charts", atlas.chart_count},
+          {"texel_m", atlas.texel_m},
+          {"covered_share", atlas.covered_share},
+          {"overlapping_texels", r.overlapping_texels},
+          {"l2_stretch", r.l2_stretch},
+          {"linf_stretch", r.linf_stretch},
+          {"angle_distortion", r.angle_distortion},
+          {"area_distortion", r.area_distortion},
+          {"time_limit_struck", r.time_limit_struck}};
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
@@ -35,13 +49,10 @@ std::string plan_json(const BakeFacts& f) {
         {"materials", f.scene.materials.size()},
         {"punctual_lights", f.scene.lights.size()},
         {"emitted_lm", rgb(f.emitted_lm)}}},
-      {"atlas",
-       {{"pages", f.atlas.pages.size()},
-        {"charts", f.atlas.chart_count},
-        {"texel_m", f.atlas.texel_m},
-        {"covered_share", f.atlas.covered_share}}},
+      {"atlas", atlas_json(f.atlas)},
       {"radiosity",
        {{"estimator", f.cached ? "cached" : "reference"},
+        {"directional", !f.pack.lightmaps.empty() && !f.pack.lightmaps[0].direction.empty()},
         {"texels", f.radiosity.texels},
         {"buried_texels", f.radiosity.buried},
         {"back_side_charts", f.radiosity.back_charts},

@@ -30,9 +30,9 @@ Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, in
   return roots;
 }
 
-std::array<TextureSlot*, 6> slots_of(SceneMaterial& m) {
-  return {&m.base_color_texture,   &m.metallic_roughness_texture, &m.emission_texture,
-          &m.transmission_texture, &m.specular_texture,           &m.specular_color_texture};
+std::array<TextureSlot*, 7> slots_of(SceneMaterial& m) {
+  return {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.transmission_texture,
+          &m.specular_texture,   &m.specular_color_texture,     &m.normal_texture};
 }
 
 // Loads the images that the placed surfaces' materials use, in the order of the document.

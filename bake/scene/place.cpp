@@ -95,9 +95,10 @@ Result<std::vector<Instance>> find_instances(const Document& document, std::span
 // Appends the surfaces of instances to a scene whose origin is known.
 class Placer {
  public:
-  Placer(Scene& scene, Context& context, bool with_colors)
+  Placer(Scene& scene, Context& context, bool with_colors, bool with_tangents)
       : scene_(scene),
         with_colors_(with_colors),
+        with_tangents_(with_tangents),
         normals_wrong_(context, "surfaces with normals on the back of their triangles"),
         collapsed_(context, "surfaces with triangles too small or thin for where they stand"),
         texcoords_missing_(context, "surfaces without texture coordinates that their material wants") {}
@@ -155,6 +156,13 @@ class Placer {
       normals_[i] =
           scale > 0 && std::isfinite(scale) ? Vec3(glm::normalize(n / scale) * (flipped_ ? -1.0 : 1.0)) : Vec3(0);
     }
+    tangents_.resize(mesh.tangents.size());
+    for (std::size_t i = 0; i < tangents_.size(); ++i) {
+      const Vec3 t = normalize_or(Vec3(linear * DVec3(mesh.tangents[i])), Vec3(0));
+      // A mirrored cross product points the other way.
+      const float side = (mesh.tangents[i].w < 0) == flipped_ ? 1.0f : -1.0f;
+      tangents_[i] = Vec4(t, t == Vec3(0) ? 0 : side);
+    }
   }
 
   // The scene's vertex for a corner: shared between triangles where the stored normal serves, else with the triangle's
@@ -168,6 +176,7 @@ class Placer {
     scene_.normals.push_back(serves ? normals_[corner] : front);
     scene_.uv0.push_back(mesh.uv0.empty() ? Vec2(0) : mesh.uv0[corner]);
     scene_.uv1.push_back(mesh.uv1.empty() ? Vec2(0) : mesh.uv1[corner]);
+    if (with_tangents_) scene_.tangents.push_back(serves && !tangents_.empty() ? tangents_[corner] : Vec4(0));
     if (with_colors_) scene_.colors.push_back(mesh.colors.empty() ? ~0u : mesh.colors[corner]);
     if (serves) shared_[corner] = added;
     return added;
@@ -188,7 +197,8 @@ class Placer {
     const SceneMaterial& material = scene_.materials[surface.material];
     for (const TextureSlot* slot :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.emission_texture,
-          &material.transmission_texture, &material.specular_texture, &material.specular_color_texture})
+          &material.transmission_texture, &material.specular_texture, &material.specular_color_texture,
+          &material.normal_texture})
       if (slot->image >= 0 && (slot->texcoord == 0 ? mesh.uv0 : mesh.uv1).empty() &&
           warned_.insert("t" + mesh.path).second)
         texcoords_missing_.add(
@@ -197,8 +207,9 @@ class Placer {
   }
 
   Scene& scene_;
-  bool with_colors_, flipped_ = false;
+  bool with_colors_, with_tangents_, flipped_ = false;
   std::vector<Vec3> positions_, normals_;  // of the mesh at hand, scene space
+  std::vector<Vec4> tangents_;
   std::vector<std::uint32_t> shared_;
   WarningGroup normals_wrong_, collapsed_, texcoords_missing_;
   std::set<std::string> warned_;
@@ -226,17 +237,19 @@ Result<DVec3> find_origin(const Document& document, std::span<const LoadedMesh> 
 
 Status reserve(const Document& document, std::span<const LoadedMesh> meshes, std::span<const Instance> instances,
                gltf::MemoryBudget& budget, Scene& scene) {
-  std::uint64_t triangles = 0, vertices = 0;
+  std::uint64_t triangles = 0, vertices = 0, vertex_bytes = 44;
   for (const Instance& instance : instances)
     for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives) {
       triangles += mesh.triangles.size();
       vertices += mesh.normals.empty() ? 3 * mesh.triangles.size() : mesh.positions.size();
+      if (!mesh.tangents.empty()) vertex_bytes = 44 + sizeof(Vec4);
     }
   if (triangles == 0)
     return invalid(document.file, "found no mesh with a triangle in the scene, expected at least one");
   if (triangles > (1u << 30))
     return invalid(document.file, "found {} triangles with all instances, expected at most {}", triangles, 1u << 30);
-  ORIEL_TRY_VOID(budget.take(triangles * (sizeof(UVec3) + sizeof(std::uint32_t)) + vertices * 44, document.file));
+  ORIEL_TRY_VOID(budget.take(
+      triangles * (sizeof(UVec3) + sizeof(Vec3) + sizeof(std::uint32_t)) + vertices * vertex_bytes, document.file));
   scene.triangles.reserve(triangles);
   scene.triangle_surface.reserve(triangles);
   scene.positions.reserve(vertices);
@@ -279,11 +292,11 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
   ORIEL_TRY(const std::vector<Instance> instances, find_instances(document, meshes, poses, accessors, budget));
   ORIEL_TRY_VOID(reserve(document, meshes, instances, budget, scene));
   ORIEL_TRY(scene.origin, find_origin(document, meshes, instances));
-  bool with_colors = false;
+  bool with_colors = false, with_tangents = false;
   for (const Instance& instance : instances)
     for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
-      with_colors |= !mesh.colors.empty();
-  Placer placer(scene, context, with_colors);
+      with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
+  Placer placer(scene, context, with_colors, with_tangents);
   std::optional<std::uint32_t> default_material;
   for (const Instance& instance : instances) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
@@ -306,6 +319,10 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
     scene.lower = glm::min(scene.lower, p);
     scene.upper = glm::max(scene.upper, p);
   }
+  std::vector<Vec3> normals;
+  normals.reserve(scene.triangles.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
+  scene.face_normals = std::move(normals);
   return {};
 }
 

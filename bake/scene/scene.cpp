@@ -12,6 +12,7 @@ DVec3 doubled_area_vector(const Scene& scene, std::uint32_t triangle) {
 }  // namespace
 
 Vec3 geometric_normal(const Scene& scene, std::uint32_t triangle) {
+  if (triangle < scene.face_normals.size()) return scene.face_normals[triangle];
   const DVec3 cross = doubled_area_vector(scene, triangle);
   return Vec3(cross / std::sqrt(glm::dot(cross, cross)));
 }

@@ -42,6 +42,8 @@ struct SceneMaterial {
   TextureSlot specular_color_texture;  // multiplies specular_color
   float transmission = 0;              // KHR_materials_transmission, treated as thin
   TextureSlot transmission_texture;    // R: multiplies transmission
+  TextureSlot normal_texture;          // RGB: 2 v - 1 in the tangent frame
+  float normal_scale = 1;              // of its x and y
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
@@ -101,7 +103,12 @@ struct Scene {
   std::vector<Vec3> normals;  // unit shading normals, on the front side (counter-clockwise winding) of their triangles
   std::vector<Vec2> uv0, uv1;
   std::vector<std::uint32_t> colors;  // RGBA8 linear; empty when the whole scene has none
-  std::vector<UVec3> triangles;       // counter-clockwise seen from the front; never degenerate
+  // Unit tangents of normal maps, w = ±1 the side of the bitangent w · cross(normal, tangent); w = 0 where none is
+  // given and it follows from the texture coordinates. Empty when the whole scene gives none.
+  std::vector<Vec4> tangents;
+  std::vector<UVec3> triangles;  // counter-clockwise seen from the front; never degenerate
+  // geometric_normal() of the first triangles, kept; it computes those of the others. Who moves vertices clears it.
+  std::vector<Vec3> face_normals;
   std::vector<std::uint32_t> triangle_surface;
   std::vector<Surface> surfaces;
   std::vector<SceneMaterial> materials;

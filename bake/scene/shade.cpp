@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/assets/normal_map.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -104,6 +105,26 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   p.emission = m.emission;
   if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true));
   return p;
+}
+
+Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal) {
+  const SceneMaterial& m = material_of(scene, triangle);
+  const TextureSlot& slot = m.normal_texture;
+  if (slot.image < 0 || m.unlit) return normal;
+  const UVec3& t = scene.triangles[triangle];
+  Vec4 tangent = scene.tangents.empty() ? Vec4(0) : interpolate(scene.tangents, t, b);
+  if (std::abs(tangent.w) < 0.5f) {
+    const std::vector<Vec2>& uvs = slot.texcoord == 0 ? scene.uv0 : scene.uv1;
+    const auto uv_step = [&](std::uint32_t corner) {
+      return Vec2(DMat3(slot.image_from_uv) * DVec3(uvs[corner] - uvs[t.x], 0));
+    };
+    const Vec3& at = scene.positions[t.x];
+    tangent =
+        tangent_of_steps(normal, scene.positions[t.y] - at, scene.positions[t.z] - at, uv_step(t.y), uv_step(t.z));
+  } else {
+    tangent.w = std::copysign(1.0f, tangent.w);
+  }
+  return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false)), m.normal_scale);
 }
 
 float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {

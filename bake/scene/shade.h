@@ -22,6 +22,10 @@ struct ShadePoint {
 // barycentric: weights of the triangle's second and third vertex.
 ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
 
+// The unit normal on the front side that the material's normal map makes of `normal` (unit, front side); the same where
+// it has none. docs/conventions.md, "Normal maps".
+Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal);
+
 // Coverage alone (cheap): 1 for opaque materials.
 float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
 

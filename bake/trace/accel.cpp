@@ -191,7 +191,8 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   for (const Vec3& p : scene.positions) impl->positions.push_back(p * impl->scale);
   impl->positions.resize(scene.positions.size() + 2);  // Embree reads 16 bytes at the last vertex
 
-  impl->device = rtcNewDevice(options.reproducible ? "isa=sse4.2" : nullptr);
+  const std::string config = fmt::format("threads={}{}", options.threads, options.reproducible ? ",isa=sse4.2" : "");
+  impl->device = rtcNewDevice(config.c_str());
   if (!impl->device)
     return fail(ErrorCode::kRuntime, "Embree", "no device, error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
   impl->rtc_scene = rtcNewScene(impl->device);

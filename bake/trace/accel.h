@@ -26,6 +26,7 @@ struct Hit {
 
 struct AccelOptions {
   bool reproducible = false;  // pin the instruction set (SSE4.2), so that results do not depend on the CPU's type
+  int threads = 0;            // that build the hierarchy; 0: all
 };
 
 // Immutable once built; queries may run from any thread. Holds a reference to the scene, which must outlive it.

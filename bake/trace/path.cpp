@@ -2,6 +2,7 @@
 
 #include "bake/trace/albedo.h"
 #include "bake/trace/warp.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -191,6 +192,14 @@ class Walk {
   float pdf_ = 0;  // with this density
 };
 
+// The normal n, or, where a map has turned it away from wo, n bent back until wo grazes the surface: lobes are defined
+// on the side of wo only, and a switch to another normal there would show as an edge.
+Vec3 facing(const Vec3& n, const Vec3& wo) {
+  constexpr float kGrazing = 1e-3f;
+  const float missing = kGrazing - glm::dot(n, wo);
+  return missing > 0 ? glm::normalize(n + missing * wo) : n;
+}
+
 }  // namespace
 
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
@@ -214,6 +223,11 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
 
 SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
   SurfacePoint s = geometry_at(scene, hit, direction);
+  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+  if (material.normal_texture.image >= 0) {
+    const float side = hit.front ? 1.0f : -1.0f;
+    s.normal = facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal), -direction);
+  }
   s.shade = shade_point(scene, hit.triangle, hit.barycentric);
   s.emits = s.reflects && max_component(s.shade.emission) > 0;
   return s;
@@ -244,19 +258,39 @@ Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3
 }
 
 IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,
-                                   std::uint64_t& rays) {
+                                   std::uint64_t& rays, bool directional) {
   IrradianceSample s;
   const Shading shading(surface, surface.normal);
+  const auto density = [&](const Vec3& wi) {
+    return directional ? shading.both(wi, [](const Vec3& w) { return linear_hemisphere_pdf(w.z); })
+                       : shading.cosine(wi) / kPi;
+  };
+  const auto add_moments = [&](const Vec3& estimate, const Vec3& from) {
+    const float share = luminance(estimate) / (4 * kPi);
+    s.mean += share;
+    s.vector += share * from;
+  };
+  Vec3 towards(0);
+  float light_cosine = 0;
   s.direct = sample_lights(
-      t, surface, sampler, rays, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
-      [&](const Vec3& wi) { return shading.cosine(wi) / kPi; });
-  const Vec3 direction = shading.above(square_to_cosine_hemisphere(sampler.next2()));
+      t, surface, sampler, rays,
+      [&](const Vec3& wi) {
+        towards = wi;
+        light_cosine = shading.cosine(wi);
+        return Vec3(light_cosine);
+      },
+      density);
+  if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
+  const Vec2 u = sampler.next2();
+  const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));
   const Ray ray{spawn_origin(surface, direction), direction};
-  const float pdf = std::max(shading.cosine(direction) / kPi, 1e-12f);
+  const float pdf = std::max(density(direction), 1e-12f);
   const PathLight light = Walk(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
-  s.direct += kPi * (light.emitted + light.sky);  // cosθ / pdf = π
-  s.indirect = kPi * light.scattered;
+  const float weight = directional ? shading.cosine(direction) / pdf : kPi;  // cosθ / pdf
+  s.direct += weight * (light.emitted + light.sky);
+  s.indirect = weight * light.scattered;
   s.back_face = light.back_face;
+  if (directional) add_moments((light.emitted + light.sky + light.scattered) / pdf, direction);
   return s;
 }
 

@@ -80,8 +80,13 @@ struct IrradianceSample {
   Vec3 direct{0};    // straight from emitters
   Vec3 indirect{0};  // after one reflection or more
   bool back_face = false;
+  // Only where directional: the first moments of the incident luminance L, ∫ L dω / 4π and ∫ L ω dω / 4π.
+  float mean = 0;
+  Vec3 vector{0};
 };
+// directional: fills mean and vector too. Their integrands lack the cosine, so that rays of cosine density would give
+// them unbounded weights: half of the density is uniform then, for a tenth more variance of an even light's irradiance.
 IrradianceSample sample_irradiance(const Transport& transport, const SurfacePoint& surface, Sampler& sampler,
-                                   std::uint64_t& rays);
+                                   std::uint64_t& rays, bool directional = false);
 
 }  // namespace oriel

@@ -46,18 +46,23 @@ std::uint64_t mix64(std::uint64_t x) {
 }
 
 Sampler::Sampler(std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
-    : key_(mix64(mix64(seed) ^ stream)), sample_(sample) {}
+    : key_(mix64(mix64(seed) ^ stream)), reversed_sample_(reverse_bits(sample)) {}
+
+// Owen-scrambled sample index.
+inline std::uint32_t Sampler::shuffled_index(std::uint64_t hash) const {
+  return reverse_bits(scramble_reversed(reversed_sample_, static_cast<std::uint32_t>(hash)));
+}
 
 float Sampler::next1() {
   const std::uint64_t h = mix64(key_ + dimension_++);
   // Dimension 0 of Sobol's sequence is the bit-reversed index: shuffling and scrambling act on the reversed bits alone.
-  const std::uint32_t index = reverse_bits(scramble_reversed(reverse_bits(sample_), static_cast<std::uint32_t>(h)));
+  const std::uint32_t index = shuffled_index(h);
   return unit_float(reverse_bits(scramble_reversed(index, static_cast<std::uint32_t>(h >> 32))));
 }
 
 Vec2 Sampler::next2() {
   const std::uint64_t h = mix64(key_ + dimension_++), g = mix64(h);
-  const std::uint32_t index = reverse_bits(scramble_reversed(reverse_bits(sample_), static_cast<std::uint32_t>(h)));
+  const std::uint32_t index = shuffled_index(h);
   const std::uint32_t x = reverse_bits(scramble_reversed(index, static_cast<std::uint32_t>(h >> 32)));
   const std::uint32_t y = reverse_bits(scramble_reversed(sobol_second_reversed(index), static_cast<std::uint32_t>(g)));
   return {unit_float(x), unit_float(y)};

@@ -22,8 +22,10 @@ class Sampler {
   Vec2 next2();  // the next two dimensions, stratified together
 
  private:
+  std::uint32_t shuffled_index(std::uint64_t hash) const;
+
   std::uint64_t key_;
-  std::uint32_t sample_;
+  std::uint32_t reversed_sample_;
   std::uint32_t dimension_ = 0;
 };
 

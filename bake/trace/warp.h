@@ -26,6 +26,16 @@ inline float cosine_hemisphere_pdf(float cos_theta) {
   return std::max(0.0f, cos_theta) / kPi;
 }
 
+// Directions around +z with density (1 + 2 cosθ)/4π: half cosine-distributed, half uniform.
+inline Vec3 square_to_linear_hemisphere(const Vec2& u) {
+  const float z = std::min(0.5f * (std::sqrt(1.0f + 8.0f * u.x) - 1.0f), 1.0f);  // (z² + z) / 2 = u.x
+  const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  return {r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z};
+}
+inline float linear_hemisphere_pdf(float cos_theta) {
+  return cos_theta > 0 ? (1 + 2 * cos_theta) / (4 * kPi) : 0.0f;
+}
+
 // pdf = 1/(4π).
 inline Vec3 square_to_sphere(const Vec2& u) {
   const float z = 1.0f - 2.0f * u.x;

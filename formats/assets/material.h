@@ -11,7 +11,7 @@ namespace oriel {
 enum class AlphaMode : std::uint8_t { kOpaque = 0, kMask = 1, kBlend = 2 };
 enum class Wrap : std::uint8_t { kRepeat = 0, kClamp = 1, kMirror = 2 };
 
-// RGBA, 8 bits a channel, rows from the top, colour sRGB-encoded and alpha linear.
+// RGBA, 8 bits a channel, rows from the top. Colours are sRGB-encoded with a linear alpha; normal maps are linear.
 struct Texture {
   std::string name;
   std::uint32_t width = 0, height = 0;
@@ -36,6 +36,8 @@ struct Material {
   Vec3 emission{0};               // cd/m², the average over its texture where it has one
   std::int32_t kernel = -1;       // into Pack::kernels: K, for reflective materials
   std::int32_t fresnel_map = -1;  // into Pack::fresnel_maps: R
+  std::int32_t normal_texture = -1;  // into Pack::normal_textures
+  float normal_scale = 1;            // of the map's x and y, within ±1e6
 };
 
 }  // namespace oriel

@@ -47,6 +47,7 @@ class Extraction {
     entry["files"][role] = name;
     return write_exr(folder_ / name, image, {{"oriel:role", role}, {"oriel:unit", unit}});
   }
+  Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
   Status png(Json& entry, const char* role, const std::string& name, const ByteImage& image) {
     entry["files"][role] = name;
     return write_png(folder_ / name, image);
@@ -65,6 +66,9 @@ Status Extraction::lightmaps() {
     ORIEL_TRY_VOID(exr(entry, "irradiance", name + ".exr", rgb_image(page.width, page.height, page.irradiance), "lux"));
     ORIEL_TRY_VOID(exr(entry, "standard_error", name + "_error.exr",
                        rgb_image(page.width, page.height, page.standard_error), "lux"));
+    if (!page.direction.empty())
+      ORIEL_TRY_VOID(
+          exr(entry, "direction", name + "_direction.exr", rgb_image(page.width, page.height, page.direction), "1"));
     ByteImage states{page.width, page.height, 1, {}};
     for (const TexelState state : page.state) states.pixels.push_back(static_cast<std::uint8_t>(state));
     ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", states));
@@ -137,15 +141,17 @@ Status Extraction::fresnel_maps() {
 }
 
 Status Extraction::textures() {
-  for (std::size_t i = 0; i < pack_.textures.size(); ++i) {
-    const auto& texture = pack_.textures[i];
-    Json entry{{"kind", "texture"},
-               {"number", i},
-               {"name", texture.name},
-               {"width", texture.width},
-               {"height", texture.height}};
+  ORIEL_TRY_VOID(images("texture", "color", pack_.textures));
+  return images("normal_texture", "normal", pack_.normal_textures);
+}
+
+Status Extraction::images(const char* kind, const char* role, const std::vector<Texture>& textures) {
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    const auto& texture = textures[i];
+    Json entry{
+        {"kind", kind}, {"number", i}, {"name", texture.name}, {"width", texture.width}, {"height", texture.height}};
     ORIEL_TRY_VOID(
-        png(entry, "color", fmt::format("texture_{:03}.png", i), {texture.width, texture.height, 4, texture.texels}));
+        png(entry, role, fmt::format("{}_{:03}.png", kind, i), {texture.width, texture.height, 4, texture.texels}));
     index_.push_back(std::move(entry));
   }
   return {};

@@ -63,7 +63,9 @@ Json lightmaps_json(const Pack& pack) {
          {"texels",
           {{"empty", s.states[0]}, {"dilated", s.states[1]}, {"buried", s.states[2]}, {"valid", s.states[3]}}},
          {"lux", {{"min", s.min_lux}, {"mean", s.mean_lux}, {"max", s.max_lux}}},
-         {"relative_standard_error", s.error}});
+         {"relative_standard_error", s.error},
+         {"directional", !page.direction.empty()},
+         {"mean_direction_length", s.mean_direction}});
   }
   return out;
 }
@@ -103,6 +105,8 @@ Json materials_json(const Pack& pack) {
                    {"roughness", m.roughness},
                    {"metallic", m.metallic},
                    {"texture", m.base_color_texture},
+                   {"normal_texture", m.normal_texture},
+                   {"normal_scale", m.normal_scale},
                    {"kernel", m.kernel},
                    {"fresnel_map", m.fresnel_map}});
   return out;
@@ -170,8 +174,9 @@ void print_maps(const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
     const auto s = summarise(page);
-    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %\n", i,
-               page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error);
+    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %{}\n", i,
+               page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
+               page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
   }
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const auto& r = pack.reflectors[i];
@@ -201,8 +206,9 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   fmt::print("mesh: {} triangles, {} vertices, {} parts, {:.4g} x {:.4g} x {:.4g} m around ({:.6g}, {:.6g}, {:.6g})\n",
              pack.mesh.indices.size() / 3, pack.mesh.positions.size(), pack.mesh.parts.size(), size.x, size.y, size.z,
              pack.mesh.origin.x, pack.mesh.origin.y, pack.mesh.origin.z);
-  fmt::print("{} materials, {} textures, sky ({:.4g}, {:.4g}, {:.4g}) cd/m2\n", pack.materials.size(),
-             pack.textures.size(), pack.sky.r, pack.sky.g, pack.sky.b);
+  fmt::print("{} materials, {} textures, {} normal textures, sky ({:.4g}, {:.4g}, {:.4g}) cd/m2\n",
+             pack.materials.size(), pack.textures.size(), pack.normal_textures.size(), pack.sky.r, pack.sky.g,
+             pack.sky.b);
   print_sections(index);
   fmt::print("\n");
   print_maps(pack);

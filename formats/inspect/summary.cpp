@@ -8,7 +8,7 @@ namespace oriel::inspect {
 
 LightmapSummary summarise(const LightmapPage& page) {
   LightmapSummary summary;
-  double sum = 0, squared_error = 0, low = 0, high = 0;
+  double sum = 0, squared_error = 0, low = 0, high = 0, direction = 0;
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < page.state.size(); ++i) {
     ++summary.states[static_cast<std::size_t>(page.state[i]) / 85];
@@ -18,12 +18,14 @@ LightmapSummary summarise(const LightmapPage& page) {
     high = std::max(high, lux);
     sum += lux;
     squared_error += error * error;
+    if (!page.direction.empty()) direction += glm::length(page.direction[i]);
     ++count;
   }
   if (count == 0) return summary;
   summary.min_lux = low;
   summary.max_lux = high;
   summary.mean_lux = sum / static_cast<double>(count);
+  summary.mean_direction = direction / static_cast<double>(count);
   if (summary.mean_lux > 0) summary.error = std::sqrt(squared_error / static_cast<double>(count)) / summary.mean_lux;
   return summary;
 }

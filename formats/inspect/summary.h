@@ -12,7 +12,8 @@ namespace oriel::inspect {
 struct LightmapSummary {
   std::array<std::uint64_t, 4> states{};          // empty, dilated, buried, valid
   double min_lux = 0, mean_lux = 0, max_lux = 0;  // luminance-weighted; 0 where no texel is valid
-  double error = 0;  // square root of the mean squared standard error, over the mean irradiance; 0 in the dark
+  double error = 0;           // square root of the mean squared standard error, over the mean irradiance; 0 in the dark
+  double mean_direction = 0;  // length of the directions; 0 where there are none
 };
 LightmapSummary summarise(const LightmapPage& page);
 

@@ -79,6 +79,9 @@ inline constexpr std::uint32_t kMeshSection = fourcc("MESH");
 inline constexpr std::uint32_t kMaterialSection = fourcc("MATL");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
+inline constexpr std::uint32_t kDirectionSection = fourcc("LDIR");
+inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
+inline constexpr std::uint32_t kNormalMappingSection = fourcc("NMAP");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
@@ -87,7 +90,7 @@ inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 13> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 16> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -95,6 +98,9 @@ inline constexpr std::array<SectionKind, 13> kSectionKinds = {{
     {kMaterialSection, "materials", false, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
+    {kDirectionSection, "direction page", true, false, true},
+    {kNormalTextureSection, "normal texture", true, false, true},
+    {kNormalMappingSection, "normal mapping", true, false, false},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
     {kKernelSection, "kernels", false, false, false},

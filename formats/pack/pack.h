@@ -34,6 +34,7 @@ struct Pack {
   Vec3 sky{0};  // constant sky radiance, cd/m²
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  std::vector<Texture> normal_textures;
   std::vector<LightmapPage> lightmaps;
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;

@@ -44,7 +44,15 @@ Status decode_text(ByteReader& in, const SectionInfo& section, std::string& text
   return check_end(in, section);
 }
 
-Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Pack& pack) {
+// A pack, and what waits for the sections that it belongs to.
+struct Parts {
+  Pack pack;
+  std::vector<DirectionPage> directions;
+  std::vector<NormalMapping> normal_mapping;
+};
+
+Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Parts& parts) {
+  Pack& pack = parts.pack;
   ORIEL_TRY(const RawBytes raw, section_bytes(file, section));
   ByteReader in(raw.span());
   switch (section.kind) {
@@ -68,6 +76,13 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, pack.textures);
     case kLightmapSection:
       return decode_list(in, section, pack.lightmaps);
+    case kDirectionSection:
+      return decode_list(in, section, parts.directions);
+    case kNormalTextureSection:
+      return decode_list(in, section, pack.normal_textures);
+    case kNormalMappingSection:
+      ORIEL_TRY_VOID(one_element_only(section));
+      return decode_list(in, section, parts.normal_mapping);
     case kReflectorSection:
       return decode_list(in, section, pack.reflectors);
     case kRadianceMapSection:
@@ -85,12 +100,42 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
   }
 }
 
+Status attach(DirectionPage& from, std::uint64_t nth, Pack& pack) {
+  const std::string label = section_label(kDirectionSection, nth);
+  if (from.page >= pack.lightmaps.size())
+    return invalid(label, "found lightmap page {}, expected less than {}", from.page, pack.lightmaps.size());
+  LightmapPage& page = pack.lightmaps[from.page];
+  if (from.width != page.width || from.height != page.height)
+    return invalid(label, "found {} x {} texels, expected page {}'s {} x {}", from.width, from.height, from.page,
+                   page.width, page.height);
+  if (!page.direction.empty()) return invalid(label, "page {} has directions already, expected one section", from.page);
+  page.direction = std::move(from.direction);
+  return {};
+}
+
+Status attach(NormalMapping& from, Pack& pack) {
+  const std::string label = section_label(kNormalMappingSection, 0);
+  for (const NormalMapping::Use& use : from.uses) {
+    if (use.material >= pack.materials.size())
+      return invalid(label, "found material {}, expected less than {}", use.material, pack.materials.size());
+    Material& material = pack.materials[use.material];
+    if (material.normal_texture >= 0) return invalid(label, "material {} is there twice, expected once", use.material);
+    if (use.normal_texture < 0) return invalid(label, "found normal texture {}, expected 0 up", use.normal_texture);
+    material.normal_texture = use.normal_texture;
+    material.normal_scale = use.normal_scale;
+  }
+  pack.mesh.normal_uvs = std::move(from.uvs);
+  pack.mesh.tangents = std::move(from.tangents);
+  return {};
+}
+
 Result<Pack> decode_all(std::span<const std::byte> file) {
   ORIEL_TRY(const PackIndex index, read_index(file));
-  Pack pack;
+  Parts parts;
+  Pack& pack = parts.pack;
   for (const auto& section : index.sections) {
     if (find_section_kind(section.kind)) {
-      ORIEL_TRY_VOID(decode_section(file, section, pack));
+      ORIEL_TRY_VOID(decode_section(file, section, parts));
       continue;
     }
     ORIEL_TRY_VOID(check_section(file, section));
@@ -98,7 +143,9 @@ Result<Pack> decode_all(std::span<const std::byte> file) {
     pack.unknown.push_back(
         {section.kind, section.codec, section.raw_bytes, section.count, Bytes(stored.begin(), stored.end())});
   }
-  return pack;
+  for (std::size_t i = 0; i < parts.directions.size(); ++i) ORIEL_TRY_VOID(attach(parts.directions[i], i, pack));
+  for (NormalMapping& mapping : parts.normal_mapping) ORIEL_TRY_VOID(attach(mapping, pack));
+  return std::move(parts.pack);
 }
 
 }  // namespace

@@ -7,6 +7,23 @@
 
 namespace oriel {
 
+// What a section adds to elements of other kinds: read apart, because sections come in any order.
+struct DirectionPage {
+  std::uint32_t page = 0;  // into Pack::lightmaps
+  std::uint32_t width = 0, height = 0;
+  std::vector<Vec3> direction;
+};
+struct NormalMapping {
+  struct Use {
+    std::uint32_t material = 0;       // into Pack::materials
+    std::int32_t normal_texture = 0;  // into Pack::normal_textures
+    float normal_scale = 1;
+  };
+  std::vector<Use> uses;
+  std::vector<Vec2> uvs;
+  std::vector<Vec4> tangents;
+};
+
 // Append one element. They rely on a pack that validate() finds nothing wrong with.
 void encode(ByteWriter& out, const Mesh& mesh);
 void encode(ByteWriter& out, const Material& material);
@@ -15,6 +32,8 @@ void encode(ByteWriter& out, const Camera& camera);
 void encode(ByteWriter& out, const CameraPath& path);
 void encode(ByteWriter& out, const Texture& texture);
 void encode(ByteWriter& out, const LightmapPage& page);
+void encode(ByteWriter& out, const DirectionPage& page);
+void encode(ByteWriter& out, const NormalMapping& mapping);
 void encode(ByteWriter& out, const RadianceMap& map);
 void encode(ByteWriter& out, const BrdfKernel& kernel);
 void encode(ByteWriter& out, const FresnelMap& map);
@@ -29,6 +48,8 @@ Status decode(ByteReader& in, Camera& camera);
 Status decode(ByteReader& in, CameraPath& path);
 Status decode(ByteReader& in, Texture& texture);
 Status decode(ByteReader& in, LightmapPage& page);
+Status decode(ByteReader& in, DirectionPage& page);
+Status decode(ByteReader& in, NormalMapping& mapping);
 Status decode(ByteReader& in, RadianceMap& map);
 Status decode(ByteReader& in, BrdfKernel& kernel);
 Status decode(ByteReader& in, FresnelMap& map);

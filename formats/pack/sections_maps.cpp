@@ -1,4 +1,4 @@
-// Textures, lightmaps, radiance maps, kernels and Fresnel maps.
+// Textures, lightmaps with their directions, radiance maps, kernels and Fresnel maps.
 #include <algorithm>
 
 #include "formats/core/half.h"
@@ -104,6 +104,31 @@ Status decode(ByteReader& in, LightmapPage& page) {
   ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
   ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
   return get_texel_states(in, texels, page.state);
+}
+
+void encode(ByteWriter& out, const DirectionPage& page) {
+  out.put(page.page);
+  out.put(page.width);
+  out.put(page.height);
+  std::vector<Half3> halves(page.direction.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(page.direction[i][c]);
+  put_planes(out, std::span<const Half3>(halves));
+}
+
+Status decode(ByteReader& in, DirectionPage& page) {
+  page.page = in.get<std::uint32_t>();
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  const auto halves = get_planes<Half3>(in, std::uint64_t{page.width} * page.height);
+  page.direction.resize(halves.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
+      if ((half & 0x7c00) == 0x7c00)
+        return invalid("", "found direction half {:#06x} at texel {}, expected a finite one", half, i);
+      page.direction[i][c] = float_from_half(half);
+    }
+  return {};
 }
 
 void encode(ByteWriter& out, const RadianceMap& map) {

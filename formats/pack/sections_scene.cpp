@@ -1,4 +1,4 @@
-// Geometry, materials, reflectors, cameras.
+// Geometry, materials and their normal maps, reflectors, cameras.
 #include "formats/pack/encoding/planes.h"
 #include "formats/pack/encoding/quantise.h"
 #include "formats/pack/fields.h"
@@ -107,6 +107,48 @@ Status decode(ByteReader& in, Material& material) {
   material.emission = get_vec3(in);
   material.kernel = in.get<std::int32_t>();
   material.fresnel_map = in.get<std::int32_t>();
+  return {};
+}
+
+void encode(ByteWriter& out, const NormalMapping& mapping) {
+  out.put(static_cast<std::uint32_t>(mapping.uses.size()));
+  out.put(static_cast<std::uint32_t>(mapping.uvs.size()));
+  for (const NormalMapping::Use& use : mapping.uses) {
+    out.put(use.material);
+    out.put(use.normal_texture);
+    out.put(use.normal_scale);
+  }
+  put_planes(out, std::span<const Vec2>(mapping.uvs));
+  std::vector<std::uint32_t> tangents(mapping.tangents.size());
+  std::vector<std::int8_t> sides(mapping.tangents.size());
+  for (std::size_t i = 0; i < tangents.size(); ++i) {
+    const Vec4& t = mapping.tangents[i];
+    sides[i] = static_cast<std::int8_t>(t.w);
+    tangents[i] = sides[i] == 0 ? 0 : octahedral_from_normal(Vec3(t));
+  }
+  put_planes(out, std::span<const std::uint32_t>(tangents));
+  put_planes(out, std::span<const std::int8_t>(sides));
+}
+
+Status decode(ByteReader& in, NormalMapping& mapping) {
+  const auto uses = in.get<std::uint32_t>();
+  const auto vertices = in.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < uses && in.ok(); ++i) {
+    NormalMapping::Use use;
+    use.material = in.get<std::uint32_t>();
+    use.normal_texture = in.get<std::int32_t>();
+    use.normal_scale = in.get<float>();
+    mapping.uses.push_back(use);
+  }
+  mapping.uvs = get_planes<Vec2>(in, vertices);
+  const auto tangents = get_planes<std::uint32_t>(in, vertices);
+  const auto sides = get_planes<std::int8_t>(in, vertices);
+  mapping.tangents.resize(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] < -1 || sides[i] > 1)
+      return invalid("", "found side {} of vertex {}'s tangent, expected -1, 0 or 1", static_cast<int>(sides[i]), i);
+    mapping.tangents[i] = sides[i] == 0 ? Vec4(0) : Vec4(normal_from_octahedral(tangents[i]), sides[i]);
+  }
   return {};
 }
 

@@ -84,12 +84,15 @@ void validate_mesh(const Pack& pack, IssueList& list) {
   const Mesh& mesh = pack.mesh;
   const std::size_t n = mesh.positions.size();
   list.in_section(kMeshSection);
+  const bool mapped = !mesh.normal_uvs.empty() || !mesh.tangents.empty();
   if (mesh.normals.size() != n || mesh.uvs.size() != n || mesh.lightmap_uvs.size() != n ||
-      (!mesh.colors.empty() && mesh.colors.size() != n))
+      (!mesh.colors.empty() && mesh.colors.size() != n) ||
+      (mapped && (mesh.normal_uvs.size() != n || mesh.tangents.size() != n)))
     list.error(101,
-               "found {} positions, {} normals, {} texture and {} lightmap coordinates, {} colours, expected as many "
-               "of each (or no colours)",
-               n, mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size());
+               "found {} positions, {} normals, {} texture and {} lightmap coordinates, {} colours, {} coordinates "
+               "and {} tangents of normal maps, expected as many of each (or no colours, or nothing for normal maps)",
+               n, mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size(),
+               mesh.normal_uvs.size(), mesh.tangents.size());
   if (n > 0xffffffffu || mesh.indices.size() > 0xffffffffu)
     list.error(102, "found {} vertices and {} indices, expected less than 2^32", n, mesh.indices.size());
   if (!std::isfinite(mesh.origin.x) || !std::isfinite(mesh.origin.y) || !std::isfinite(mesh.origin.z))
@@ -104,8 +107,15 @@ void validate_mesh(const Pack& pack, IssueList& list) {
   list.each(
       105, "texture coordinates", mesh.uvs, [](const Vec2& v) { return is_finite(v); }, text2, "finite numbers");
   list.each(
+      105, "coordinates of normal maps", mesh.normal_uvs, [](const Vec2& v) { return is_finite(v); }, text2,
+      "finite numbers");
+  list.each(
       105, "lightmap coordinates", mesh.lightmap_uvs,
       [](const Vec2& v) { return within(v.x, 0, 1) && within(v.y, 0, 1); }, text2, "0 to 1");
+  list.each(
+      112, "tangents", mesh.tangents,
+      [](const Vec4& t) { return t.w == 0 || (std::abs(t.w) == 1 && std::abs(glm::length(DVec3(t)) - 1) <= 1e-3); },
+      [](const Vec4& t) { return fmt::format("{}, {}", text_of(Vec3(t)), t.w); }, "length 1 and a side of -1, 0 or 1");
   list.each(
       106, "indices", mesh.indices, [n](std::uint32_t i) { return i < n; },
       [](std::uint32_t i) { return fmt::format("{}", i); }, fmt::format("less than {}", n).c_str());
@@ -143,6 +153,13 @@ void validate_materials(const Pack& pack, IssueList& list) {
     if (!optional_index(m.fresnel_map, pack.fresnel_maps.size()))
       list.error(205, "material {} ('{}'): found Fresnel map {}, expected -1 or less than {}", i, m.name, m.fresnel_map,
                  pack.fresnel_maps.size());
+    if (!optional_index(m.normal_texture, pack.normal_textures.size()) || !within(m.normal_scale, -1e6f, 1e6f))
+      list.error(206,
+                 "material {} ('{}'): found normal texture {} of scale {}, expected -1 or less than {}, and a "
+                 "scale within 1e6",
+                 i, m.name, m.normal_texture, m.normal_scale, pack.normal_textures.size());
+    if (m.normal_texture >= 0 && pack.mesh.normal_uvs.empty() && !pack.mesh.positions.empty())
+      list.error(207, "material {} ('{}') has a normal texture, but the mesh no coordinates for it", i, m.name);
   }
 }
 

@@ -111,14 +111,18 @@ void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
 }  // namespace
 
 void validate_textures(const Pack& pack, IssueList& list) {
-  for (std::size_t i = 0; i < pack.textures.size(); ++i) {
-    const Texture& texture = pack.textures[i];
-    list.in_section(kTextureSection, i);
-    if (check_area(211, texture.width, texture.height, {}, list) &&
-        texture.texels.size() != std::size_t{4} * texture.width * texture.height)
-      list.error(211, "found {} bytes of texels, expected 4 x {} x {}", texture.texels.size(), texture.width,
-                 texture.height);
-  }
+  const auto check = [&](std::uint32_t kind, const std::vector<Texture>& textures) {
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+      const Texture& texture = textures[i];
+      list.in_section(kind, i);
+      if (check_area(211, texture.width, texture.height, {}, list) &&
+          texture.texels.size() != std::size_t{4} * texture.width * texture.height)
+        list.error(211, "found {} bytes of texels, expected 4 x {} x {}", texture.texels.size(), texture.width,
+                   texture.height);
+    }
+  };
+  check(kTextureSection, pack.textures);
+  check(kNormalTextureSection, pack.normal_textures);
 }
 
 void validate_lightmaps(const Pack& pack, IssueList& list) {
@@ -130,6 +134,10 @@ void validate_lightmaps(const Pack& pack, IssueList& list) {
       continue;
     list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
     list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
+    if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) continue;
+    list.each(
+        304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
+        "length 1 at most");
   }
 }
 

@@ -93,6 +93,18 @@ class SectionList {
   std::vector<Section> sections_;
 };
 
+// One or none.
+std::vector<NormalMapping> normal_mapping(const Pack& pack) {
+  NormalMapping mapping;
+  for (std::uint32_t i = 0; i < pack.materials.size(); ++i)
+    if (const Material& m = pack.materials[i]; m.normal_texture >= 0)
+      mapping.uses.push_back({i, m.normal_texture, m.normal_scale});
+  if (mapping.uses.empty() && pack.mesh.normal_uvs.empty()) return {};
+  mapping.uvs = pack.mesh.normal_uvs;
+  mapping.tangents = pack.mesh.tangents;
+  return {std::move(mapping)};
+}
+
 SectionList encode_sections(const Pack& pack) {
   SectionList list;
   list.add_text(kProvenanceSection, pack.provenance);
@@ -106,6 +118,15 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kMaterialSection, pack.materials);
   list.add_each(kTextureSection, pack.textures);
   list.add_each(kLightmapSection, pack.lightmaps);
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
+    const LightmapPage& page = pack.lightmaps[i];
+    if (page.direction.empty()) continue;
+    ByteWriter out;
+    encode(out, DirectionPage{static_cast<std::uint32_t>(i), page.width, page.height, page.direction});
+    list.add(kDirectionSection, 1, out.take());
+  }
+  list.add_each(kNormalTextureSection, pack.normal_textures);
+  list.add_list(kNormalMappingSection, normal_mapping(pack));
   list.add_list(kReflectorSection, pack.reflectors);
   list.add_each(kRadianceMapSection, pack.radiance_maps);
   list.add_list(kKernelSection, pack.kernels);

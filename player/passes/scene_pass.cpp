@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-enum Unit { kBaseUnit = 0, kLightmapUnit = 1, kReflectanceUnit = 2 };
+enum Unit { kBaseUnit = 0, kLightmapUnit = 1, kReflectanceUnit = 2, kDirectionUnit = 3, kNormalUnit = 4 };
 
 gpu::Cull cull_of(const Material& material) {
   return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack;
@@ -49,6 +49,8 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   program.set("u_base_texture", kBaseUnit);
   program.set("u_lightmap", kLightmapUnit);
   program.set("u_reflectance", kReflectanceUnit);
+  program.set("u_direction", kDirectionUnit);
+  program.set("u_normal_texture", kNormalUnit);
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
   scene.bind_geometry();
@@ -73,6 +75,13 @@ void set_material(const gpu::Program& program, const GpuScene& scene, const Draw
   const LightmapTexture& lightmap = scene.lightmap(range.lightmap_page);
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
+  const bool directional = static_cast<bool>(lightmap.direction);
+  program.set("u_directional", directional ? 1 : 0);
+  (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
+  const bool mapped = m.normal_texture >= 0 && !scene.pack().mesh.normal_uvs.empty();
+  program.set("u_normal_mapped", mapped ? 1 : 0);
+  program.set("u_normal_scale", m.normal_scale);
+  scene.normal_map(m.normal_texture).bind(kNormalUnit);
 }
 
 }  // namespace

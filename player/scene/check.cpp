@@ -11,6 +11,10 @@ Status check_mesh(const Pack& pack) {
     return invalid("mesh", "found {} normals, {} uvs, {} lightmap uvs and {} colours, expected {} of each",
                    mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size(), count);
   }
+  if (mesh.normal_uvs.size() != mesh.tangents.size() || (!mesh.tangents.empty() && mesh.tangents.size() != count)) {
+    return invalid("mesh", "found {} uvs and {} tangents of normal maps, expected none or {}", mesh.normal_uvs.size(),
+                   mesh.tangents.size(), count);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_finite(mesh.positions[i]))
       return invalid(fmt::format("mesh: vertex {}", i), "found a position that is not finite");
@@ -58,9 +62,15 @@ Status check_images(const Pack& pack, const gpu::Device& device) {
     const Texture& t = pack.textures[i];
     ORIEL_TRY_VOID(check_size(fmt::format("texture {}", i), t.width, t.height, t.texels.size(), 4, device));
   }
+  for (std::size_t i = 0; i < pack.normal_textures.size(); ++i) {
+    const Texture& t = pack.normal_textures[i];
+    ORIEL_TRY_VOID(check_size(fmt::format("normal texture {}", i), t.width, t.height, t.texels.size(), 4, device));
+  }
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const LightmapPage& p = pack.lightmaps[i];
-    ORIEL_TRY_VOID(check_size(fmt::format("lightmap {}", i), p.width, p.height, p.irradiance.size(), 1, device));
+    const std::string where = fmt::format("lightmap {}", i);
+    ORIEL_TRY_VOID(check_size(where, p.width, p.height, p.irradiance.size(), 1, device));
+    if (!p.direction.empty()) ORIEL_TRY_VOID(check_size(where, p.width, p.height, p.direction.size(), 1, device));
   }
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& m = pack.radiance_maps[i];
@@ -82,10 +92,13 @@ Status check_materials(const Pack& pack) {
   for (std::size_t i = 0; i < pack.materials.size(); ++i) {
     const Material& m = pack.materials[i];
     if (!in_range(m.base_color_texture, pack.textures.size()) || !in_range(m.kernel, pack.kernels.size()) ||
-        !in_range(m.fresnel_map, pack.fresnel_maps.size())) {
-      return invalid(fmt::format("material {} '{}'", i, m.name),
-                     "found texture {}, kernel {}, Fresnel map {}, expected less than {}, {}, {}", m.base_color_texture,
-                     m.kernel, m.fresnel_map, pack.textures.size(), pack.kernels.size(), pack.fresnel_maps.size());
+        !in_range(m.fresnel_map, pack.fresnel_maps.size()) ||
+        !in_range(m.normal_texture, pack.normal_textures.size())) {
+      return invalid(
+          fmt::format("material {} '{}'", i, m.name),
+          "found texture {}, kernel {}, Fresnel map {}, normal texture {}, expected less than {}, {}, {}, {}",
+          m.base_color_texture, m.kernel, m.fresnel_map, m.normal_texture, pack.textures.size(), pack.kernels.size(),
+          pack.fresnel_maps.size(), pack.normal_textures.size());
     }
   }
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) {

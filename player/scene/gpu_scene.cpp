@@ -88,6 +88,10 @@ void GpuScene::upload_geometry() {
   } else {
     add_attribute(buffers_, 4, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
   }
+  if (!mesh.normal_uvs.empty()) {
+    add_attribute(buffers_, 5, mesh.normal_uvs, 2, GL_FLOAT, false);
+    add_attribute(buffers_, 6, mesh.tangents, 4, GL_FLOAT, false);
+  }
   buffers_.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
 }
@@ -118,7 +122,10 @@ void GpuScene::upload_images() {
   const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
   white_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, white.data());
   no_lightmap_.texture = gpu::Texture(gpu::kRgba8, 1, 1, white.data());
-  for (const Texture& texture : pack_.textures) albedos_.push_back(upload_albedo(texture));
+  const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
+  flat_ = gpu::Texture(gpu::kRgba8, 1, 1, flat.data());
+  for (const Texture& texture : pack_.textures) albedos_.push_back(upload_texture(texture, gpu::kSrgbAlpha8));
+  for (const Texture& texture : pack_.normal_textures) normal_maps_.push_back(upload_texture(texture, gpu::kRgba8));
   for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
   for (const BrdfKernel& kernel : pack_.kernels) kernel_taps_.push_back(make_kernel_taps(kernel, kKernelTaps));
@@ -130,14 +137,19 @@ void GpuScene::upload_images() {
 void GpuScene::use_mipmaps(bool on) {
   if (on == mipmaps_) return;
   mipmaps_ = on;
-  for (const gpu::Texture& texture : albedos_) {
-    texture.bind(0);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, on ? texture.levels() - 1 : 0);
-  }
+  for (const auto* textures : {&albedos_, &normal_maps_})
+    for (const gpu::Texture& texture : *textures) {
+      texture.bind(0);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, on ? texture.levels() - 1 : 0);
+    }
 }
 
 const gpu::Texture& GpuScene::albedo(std::int32_t index) const {
   return index < 0 ? white_ : albedos_[static_cast<std::size_t>(index)];
+}
+
+const gpu::Texture& GpuScene::normal_map(std::int32_t index) const {
+  return index < 0 ? flat_ : normal_maps_[static_cast<std::size_t>(index)];
 }
 
 const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {

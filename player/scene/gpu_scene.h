@@ -47,12 +47,14 @@ class GpuScene {
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
   bool is_transparent(std::uint32_t material) const;
 
-  // Whether albedo textures are filtered by their mipmaps, from now on.
+  // Whether albedo and normal textures are filtered by their mipmaps, from now on.
   void use_mipmaps(bool on);
 
   void bind_geometry() const { glBindVertexArray(vertex_array_.name()); }
   // White where index is -1.
   const gpu::Texture& albedo(std::int32_t index) const;
+  // Of Pack::normal_textures; one that tilts nothing where index is -1.
+  const gpu::Texture& normal_map(std::int32_t index) const;
   // Scale 0 where index is -1.
   const LightmapTexture& lightmap(std::int32_t index) const;
   const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
@@ -73,9 +75,9 @@ class GpuScene {
   std::vector<GpuReflector> reflectors_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
-  std::vector<gpu::Texture> albedos_, radiance_maps_, sphere_maps_;
+  std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;
   std::vector<LightmapTexture> lightmaps_;
-  gpu::Texture white_, reflectance_tables_;
+  gpu::Texture white_, flat_, reflectance_tables_;
   LightmapTexture no_lightmap_;
   std::vector<KernelTaps> kernel_taps_;
   KernelTaps mirror_;

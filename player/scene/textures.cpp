@@ -22,7 +22,7 @@ GLenum gl_wrap(Wrap wrap) {
 
 }  // namespace
 
-gpu::Texture upload_albedo(const Texture& texture) {
+gpu::Texture upload_texture(const Texture& texture, const gpu::TextureFormat& format) {
   gpu::TextureOptions options;
   const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
   options.levels = gpu::mip_levels(width, height);
@@ -31,7 +31,7 @@ gpu::Texture upload_albedo(const Texture& texture) {
   options.mag_filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
   options.wrap_s = gl_wrap(texture.wrap_s);
   options.wrap_t = gl_wrap(texture.wrap_t);
-  return {gpu::kSrgbAlpha8, width, height, texture.texels.data(), options};
+  return {format, width, height, texture.texels.data(), options};
 }
 
 LightmapTexture upload_lightmap(const LightmapPage& page) {
@@ -50,7 +50,14 @@ LightmapTexture upload_lightmap(const LightmapPage& page) {
   }
   gpu::TextureOptions options;
   options.min_filter = options.mag_filter = GL_LINEAR;
-  out.texture = {gpu::kRgba16f, static_cast<int>(page.width), static_cast<int>(page.height), texels.data(), options};
+  const int width = static_cast<int>(page.width), height = static_cast<int>(page.height);
+  out.texture = {gpu::kRgba16f, width, height, texels.data(), options};
+  if (page.direction.empty()) return out;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const Vec3 d = is_finite(page.direction[i]) ? page.direction[i] : Vec3(0);
+    texels[i] = {half_from_float(d.x), half_from_float(d.y), half_from_float(d.z), one};
+  }
+  out.direction = {gpu::kRgba16f, width, height, texels.data(), options};
   return out;
 }
 

@@ -6,14 +6,15 @@
 
 namespace oriel {
 
-// sRGB with mipmaps.
-gpu::Texture upload_albedo(const Texture& texture);
+// With mipmaps. format: kSrgbAlpha8 for colours, kRgba8 for normals.
+gpu::Texture upload_texture(const Texture& texture, const gpu::TextureFormat& format);
 
 // Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that
 // the relative error stays 2^-11 down to a billionth of it. 0: the page is black.
 struct LightmapTexture {
   gpu::Texture texture;
   float scale = 0;
+  gpu::Texture direction;  // of a directional lightmap, else empty
 };
 LightmapTexture upload_lightmap(const LightmapPage& page);
 

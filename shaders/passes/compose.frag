@@ -25,7 +25,7 @@ void main() {
   if (u_modulate) {
     vec3 reflectance = vec3(0.0);
     if (u_reflectance_row >= 0) {
-      float cos_theta = view_cosine(u_normal, v_position, u_eye);
+      float cos_theta = view_cosine(u_normal, u_normal, v_position, u_eye);
       reflectance = u_sphere_map
           ? texture(u_reflectance, sphere_map_uv(cos_theta, vec2(0.70710678), float(u_reflectance_count))).rgb
           : reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);

@@ -1,14 +1,7 @@
 // The opaque scene: diffuse light, emission, and the undirected reflection where no reflector shows an image.
-#include "lib/reflectance.glsl"
-#include "lib/shading.glsl"
+#include "passes/surface.glsl"
 
-uniform vec4 u_eye;
 uniform sampler2D u_base_texture;
-uniform sampler2D u_lightmap;
-uniform float u_lightmap_scale;  // lux; 0: nothing was baked
-uniform sampler2D u_reflectance;
-uniform int u_reflectance_row;  // -1: reflects nothing
-uniform int u_reflectance_count;
 uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
@@ -16,26 +9,20 @@ uniform vec3 u_emission;        // cd/m2
 uniform bool u_unlit;
 uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1
 
-in vec3 v_position;
-in vec3 v_normal;
 in vec2 v_uv;
-in vec2 v_lightmap_uv;
 in vec4 v_color;
 layout(location = 0) out vec4 o_light;  // a: 1 light in cd/m2, 2 a colour to be shown as it is
 
 void main() {
+  vec3 normal = tilted_by_map();
   vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
   if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
   if (u_unlit) {
     o_light = vec4(base.rgb * u_weights.z, u_weights.z > 0.0 ? 2.0 : 1.0);
     return;
   }
-  vec3 reflectance = vec3(0.0);
-  if (u_reflectance_row >= 0) {
-    float cos_theta = view_cosine(v_normal, v_position, u_eye);
-    reflectance = reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
-  }
-  vec3 irradiance = texture(u_lightmap, v_lightmap_uv).rgb * u_lightmap_scale;
+  vec3 reflectance = reflectance_of(normal);
+  vec3 irradiance = irradiance_on(normal);
   vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
   light += u_weights.z * u_emission;

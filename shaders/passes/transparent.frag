@@ -1,14 +1,7 @@
 // See-through surfaces, drawn twice: once to dim what lies behind, once to add their own light.
-#include "lib/reflectance.glsl"
-#include "lib/shading.glsl"
+#include "passes/surface.glsl"
 
-uniform vec4 u_eye;
 uniform sampler2D u_base_texture;
-uniform sampler2D u_lightmap;
-uniform float u_lightmap_scale;  // lux; 0: nothing was baked
-uniform sampler2D u_reflectance;
-uniform int u_reflectance_row;  // -1: reflects nothing
-uniform int u_reflectance_count;
 uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform bool u_covers;         // alpha is coverage; else the surface is whole
@@ -20,28 +13,22 @@ uniform float u_unlit_scale;  // cd/m2 of a white unlit surface
 uniform vec3 u_weights;
 uniform bool u_dimming;  // write what the surface lets through instead of its light
 
-in vec3 v_position;
-in vec3 v_normal;
 in vec2 v_uv;
-in vec2 v_lightmap_uv;
 in vec4 v_color;
 layout(location = 0) out vec4 o_light;
 
 void main() {
+  vec3 normal = tilted_by_map();
   vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
   if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
   float coverage = u_covers ? clamp(base.a, 0.0, 1.0) : 1.0;
-  vec3 reflectance = vec3(0.0);
-  if (u_reflectance_row >= 0 && !u_unlit) {
-    float cos_theta = view_cosine(v_normal, v_position, u_eye);
-    reflectance = reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
-  }
+  vec3 reflectance = u_unlit ? vec3(0.0) : reflectance_of(normal);
   if (u_dimming) {
     vec3 through = u_unlit ? vec3(0.0) : base.rgb * u_transmission * (1.0 - max_channel(reflectance));
     o_light = vec4(1.0 - coverage + coverage * through, 1.0);
     return;
   }
-  vec3 irradiance = texture(u_lightmap, v_lightmap_uv).rgb * u_lightmap_scale;
+  vec3 irradiance = irradiance_on(normal);
   vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
   light += u_weights.z * u_emission;

@@ -15,7 +15,7 @@ namespace {
 using testing::Forge;
 
 Bytes tiny_file() {
-  auto bytes = encode_pack(testing::tiny_pack());
+  auto bytes = encode_pack(testing::tiny_mapped_pack());
   EXPECT_TRUE(bytes);
   return *bytes;
 }
@@ -204,6 +204,39 @@ TEST(Hostile, HalvesThatAreNotFinite) {
   expect_refusal(forge.file(), "section LMAP 0 (lightmap page): element 0: found irradiance half 0x7c");
 }
 
+TEST(Hostile, DirectionsAndNormalMapping) {
+  const std::string page = "section LDIR 0 (direction page): ", mapping = "section NMAP (normal mapping): ";
+  expect_refusal(with_raw(kDirectionSection, 0, 1u), page + "found lightmap page 1, expected less than 1");
+  expect_refusal(with_raw(kDirectionSection, 4, ~0u), page + "element 0: found 4294967295 x 4 texels");
+  expect_refusal(with_raw(kDirectionSection, 4, 32768u), page + "its counts need more");
+  expect_refusal(with_raw(kDirectionSection, 4, std::uint64_t{8} << 32 | 4u), page + "found 4 x 8 texels");
+  expect_refusal(with_raw(kDirectionSection, 12 + 32, std::uint8_t{0xfc}),
+                 page + "element 0: found direction half 0xfc");
+  Forge twice = Forge::from(tiny_file());
+  const auto copy = twice.find(kDirectionSection);
+  twice.sections.push_back(copy);
+  expect_refusal(twice.file(), "section LDIR 1 (direction page): page 0 has directions already");
+  expect_refusal(with_raw(kNormalMappingSection, 0, ~0u), mapping + "its counts need more");
+  expect_refusal(with_raw(kNormalMappingSection, 4, ~0u), mapping + "its counts need more");
+  expect_refusal(with_raw(kNormalMappingSection, 8, 2u), mapping + "found material 2, expected less than 2");
+  expect_refusal(with_raw(kNormalMappingSection, 12, -1), mapping + "found normal texture -1");
+  expect_refusal(with_raw(kNormalMappingSection, 20 + 8 * 8 + 8 * 4, std::int8_t{2}), "found side 2 of vertex 0's");
+  expect_refusal(with_record(kNormalMappingSection, [](SectionRecord& r) { r.count = 2; }), mapping + "found 2");
+}
+
+// Sections may come in any order: what a section adds to others does not depend on theirs.
+TEST(Hostile, OrderOfSectionsDoesNotMatter) {
+  Forge forge = Forge::from(tiny_file());
+  std::reverse(forge.sections.begin(), forge.sections.end());
+  std::erase_if(forge.sections, [](const auto& s) { return s.record.kind == kRadianceMapSection; });
+  std::erase_if(forge.sections, [](const auto& s) { return s.record.kind == kReflectorSection; });
+  const auto pack = decode_pack(forge.file());
+  ASSERT_TRUE(pack) << pack.error().text();
+  EXPECT_EQ(pack->lightmaps[0].direction.size(), 32u);
+  EXPECT_EQ(pack->materials[1].normal_texture, 0);
+  EXPECT_TRUE(validate(*pack).empty());
+}
+
 bool all_finite(const Pack& pack) {
   const auto finite = [](const std::vector<Vec3>& values) {
     for (const Vec3& v : values)
@@ -211,7 +244,7 @@ bool all_finite(const Pack& pack) {
     return true;
   };
   for (const auto& page : pack.lightmaps)
-    if (!finite(page.irradiance) || !finite(page.standard_error)) return false;
+    if (!finite(page.irradiance) || !finite(page.standard_error) || !finite(page.direction)) return false;
   for (const auto& map : pack.radiance_maps)
     if (!finite(map.radiance)) return false;
   return finite(pack.mesh.positions) && finite(pack.mesh.normals);

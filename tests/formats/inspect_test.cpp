@@ -36,7 +36,7 @@ class Inspect : public ::testing::Test {
  protected:
   void SetUp() override {
     pack_ = folder_.path() / "tiny.oriel";
-    const auto written = write_pack(pack_, testing::tiny_pack());
+    const auto written = write_pack(pack_, testing::tiny_mapped_pack());
     ASSERT_TRUE(written) << written.error().text();
   }
   Outcome run(const std::string& arguments) const {
@@ -103,7 +103,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);
   EXPECT_NEAR(json["lightmaps"][0]["lux"]["max"].get<double>(), 155.9, 0.2);
   EXPECT_EQ(json["radiance_maps"].size(), 2u);
-  EXPECT_EQ(json["sections"].size(), 15u);
+  EXPECT_EQ(json["sections"].size(), 18u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 
@@ -174,6 +174,11 @@ TEST_F(Inspect, ExtractsEveryMap) {
   EXPECT_EQ(valid->pixels[1], 85);
   EXPECT_EQ(valid->pixels[3], 255);
   EXPECT_TRUE(read_exr(to / "lightmap_000_error.exr"));
+  const auto direction = read_exr(to / "lightmap_000_direction.exr");
+  ASSERT_TRUE(direction) << direction.error().text();
+  for (std::size_t i = 0; i < 96; ++i)
+    EXPECT_EQ(direction->pixels[i], pack->lightmaps[0].direction[i / 3][static_cast<int>(i % 3)]);
+  EXPECT_EQ(read_png(to / "normal_texture_000.png")->pixels, pack->normal_textures[0].texels);
   EXPECT_EQ(read_exr(to / "radiance_map_0001_disparity.exr")->channels, 1u);
   EXPECT_EQ(read_exr(to / "brdf_kernel_01.exr")->width, 5u);
   EXPECT_EQ(read_exr(to / "fresnel_map_00.exr")->width, 3u);

@@ -35,18 +35,32 @@ const Break kBreaks[] = {
     {109, "MESH", [](Pack& p) { p.mesh.parts[1].material = 2; }},
     {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = 1; }},
     {110, "MESH", [](Pack& p) { p.mesh.parts[1].lightmap_page = -2; }},
+    {101, "MESH", [](Pack& p) { p.mesh.tangents.pop_back(); }},
+    {105, "MESH", [](Pack& p) { p.mesh.normal_uvs[0].y = kInf; }},
+    {112, "MESH", [](Pack& p) { p.mesh.tangents[5].x = 0; }},
+    {112, "MESH", [](Pack& p) { p.mesh.tangents[5].w = 0.5f; }},
     {201, "MATL", [](Pack& p) { p.materials[0].base_color.g = -0.1f; }},
     {201, "MATL", [](Pack& p) { p.materials[0].roughness = kNan; }},
     {202, "MATL", [](Pack& p) { p.materials[0].emission.b = kInf; }},
     {203, "MATL", [](Pack& p) { p.materials[1].base_color_texture = 1; }},
     {204, "MATL", [](Pack& p) { p.materials[0].kernel = 2; }},
     {205, "MATL", [](Pack& p) { p.materials[0].fresnel_map = -7; }},
+    {206, "MATL", [](Pack& p) { p.materials[1].normal_texture = 1; }},
+    {206, "MATL", [](Pack& p) { p.materials[1].normal_scale = kNan; }},
+    {207, "MATL", [](Pack& p) { p.mesh.normal_uvs = {}, p.mesh.tangents = {}; }},
+    {211, "NTEX 0", [](Pack& p) { p.normal_textures[0].texels.pop_back(); }},
     {211, "TEXR 0", [](Pack& p) { p.textures[0].texels.pop_back(); }},
     {301, "LMAP 0", [](Pack& p) { p.lightmaps[0].state.pop_back(); }},
     {301, "LMAP 0", [](Pack& p) { p.lightmaps[0].width = 0; }},
     {302, "LMAP 0", [](Pack& p) { p.lightmaps[0].irradiance[4].r = -1; }},
     {302, "LMAP 0", [](Pack& p) { p.lightmaps[0].irradiance[4].b = kInf; }},
     {303, "LMAP 0", [](Pack& p) { p.lightmaps[0].standard_error[4].b = kNan; }},
+    {304, "LMAP 0",
+     [](Pack& p) {
+       p.lightmaps[0].direction[4] = {1, 0.2f, 0};
+     }},
+    {304, "LMAP 0", [](Pack& p) { p.lightmaps[0].direction[4].z = kNan; }},
+    {304, "LMAP 0", [](Pack& p) { p.lightmaps[0].direction.pop_back(); }},
     {401, "RFLT", [](Pack& p) { p.reflectors[0].material = 9; }},
     {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[0] *= 1.1f; }},
     {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[1] *= -1.0f; }},
@@ -91,7 +105,7 @@ const Break kBreaks[] = {
 
 TEST(Validate, EveryRuleCanFail) {
   for (const auto& rule : kBreaks) {
-    Pack pack = testing::tiny_pack();
+    Pack pack = testing::tiny_mapped_pack();
     rule.change(pack);
     bool found = false;
     std::string all;

@@ -40,6 +40,7 @@ FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, 
   for (std::size_t i = 0; i < reference.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const double r = reference[i][c], x = frame.pixels[i * 3 + static_cast<std::size_t>(c)];
+      e.n_rmse += (x - r) * (x - r) / (3 * n);
       const double denominator = r * r + 1e-4 * mean[c] * mean[c];
       if (denominator <= 0) continue;
       e.rel_rmse += (x - r) * (x - r) / denominator / (3 * n);
@@ -47,6 +48,7 @@ FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, 
     }
   e.rel_rmse = std::sqrt(e.rel_rmse);
   e.noise = std::sqrt(e.noise);
+  e.n_rmse = std::sqrt(e.n_rmse) * 3 / (mean.x + mean.y + mean.z);
   e.bias = (mean_frame.x + mean_frame.y + mean_frame.z) / (mean.x + mean.y + mean.z) - 1;
   return e;
 }

@@ -21,6 +21,7 @@ FloatImage shrink(const FloatImage& image, std::uint32_t n);
 struct FrameError {
   double rel_rmse = 0, noise = 0;
   double net() const;  // with the noise removed in quadrature
+  double n_rmse = 0;   // root of the mean of |x - r|² over the mean of r
   double bias = 0;     // mean(x) / mean(r) - 1, over all channels
 };
 FrameError compare(const FloatImage& frame, const std::vector<Vec3>& reference, const std::vector<Vec3>& noise);

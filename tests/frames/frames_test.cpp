@@ -86,6 +86,7 @@ TEST(Compare, SeesADarkerFrame) {
   const std::vector<Vec3> reference(16, Vec3(2)), noise(16, Vec3(0));
   FloatImage frame{4, 4, 3, std::vector<float>(48, 1.8f)};
   EXPECT_NEAR(test::compare(frame, reference, noise).rel_rmse, 0.1, 1e-3);
+  EXPECT_NEAR(test::compare(frame, reference, noise).n_rmse, 0.1, 1e-6);
   EXPECT_NEAR(test::compare(frame, reference, noise).bias, -0.1, 1e-6);
   EXPECT_LT(test::psnr_srgb(frame, reference, 0.3f, std::vector<char>(16, 1)), 40);
 }

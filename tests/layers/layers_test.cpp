@@ -33,12 +33,14 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/jobs"] = core;
   m["bake/scene"] = plus(assets, {"bake/jobs"});
   m["bake/scene/gltf"] = plus(assets, {"bake/jobs", "bake/scene"});  // the file format apart from the scene
-  m["bake/scene/light"] = m["bake/scene/gltf"];
+  m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
   m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light"});
   m["bake/trace"] = m["bake/atlas"] = plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light"});
+  m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
+  m["bake/atlas"].insert("bake/atlas/chart");
+  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
   m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
-  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
@@ -64,7 +66,8 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"tbb/", {"bake/jobs"}},
     {"OpenImageIO/", {"bake/scene"}},
     {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas"}},
+    {"OpenMesh/", {"bake/atlas/chart"}},
+    {"Eigen/", {"bake/atlas/chart"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "bake/radiance/reproject.h"
+#include "formats/assets/lightmap.h"
+#include "formats/assets/normal_map.h"
 #include "formats/core/color.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
@@ -214,6 +216,39 @@ TEST_F(SharedMaths, SrgbAndToneCurves) {
     EXPECT_EQ(shown[i].w, std::min(light[i].x, 1.0f));
   }
   EXPECT_NEAR(shown[40].x, 2.54f / 3.16f, 1e-5f);  // of 1
+}
+
+TEST_F(SharedMaths, NormalMaps) {
+  std::vector<Vec4> normals, texels, steps;
+  for (int i = 0; i < 500; ++i) {
+    normals.emplace_back(normalize_or(Vec3(random(-1, 1), random(-1, 1), random(-1, 1)), Vec3(0, 0, 1)), random(-2, 2));
+    texels.emplace_back(i % 70 == 0 ? Vec3(0.5f) : Vec3(random(0, 1), random(0, 1), random(0, 1)), 0);
+    steps.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(-1, 1));
+  }
+  const auto tilted = run_shader("lib/normal_map.glsl",
+                                 "vec4 t = vec4(b.yzx * exp2(20.0 * b.x), -1.0);\n"
+                                 "o_value = vec4(tilted_normal(a.xyz, t, b.xyz, a.w), 0.0);\n",
+                                 normals, texels);
+  for (std::size_t i = 0; i < tilted.size(); ++i) {
+    const Vec3 texel(texels[i]);
+    const Vec4 t(Vec3(texel.y, texel.z, texel.x) * std::exp2(20 * texel.x), -1);
+    expect_same(tilted[i], Vec4(tilted_normal(Vec3(normals[i]), t, texel, normals[i].w), 0), 10);
+  }
+  const auto tangent = run_shader("lib/normal_map.glsl",
+                                  "o_value = tangent_of_steps(a.xyz, b.xyz, b.wxy, a.xy, b.yw);\n", normals, steps);
+  for (std::size_t i = 0; i < tangent.size(); ++i) {
+    const Vec4 &a = normals[i], &b = steps[i];
+    expect_same(tangent[i], tangent_of_steps(Vec3(a), Vec3(b), Vec3(b.w, b.x, b.y), Vec2(a), Vec2(b.y, b.w)), 1);
+  }
+  const auto ratio =
+      run_shader("lib/normal_map.glsl",
+                 "o_value = vec4(directional_ratio(b.xyz, a.xyz, b.zyx), directional_ratio(a.xyz, b.zyx, "
+                 "a.yzx), 0.0, 0.0);\n",
+                 normals, steps);
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    const Vec3 a(normals[i]), b(steps[i]), c(b.z, b.y, b.x);
+    expect_same(ratio[i], Vec4(directional_ratio(b, a, c), directional_ratio(a, c, Vec3(a.y, a.z, a.x)), 0, 0), 10);
+  }
 }
 
 // R at random angles, against the definition of the table.

@@ -153,4 +153,28 @@ Pack tiny_pack() {
   return pack;
 }
 
+Pack tiny_mapped_pack() {
+  Pack pack = tiny_pack();
+  LightmapPage& page = pack.lightmaps[0];
+  for (std::size_t i = 0; i < page.irradiance.size(); ++i) {
+    const auto v = static_cast<float>(i);
+    page.direction.push_back(Vec3(0.1f * v - 1.5f, 1, 0.03f * v) / 4.0f);
+  }
+  page.direction[0] = {0, -1, 0};
+  Texture bumps;
+  bumps.name = "bumps";
+  bumps.width = bumps.height = 2;
+  bumps.wrap_s = Wrap::kMirror;
+  bumps.texels = {128, 128, 255, 255, 200, 128, 220, 255, 128, 60, 220, 255, 90, 170, 230, 255};
+  pack.normal_textures = {bumps};
+  pack.materials[1].normal_texture = 0;
+  pack.materials[1].normal_scale = 0.75f;
+  for (std::size_t i = 0; i < pack.mesh.positions.size(); ++i) {
+    pack.mesh.normal_uvs.push_back(2.0f * pack.mesh.uvs[i]);
+    // The floor's tangents follow from the coordinates.
+    pack.mesh.tangents.push_back(i < 4 ? Vec4(0) : Vec4(0.6f, 0.8f, 0, i % 2 == 0 ? 1 : -1));
+  }
+  return pack;
+}
+
 }  // namespace oriel::testing

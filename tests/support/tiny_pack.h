@@ -11,4 +11,7 @@ namespace oriel::testing {
 // validate() finds neither errors nor warnings in it. The same on every call; a few kilobytes as a file.
 Pack tiny_pack();
 
+// The same with a directional lightmap, and a normal texture of 2 x 2 texels on the wall's material.
+Pack tiny_mapped_pack();
+
 }  // namespace oriel::testing

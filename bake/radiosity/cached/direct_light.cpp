@@ -29,7 +29,14 @@ class DirectGroup {
       aim_at_punctual(l);
       finish_light(Vec3(1));
     }
-    if (!d_.closed_form_) sample_surfaces();
+    if (!d_.closed_form_) {
+      sample_lights([&](const Point& p, Sampler& sampler) {
+        const float u = sampler.next1();
+        return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
+      });
+    } else if (d_.t_.lights.samples_sky()) {
+      sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
+    }
     for (std::size_t i = 0; i < list_.size(); ++i) {
       sums.value[list_[i]] = tallies_[i].total;
       sums.variance[list_[i]] = tallies_[i].variance;
@@ -151,8 +158,27 @@ class DirectGroup {
     for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
   }
 
-  // Emitters without a closed form: one sampled light a point, combined with the gather's own hits on emitters.
-  void sample_surfaces();
+  // Light without a closed form: one sampled light a point, combined with the gather's own hits on it.
+  template <class Sample>
+  void sample_lights(const Sample& sample) {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + 0x50f, stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = sample(point, sampler);
+      if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
+      const float cosine = incidence(point.site.receiver(), s.direction);
+      const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
+      if (max_component(value) > 0) shoot(p, {point.site.origin, s.direction, s.distance}, value);
+    }
+    trace();
+    const auto n = static_cast<float>(per_half_);
+    for (Tally& t : tallies_) {
+      t.total += (t.passed[0] + t.passed[1]) / (kHalves * n);
+      const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
+      t.variance += 0.25f * difference * difference;
+      forget_light(t);
+    }
+  }
 
   const DirectLight& d_;
   std::span<const std::uint32_t> list_;
@@ -164,28 +190,6 @@ class DirectGroup {
   std::vector<Vec3> passed_;
   std::uint64_t rays_ = 0;
 };
-
-void DirectGroup::sample_surfaces() {
-  for (std::uint32_t p = 0; p < points_.size(); ++p) {
-    const Point& point = points_[p];
-    Sampler sampler(d_.seed_ + 0x50f, stream_of(list_[point.texel], point.half), point.k);
-    const float u = sampler.next1();
-    const LightSample s = d_.t_.lights.sample(point.site.origin, u, sampler.next2());
-    if (s.pdf == 0) continue;  // punctual: done light by light
-    const float cosine = incidence(point.site.receiver(), s.direction);
-    const float mis = s.pdf / (s.pdf + cosine / kPi);
-    const Vec3 value = s.estimate * (cosine * mis);
-    if (max_component(value) > 0) shoot(p, {point.site.origin, s.direction, s.distance}, value);
-  }
-  trace();
-  const auto n = static_cast<float>(per_half_);
-  for (Tally& t : tallies_) {
-    t.total += (t.passed[0] + t.passed[1]) / (kHalves * n);
-    const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
-    t.variance += 0.25f * difference * difference;
-    forget_light(t);
-  }
-}
 
 DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                          const std::vector<char>& back, const Texels& texels, std::uint64_t seed)

@@ -1,5 +1,7 @@
 #include "bake/radiosity/cached/surroundings.h"
 
+#include "bake/scene/light/sky.h"
+
 namespace oriel {
 namespace {
 
@@ -27,11 +29,10 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   answers.links.clear();
   answers.rays = 0;
   t_.accel.intersect(rays, answers.hits);
-  const Vec3 sky = t_.accel.scene().sky;
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = answers.hits[i];
     if (!hit) {
-      answers.light[i] = sky;
+      answers.light[i] = sky_radiance(t_.accel.scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       continue;
     }
     const Face face = faces_[hit.triangle];
@@ -54,7 +55,14 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
   };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
   const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
-  answers.light[number] = light.scattered + light.sky + (closed_form_ ? Vec3(0) : light.emitted);
+  answers.light[number] =
+      light.scattered + (closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted);
+}
+
+float Surroundings::sky_weight(const Vec3& direction, const GatherRay& about) const {
+  if (!t_.lights.samples_sky()) return 1;
+  const float pdf = about.incidence / kPi;
+  return pdf / (pdf + (closed_form_ ? t_.lights.sky_pdf(direction) : t_.lights.pdf(direction)));
 }
 
 }  // namespace oriel

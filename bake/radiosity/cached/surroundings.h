@@ -28,7 +28,8 @@ struct Answers {
 class Surroundings {
  public:
   // closed_form: emitters met directly are left out, their irradiance is known (PolygonLight). Else they count,
-  // weighted against light sampling (balance heuristic).
+  // weighted against LightSet::sample (balance heuristic). So does the sky's image, against LightSet::sample_sky in the
+  // first case, LightSet::sample in the second.
   Surroundings(const Transport& transport, const Texels& texels, bool closed_form, std::uint64_t seed);
 
   // Answers a batch; what Answers held is dropped.
@@ -40,6 +41,9 @@ class Surroundings {
  private:
   // Behind a surface that is more than a matt wall.
   void follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number, Answers& answers) const;
+
+  // The part of the sky met that rays answer for, the rest is left to light sampling.
+  float sky_weight(const Vec3& direction, const GatherRay& about) const;
 
   enum class Kind : char { kMatt, kOther };
   const Transport& t_;

@@ -24,7 +24,7 @@ struct Attribute {
 
 // What glTF 2.0 §3.7.2.1 allows, widened by KHR_mesh_quantization.
 Status check_type(const AccessorDesc& a, const std::string& name, bool quantized, const std::string& where) {
-  const std::uint32_t least = name.starts_with("TEXCOORD") ? 2 : 3;
+  const std::uint32_t least = name.starts_with("TEXCOORD") ? 2 : name == "TANGENT" ? 4 : 3;
   const std::uint32_t most = name == "COLOR_0" ? 4 : least;
   if (a.matrix || a.components < least || a.components > most)
     return invalid(where, "found {} components, expected {}", a.components,
@@ -91,6 +91,13 @@ class PrimitiveLoader {
     gather(position, used, mesh.positions);
     ORIEL_TRY(const Attribute normal, attribute("NORMAL"));
     gather(normal, used, mesh.normals);
+    const bool mapped =
+        desc_.material >= 0 && document_.materials[static_cast<std::size_t>(desc_.material)].normal_texture.image >= 0;
+    if (mapped && normal.components > 0) {  // tangents without normals are to be ignored
+      ORIEL_TRY_VOID(budget_.take(used.size() * sizeof(Vec4), where_));
+      ORIEL_TRY(const Attribute tangent, attribute("TANGENT"));
+      gather(tangent, used, mesh.tangents);
+    }
     ORIEL_TRY(const Attribute uv0, attribute("TEXCOORD_0"));
     gather(uv0, used, mesh.uv0);
     ORIEL_TRY(const Attribute uv1, attribute("TEXCOORD_1"));
@@ -103,7 +110,7 @@ class PrimitiveLoader {
  private:
   Status decompress() {
     std::map<std::string, DracoRequest> requests;
-    for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
+    for (const char* name : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
       const auto id = desc_.draco->attributes.find(name);
       const auto accessor = desc_.attributes.find(name);
       if (id == desc_.draco->attributes.end()) continue;

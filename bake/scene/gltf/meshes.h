@@ -13,6 +13,7 @@ struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;          // as stored, not normalised; empty: none
   std::vector<Vec2> uv0, uv1;         // within ±1e9; empty: none
+  std::vector<Vec4> tangents;         // as stored, with normals only; empty: none, or no normal map wants them
   std::vector<std::uint32_t> colors;  // RGBA8 linear, R lowest; empty: none
   std::vector<UVec3> triangles;       // counter-clockwise; never degenerate, no exact duplicates
 };

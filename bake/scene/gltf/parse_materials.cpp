@@ -7,6 +7,8 @@
 namespace oriel::gltf {
 namespace {
 
+constexpr double kMaxScale = 1e6;  // of normal maps: beyond it every texel that is not flat lies in the surface
+
 struct SamplerDesc {
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
   bool nearest = false;
@@ -67,15 +69,15 @@ class MaterialParser {
     parse_dielectric(value, m);
     m.double_sided = value["doubleSided"].boolean(false);
     m.unlit = value.extension("KHR_materials_unlit").present();
-    // Read for their mistakes only.
-    if (slot(value["normalTexture"]).image >= 0) ++normal_maps_;
+    const Json normal = value["normalTexture"];
+    m.normal_texture = slot(normal);
+    m.normal_scale = static_cast<float>(std::fmin(std::fmax(normal["scale"].number(1), -kMaxScale), kMaxScale));
+    // Read for its mistakes only.
     if (slot(value["occlusionTexture"]).image >= 0) ++occlusion_maps_;
     return m;
   }
 
   void warn_of_omissions() {
-    if (normal_maps_ > 0)
-      document_.warnings.push_back(fmt::format("normal maps of {} materials are left out", normal_maps_));
     if (occlusion_maps_ > 0)
       document_.warnings.push_back(
           fmt::format("occlusion maps of {} materials are left out: the bake finds occlusion itself", occlusion_maps_));
@@ -201,7 +203,7 @@ class MaterialParser {
   Document& document_;
   std::vector<SamplerDesc> samplers_;
   std::vector<TextureDesc> textures_;
-  int normal_maps_ = 0, occlusion_maps_ = 0;
+  int occlusion_maps_ = 0;
 };
 
 }  // namespace

@@ -110,6 +110,7 @@ inline void expect_sound(const Scene& scene, const Built& built) {
   }
   EXPECT_EQ(charts.size(), atlas.chart_count);
   EXPECT_EQ(shared_texels(atlas, built.map), 0u);
+  EXPECT_EQ(atlas.report.overlapping_texels, 0u);
 }
 
 }  // namespace oriel

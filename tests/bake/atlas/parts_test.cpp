@@ -1,9 +1,8 @@
 // Polygons, packing and connectivity: the parts that the atlas is made of.
 #include <gtest/gtest.h>
 
+#include "bake/atlas/chart/surface_mesh.h"
 #include "bake/atlas/polygon.h"
-#include "bake/atlas/skyline.h"
-#include "bake/atlas/surface_mesh.h"
 #include "tests/bake/atlas/shapes.h"
 
 namespace oriel {
@@ -82,45 +81,6 @@ TEST(Polygon, SimpleOutlines) {
   // Twice around: the inner turn lies within the outer one.
   EXPECT_FALSE(is_simple_outline(loops(
       {{DVec2(0, 0), DVec2(9, 0), DVec2(9, 9), DVec2(1, 9), DVec2(1, 1), DVec2(8, 1), DVec2(8, 8), DVec2(0, 8)}})));
-}
-
-TEST(Skyline, NothingOverlapsAndPaddingHolds) {
-  std::vector<PackRect> rects;
-  std::uint32_t state = 99;
-  const auto random = [&](std::uint32_t n) {
-    return (state = state * 1664525u + 1013904223u) % 65536u * n / 65536u + 1;
-  };
-  for (int i = 0; i < 500; ++i) rects.push_back({random(40), random(25), 0, 0, 0});
-  const auto pages = pack_rects(rects, {128, 100, 2, 1000});
-  ASSERT_GT(pages.size(), 1u);
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    const PackRect& a = rects[i];
-    ASSERT_LE(a.x + a.width, pages[a.page].width);
-    ASSERT_LE(a.y + a.height, pages[a.page].height);
-    for (std::size_t j = 0; j < i; ++j) {
-      const PackRect& b = rects[j];
-      ASSERT_TRUE(a.page != b.page || a.x + a.width + 2 <= b.x || b.x + b.width + 2 <= a.x ||
-                  a.y + a.height + 2 <= b.y || b.y + b.height + 2 <= a.y);
-    }
-  }
-  for (const PackedPage& page : pages) EXPECT_TRUE(page.width <= 128 && page.height <= 100);
-}
-
-TEST(Skyline, FillsAPageExactly) {
-  std::vector<PackRect> rects(16, PackRect{4, 4, 0, 0, 0});
-  EXPECT_EQ(pack_rects(rects, {16, 16, 0, 1}).size(), 1u);
-  rects.push_back({1, 1, 0, 0, 0});
-  EXPECT_TRUE(pack_rects(rects, {16, 16, 0, 1}).empty());
-  std::vector<PackRect> large{{17, 1, 0, 0, 0}};
-  EXPECT_TRUE(pack_rects(large, {16, 16, 0, 10}).empty());
-}
-
-TEST(Skyline, CompactIsAboutSquare) {
-  std::vector<PackRect> rects(100, PackRect{10, 10, 0, 0, 0});
-  const auto pages = pack_compact(rects, {2048, 2048, 2, 1});
-  ASSERT_EQ(pages.size(), 1u);
-  EXPECT_LT(pages[0].width, 140u);
-  EXPECT_LT(pages[0].height, 140u);
 }
 
 int neighbours(const SurfaceMesh& mesh, int face) {

@@ -103,6 +103,58 @@ TEST_F(BakeCli, OmissionsAreSaidAndRecorded) {
                   .contains("stages"));
 }
 
+TEST_F(BakeCli, SkiesAndProfilesAreInputs) {
+  write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n@@@\x81@@@\x81");  // (0.5, 0.5, 0.5)
+  const std::string bake = "oriel-bake cornell.glb -o a.oriel --texel 20cm --samples 4 --only radiosity ";
+  ASSERT_EQ(run(bake + "--sky sky.hdr --sky-scale 100 --sky-rotation 30 --sun-angle 0.53"), 0) << log();
+  const Pack pack = *read_pack(folder_ / "a.oriel");
+  EXPECT_NEAR(pack.sky.g, 50, 1e-3);
+  const auto provenance = nlohmann::json::parse(pack.provenance);
+  EXPECT_EQ(provenance["inputs"].back()["name"], "sky.hdr");
+  EXPECT_EQ(provenance["options"]["sky_file"], "sky.hdr");
+  EXPECT_EQ(provenance["options"]["sky_scale"], 100);
+  EXPECT_NEAR(provenance["options"]["sun_angle_deg"].get<double>(), 0.53, 1e-6);
+  EXPECT_EQ(run(bake + "--sky missing.exr"), 2);
+  EXPECT_EQ(run(bake + "--sky cornell.glb"), 1) << "neither a radiance nor a name of a sky";
+  EXPECT_EQ(run(bake + "--sky sky.hdr --sky-scale -1"), 1);
+  EXPECT_EQ(run(bake + "--sun-angle 200"), 1);
+  EXPECT_EQ(run(bake + "--ies lamp"), 1);
+  EXPECT_EQ(run(bake + "--ies lamp=sky.hdr"), 1);
+  EXPECT_NE(log().find("\"lamp\""), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake cornell.glb -o sky.hdr --sky sky.hdr"), 1) << "the sky must not be overwritten";
+}
+
+TEST_F(BakeCli, DirectionalWhereANormalMapWantsIt) {
+  ASSERT_EQ(run("oriel-bake cornell.glb -o plain.oriel --texel 20cm --samples 1"), 0) << log();
+  EXPECT_NE(log().find("omitted: directional lightmaps: no material has a normal map"), std::string::npos) << log();
+  EXPECT_TRUE(read_pack(folder_ / "plain.oriel")->lightmaps[0].direction.empty());
+  ASSERT_EQ(run("oriel-bake cornell.glb -o on.oriel --texel 20cm --samples 1 --directional on"), 0) << log();
+  EXPECT_FALSE(read_pack(folder_ / "on.oriel")->lightmaps[0].direction.empty());
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --directional up"), 1);
+
+  write("bumpy.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "material": 0}]}],
+    "materials": [{"normalTexture": {"index": 0, "scale": 0.5}}], "textures": [{"source": 0}], "images": [{"uri":
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGO41XALAARsAjUQ4/RCAAAAAElFTkSuQmCC"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 96}], "buffers": [{"byteLength": 96,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAgD8AAIA/AACAPwAAAAAAAAAA"}]})");
+  ASSERT_EQ(run("oriel-bake bumpy.gltf -o auto.oriel --sky 100 --samples 4"), 0) << log();
+  EXPECT_EQ(log().find("directional"), std::string::npos) << log();
+  const Pack pack = *read_pack(folder_ / "auto.oriel");
+  EXPECT_FALSE(pack.lightmaps[0].direction.empty());
+  EXPECT_EQ(pack.materials[0].normal_texture, 0);
+  EXPECT_EQ(pack.materials[0].normal_scale, 0.5f);
+  EXPECT_EQ(pack.normal_textures.size(), 1u);
+  EXPECT_EQ(pack.mesh.normal_uvs.size(), pack.mesh.positions.size());
+  EXPECT_TRUE(nlohmann::json::parse(pack.plan)["radiosity"]["directional"]);
+  ASSERT_EQ(run("oriel-bake bumpy.gltf -o off.oriel --sky 100 --samples 4 --directional off"), 0) << log();
+  EXPECT_NE(log().find("left out by --directional off"), std::string::npos) << log();
+  EXPECT_TRUE(read_pack(folder_ / "off.oriel")->lightmaps[0].direction.empty());
+}
+
 TEST_F(BakeCli, NoLightBakesToBlackWithAWarning) {
   write("dark.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -204,6 +256,12 @@ TEST(Quantities, ParseAndRefuse) {
   for (const char* bad : {"", "floor", "floor,1m", ",1m,1m", "floor,0m,1m", "floor,1m,-1m", "floor,1,1"})
     EXPECT_FALSE(parse_grid(bad)) << bad;
   for (const char* bad : {"", "1,2", "1,2,3,4", "-1", "a", "1,,2"}) EXPECT_FALSE(parse_color(bad)) << bad;
+  EXPECT_EQ(parse_sky("2000")->radiance, Vec3(2000));
+  EXPECT_EQ(parse_sky("skies/Noon.EXR")->file, "skies/Noon.EXR");
+  for (const char* bad : {"", "sky.png", "-1", "a"}) EXPECT_FALSE(parse_sky(bad)) << bad;
+  EXPECT_EQ(parse_ies_option("a lamp=x=y.ies")->first, "a lamp");
+  EXPECT_EQ(parse_ies_option("a lamp=x=y.ies")->second, "x=y.ies");
+  for (const char* bad : {"", "lamp", "=a.ies", "lamp="}) EXPECT_FALSE(parse_ies_option(bad)) << bad;
 }
 
 }  // namespace

@@ -165,6 +165,12 @@ std::string broken_promise(const Scene& scene) {
     return "vertex arrays differ in length";
   if (!scene.colors.empty() && scene.colors.size() != n) return "colours differ in length";
   if (scene.triangles.empty() || scene.triangle_surface.size() != scene.triangles.size()) return "triangle arrays";
+  if (!scene.tangents.empty() && scene.tangents.size() != n) return "tangents differ in length";
+  for (std::size_t v = 0; v < scene.tangents.size(); ++v) {
+    const Vec4& t = scene.tangents[v];
+    if (t.w != 0 && !(std::abs(t.w) == 1 && std::abs(glm::length(Vec3(t)) - 1) < 1e-5f))
+      return fmt::format("tangent {} has length {} and side {}", v, glm::length(Vec3(t)), t.w);
+  }
   for (std::size_t v = 0; v < n; ++v) {
     if (!is_finite(scene.positions[v]) || !is_finite(Vec3(scene.uv0[v], 0)) || !is_finite(Vec3(scene.uv1[v], 0)))
       return fmt::format("vertex {} is not finite", v);
@@ -188,8 +194,9 @@ std::string broken_promise(const Scene& scene) {
       return "image of wrong size";
   const auto count = static_cast<std::int32_t>(scene.images.size());
   for (const SceneMaterial& m : scene.materials)
-    for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture,
-                                    &m.transmission_texture, &m.specular_texture, &m.specular_color_texture})
+    for (const TextureSlot* slot :
+         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.transmission_texture,
+          &m.specular_texture, &m.specular_color_texture, &m.normal_texture})
       if (slot->image < -1 || slot->image >= count || slot->texcoord > 1)
         return "texture slot out of range in " + m.name;
   return "";

@@ -21,6 +21,23 @@ std::uint32_t SceneParts::diffuse(const Vec3& albedo, const Vec3& emission) {
   return add(m);
 }
 
+void SceneParts::normal_map(std::uint32_t material, std::uint32_t size,
+                            const std::function<Vec3(float u, float v)>& normal) {
+  Image image;
+  image.name = "normals";
+  image.width = image.height = size;
+  for (std::uint32_t y = 0; y < size; ++y)
+    for (std::uint32_t x = 0; x < size; ++x) {
+      const Vec2 uv = (Vec2(x, y) + 0.5f) / static_cast<float>(size);
+      const Vec3 n = glm::normalize(normal(uv.x, uv.y));
+      for (int c = 0; c < 3; ++c)
+        image.texels.push_back(static_cast<std::uint8_t>(std::lround((n[c] * 0.5f + 0.5f) * 255)));
+      image.texels.push_back(255);
+    }
+  scene_.materials[material].normal_texture.image = static_cast<std::int32_t>(scene_.images.size());
+  scene_.images.push_back(std::move(image));
+}
+
 void SceneParts::mesh(const std::string& name, std::uint32_t material, const std::vector<Vec3>& positions,
                       const std::vector<Vec3>& normals, const std::vector<UVec3>& triangles) {
   Surface s;

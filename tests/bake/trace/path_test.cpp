@@ -134,6 +134,30 @@ TEST(Path, AdjoiningEmitterIsNotReadLow) {
   EXPECT_NEAR(sum / kSamples, 0.200044, 0.001);
 }
 
+// A large panel that shines from a few of its texels only: sampled by its mean, weighted by what is met.
+TEST(Path, TexturedEmitterShinesFromItsBrightTexels) {
+  constexpr std::uint32_t kSize = 100;
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0)), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  SceneMaterial panel;
+  panel.base_color = Vec3(0);
+  panel.metallic = panel.specular = 0;
+  panel.emission = Vec3(1e4f);
+  panel.emission_texture.image = 0;
+  panel.emission_texture.nearest = true;
+  parts.quad("panel", parts.add(panel), {-2, 1, -2}, {4, 0, 0}, {0, 0, 4});  // faces down
+  Image image{"dots", kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 0)};
+  double expected = 0;
+  for (const auto& [x, y] : {std::pair{50u, 49u}, {60u, 47u}, {37u, 58u}, {3u, 3u}}) {
+    for (int c = 0; c < 4; ++c) image.texels[4 * (y * kSize + x) + static_cast<std::uint32_t>(c)] = 255;
+    const double px = -2 + 4 * (x + 0.5) / kSize, pz = -2 + 4 * (y + 0.5) / kSize, r2 = px * px + pz * pz + 1;
+    expected += 1e4 * (4.0 / kSize) * (4.0 / kSize) / (r2 * r2);
+  }
+  parts.scene().images.push_back(image);
+  const double got = irradiance_at(parts.finish(), 0, Vec2(0, 0.5f), 1u << 20).direct.g;
+  EXPECT_NEAR(got / expected, 1, 0.01);
+}
+
 TEST(Path, LightFindsItsWayOverAMirror) {
   // A black floor under a downward-facing wall of light that only a mirror overhead can show it.
   SceneParts parts;

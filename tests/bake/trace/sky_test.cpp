@@ -1,6 +1,8 @@
 // The image of a sky: its sampler, and the light that it gives.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "bake/scene/images.h"
 #include "bake/trace/path.h"
 #include "bake/trace/warp.h"
@@ -169,6 +171,36 @@ TEST(Sky, ATinySunConverges) {
   // A cosine-distributed ray has ∫ (L cosθ)² / (cosθ/π) - E².
   EXPECT_LT(1000 * sampled.variance, kPiD * squares - expected * expected);
   EXPECT_NEAR(ground.irradiance(4u << 20, false).mean / expected, 1, 0.1) << "in the end they agree";
+}
+
+// ∫ L cosθ over the upper half, by the midpoint rule with 3 × 3 points a texel.
+double ground_irradiance(const Scene& scene) {
+  const int columns = 3 * static_cast<int>(scene.sky_image.width), rows = 3 * static_cast<int>(scene.sky_image.height);
+  double sum = 0;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const DVec2 uv((x + 0.5) / columns, (y + 0.5) / rows);
+      const Vec3 direction = sky_direction(scene.sky_image, Vec2(uv));
+      sum += sky_radiance(scene, direction).g * std::max(0.0f, direction.y) * std::sin(kPiD * uv.y);
+    }
+  return sum * 2 * kPiD * kPiD / (static_cast<double>(columns) * rows);
+}
+
+// Photographed skies: ORIEL_TEST_ASSETS names a folder with some in env/.
+TEST(Sky, PhotographsGiveTheirIntegral) {
+  const char* root = std::getenv("ORIEL_TEST_ASSETS");
+  if (!root || !std::filesystem::exists(std::filesystem::path(root) / "env")) GTEST_SKIP() << "no ORIEL_TEST_ASSETS";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(root) / "env")) {
+    if (entry.path().extension() != ".hdr" && entry.path().extension() != ".exr") continue;
+    auto image = read_sky_image(entry.path());
+    ASSERT_TRUE(image) << image.error().text();
+    UnderSky ground(std::move(*image));
+    const double expected = ground_irradiance(ground.parts.finish());
+    EXPECT_NEAR(ground.irradiance(65536, true).mean / expected, 1, 5e-3) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 0);
 }
 
 // A choice among the sky and lamps stays unbiased.

@@ -1,4 +1,4 @@
-#include "bake/atlas/surface_mesh.h"
+#include "bake/atlas/chart/surface_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -61,6 +61,11 @@ class CornerSets {
     parent_[b] = a;
     size_[a] += size_[b];
   }
+  // By corner: the root of its set.
+  std::vector<std::uint32_t> roots() && {
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = parent_[parent_[i]];  // a root comes before its set
+    return std::move(parent_);
+  }
 
  private:
   std::vector<std::uint32_t> parent_, size_;
@@ -72,10 +77,11 @@ void join_edge(CornerSets& sets, const EdgeUse& a, const EdgeUse& b) {
 }
 
 // Joins triangles across one edge, given all its uses: two by two, the most alike first.
-void pair_uses(std::span<const DVec3> normals, std::span<const EdgeUse> uses, CornerSets& sets) {
+void pair_uses(const Scene& scene, std::uint32_t first_triangle, std::span<const EdgeUse> uses, CornerSets& sets) {
   if (uses.size() < 2 || uses.size() > kMaxUses) return;
   const auto alike = [&](const EdgeUse& a, const EdgeUse& b) {
-    return glm::dot(normals[a.corner / 3], normals[b.corner / 3]);
+    return glm::dot(triangle_frame(scene, first_triangle + a.corner / 3).normal,
+                    triangle_frame(scene, first_triangle + b.corner / 3).normal);
   };
   if (uses.size() == 2) {  // as nearly everywhere
     if (uses[0].forward != uses[1].forward && alike(uses[0], uses[1]) > kFoldCos) join_edge(sets, uses[0], uses[1]);
@@ -121,6 +127,17 @@ std::vector<EdgeUse> edge_uses(const Scene& scene, const Surface& surface) {
   return uses;
 }
 
+// By corner: the first of those that share its vertex.
+std::vector<std::uint32_t> joined_corners(const Scene& scene, const Surface& surface) {
+  CornerSets sets(std::size_t{3} * surface.triangle_count);
+  const std::vector<EdgeUse> uses = edge_uses(scene, surface);
+  for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
+    while (end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high) ++end;
+    pair_uses(scene, surface.first_triangle, std::span(uses).subspan(i, end - i), sets);
+  }
+  return std::move(sets).roots();
+}
+
 // What OpenMesh asks of a new face: it would refuse (and print) otherwise.
 bool can_add(const SurfaceMesh& mesh, const std::array<SurfaceMesh::VertexHandle, 3>& v) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -137,16 +154,7 @@ SurfaceMesh build_surface_mesh(const Scene& scene, const Surface& surface) {
   static std::once_flag quiet;  // a face refused all the same gets vertices of its own: nothing to tell the user
   std::call_once(quiet, [] { omerr().disable(); });
 
-  CornerSets sets(std::size_t{3} * surface.triangle_count);
-  const std::vector<EdgeUse> uses = edge_uses(scene, surface);
-  std::vector<DVec3> normals(surface.triangle_count);
-  for (std::uint32_t t = 0; t < surface.triangle_count; ++t)
-    normals[t] = triangle_frame(scene, surface.first_triangle + t).normal;
-  for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
-    while (end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high) ++end;
-    pair_uses(normals, std::span(uses).subspan(i, end - i), sets);
-  }
-
+  const std::vector<std::uint32_t> joined = joined_corners(scene, surface);
   SurfaceMesh mesh;
   mesh.reserve(surface.triangle_count, surface.triangle_count * std::size_t{3} / 2, surface.triangle_count);
   std::vector<SurfaceMesh::VertexHandle> vertex(std::size_t{3} * surface.triangle_count);
@@ -157,7 +165,7 @@ SurfaceMesh build_surface_mesh(const Scene& scene, const Surface& surface) {
   for (std::uint32_t t = 0; t < surface.triangle_count; ++t) {
     std::array<SurfaceMesh::VertexHandle, 3> corner;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      SurfaceMesh::VertexHandle& handle = vertex[sets.find(3 * t + k)];
+      SurfaceMesh::VertexHandle& handle = vertex[joined[3 * t + k]];
       if (!handle.is_valid()) handle = new_vertex(t, k);
       corner[k] = handle;
     }
@@ -167,6 +175,23 @@ SurfaceMesh build_surface_mesh(const Scene& scene, const Surface& surface) {
     ORIEL_CHECK_EQ(face.idx(), static_cast<int>(t));
   }
   return mesh;
+}
+
+std::vector<std::uint32_t> edges_across(const SurfaceMesh& mesh) {
+  // A face's own halfedge is the last that add_face was given: from corner 2 to corner 0.
+  const auto edge_of = [&](SurfaceMesh::HalfedgeHandle halfedge) {
+    const auto face = mesh.face_handle(halfedge);
+    const auto last = mesh.halfedge_handle(face);
+    const int k = halfedge == last ? 2 : halfedge == mesh.next_halfedge_handle(last) ? 0 : 1;
+    return static_cast<std::uint32_t>(3 * face.idx() + k);
+  };
+  std::vector<std::uint32_t> across(3 * mesh.n_faces(), kNoEdge);
+  for (std::size_t i = 0; i < mesh.n_halfedges(); ++i) {
+    const SurfaceMesh::HalfedgeHandle halfedge(static_cast<int>(i));
+    const auto other = mesh.opposite_halfedge_handle(halfedge);
+    if (!mesh.is_boundary(halfedge) && !mesh.is_boundary(other)) across[edge_of(halfedge)] = edge_of(other);
+  }
+  return across;
 }
 
 TriangleFrame triangle_frame(const Scene& scene, std::uint32_t triangle) {

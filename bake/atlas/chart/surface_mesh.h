@@ -3,6 +3,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "bake/atlas/chart/patch.h"
 #include "bake/scene/scene.h"
 
 namespace oriel {
@@ -22,6 +23,10 @@ using SurfaceMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceMeshTraits>;
 // back of a modelled sheet come apart; a vertex where several fans touch is split. A triangle with two corners in one
 // place has no neighbours.
 SurfaceMesh build_surface_mesh(const Scene& scene, const Surface& surface);
+
+// By edge 3 * face + k (from corner k to the next): the edge across it, or kNoEdge. What is left of the mesh once its
+// connections are known, in a fifth of the memory.
+std::vector<std::uint32_t> edges_across(const SurfaceMesh& mesh);
 
 // The unit normal (front side) and area of a triangle in double; the zero vector where it has no area.
 struct TriangleFrame {

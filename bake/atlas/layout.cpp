@@ -1,0 +1,281 @@
+#include "bake/atlas/layout.h"
+
+#include <cmath>
+
+#include "bake/jobs/parallel.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kMaxPages = 4096;
+constexpr double kSnapTexels = 1e-3;   // a chart so little longer than whole texels is fitted into them
+constexpr double kLeastTexels = 0.25;  // a chart is drawn at least so long: thinner, floats would lose its shape
+
+// How a chart's axis is drawn: texel = metres * scale + offset, within a row of `size` texels.
+struct Axis {
+  std::uint32_t size = 1;
+  double scale = 0, offset = 0;
+};
+
+// A chart lies in the middle of the whole texels that hold it, so that a border texel is covered for more than half of
+// its width, and a wall whose sides are whole texels covers exactly these. `inset` keeps float rounding of page
+// coordinates from reaching into the next texel.
+Axis fit_axis(double metres, double texel_m, double inset) {
+  Axis axis;
+  const double texels = metres / texel_m;
+  axis.size = static_cast<std::uint32_t>(std::max(1.0, std::ceil(texels - kSnapTexels)));
+  const double drawn = std::min(std::max(texels, kLeastTexels), axis.size - 2 * inset);
+  axis.scale = metres > 0 ? drawn / metres : 0;
+  axis.offset = 0.5 * (axis.size - (metres > 0 ? drawn : 0));
+  return axis;
+}
+
+struct Frame {
+  Axis x, y;
+  DVec2 to_texels(const DVec2& metres) const { return {metres.x * x.scale + x.offset, metres.y * y.scale + y.offset}; }
+};
+
+// The texels that a triangle touches, or would if each corner were moved by `slack`.
+void draw(const Triangle2& t, double slack, TexelMask& mask) {
+  const ConvexPolygon whole(t);
+  const Interval y = extent(whole, 1);
+  const int width = static_cast<int>(mask.width()), height = static_cast<int>(mask.height());
+  const CellRange rows = touched_cells(y.lo - slack, y.hi + slack, height);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    ConvexPolygon part = clip_axis(clip_axis(whole, 1, row - slack, 1), 1, row + 1 + slack, -1);
+    if (part.count == 0) part = whole;
+    const Interval x = extent(part, 0);
+    const CellRange columns = touched_cells(x.lo - slack, x.hi + slack, width);
+    mask.set_span(static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last),
+                  static_cast<std::uint32_t>(row));
+  }
+}
+
+// A point of a mask of the given size, turned with it.
+DVec2 turned(const DVec2& p, std::uint32_t turns, std::uint32_t width, std::uint32_t height) {
+  switch (turns) {
+    case 1:
+      return {height - p.y, p.x};
+    case 2:
+      return {width - p.x, height - p.y};
+    case 3:
+      return {p.y, width - p.x};
+    default:
+      return p;
+  }
+}
+
+class Layout {
+ public:
+  Layout(std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
+      : sets_(sets), options_(options), context_(context), inset_(options.side * 0x1p-24) {
+    for (const ChartSet& set : sets)
+      for (const Chart& chart : set.charts) charts_.push_back({&set, &chart});
+  }
+
+  Status pack() { return options_.one_page ? pack_one_page() : pack_at(options_.texel_m); }
+  void warn_coarsened() const;
+  void write(Atlas& atlas) const;
+  void measure(const Scene& scene, AtlasReport& report) const;
+
+ private:
+  struct Entry {
+    const ChartSet* set;
+    const Chart* chart;
+  };
+
+  // The texel of a chart: the asked one, or as much coarser as the page needs.
+  double chart_texel(const Chart& chart, double texel_m) const {
+    return std::max(texel_m, chart.size.x / (options_.side - 2 * inset_));  // x is the longer side
+  }
+  Frame frame(const Chart& chart, double texel_m) const {
+    const double texel = chart_texel(chart, texel_m);
+    return {fit_axis(chart.size.x, texel, inset_), fit_axis(chart.size.y, texel, inset_)};
+  }
+  // Texels of all charts' boxes and their padding.
+  double box_area(double texel_m) const {
+    double sum = 0;
+    for (const Entry& e : charts_) {
+      const Frame f = frame(*e.chart, texel_m);
+      sum += static_cast<double>(f.x.size + options_.padding) * (f.y.size + options_.padding);
+    }
+    return sum;
+  }
+  double surface_area() const {
+    double sum = 0;
+    for (const Entry& e : charts_)
+      for (std::uint32_t i = 0; i < e.chart->count; ++i)
+        sum += std::abs(signed_area(e.set->points[e.chart->first + i]));
+    return sum;
+  }
+  Status draw_masks(double texel_m) {
+    masks_.assign(charts_.size(), {});
+    return parallel_for(context_, "", charts_.size(), [&](std::size_t i) {
+      const Entry& e = charts_[i];
+      const Frame f = frame(*e.chart, texel_m);
+      masks_[i] = TexelMask(f.x.size, f.y.size);
+      for (std::uint32_t k = e.chart->first; k < e.chart->first + e.chart->count; ++k) {
+        const Triangle2& t = e.set->points[k];
+        draw({f.to_texels(t[0]), f.to_texels(t[1]), f.to_texels(t[2])}, inset_, masks_[i]);
+      }
+    });
+  }
+  Status pack_at(double texel_m);
+  Status pack_one_page();
+  Status check_memory(double texel_m, double texels) const;
+
+  std::span<const ChartSet> sets_;
+  const LayoutOptions& options_;
+  Context& context_;
+  double inset_;
+  std::vector<Entry> charts_;
+  double texel_m_ = 0;  // of what follows
+  std::vector<TexelMask> masks_;
+  std::vector<PackedChart> placed_;
+  std::vector<PackedPage> pages_;
+};
+
+std::uint32_t round_up_4(std::uint32_t n) {
+  return (n + 3) / 4 * 4;
+}
+
+Status Layout::check_memory(double texel_m, double texels) const {
+  const double bytes = texels * kLightmapTexelBytes;
+  if (options_.memory_bytes == 0 || bytes <= static_cast<double>(options_.memory_bytes)) return {};
+  constexpr double kMiB = 1048576;
+  const double limit = static_cast<double>(options_.memory_bytes);
+  double fits = texel_m;
+  for (int i = 0; i < 400 && box_area(fits) * 1.1 * kLightmapTexelBytes > limit; ++i) fits *= 1.1;
+  return fail(ErrorCode::kRuntime, "atlas",
+              "a texel of {:.4g} m makes a lightmap of about {:.0f} texels, {:.1f} MiB; found a limit of {:.1f} MiB, "
+              "expected at least that (a texel of {:.3g} m fits)",
+              texel_m, texels, bytes / kMiB, limit / kMiB, fits);
+}
+
+Status Layout::pack_at(double texel_m) {
+  texel_m_ = texel_m;
+  const std::uint32_t side = options_.side, padding = options_.padding;
+  const double room = static_cast<double>(kMaxPages) * side * side;
+  // Charts alone are at least their area: refused before their masks need memory, too.
+  ORIEL_TRY_VOID(check_memory(texel_m, surface_area() / (texel_m * texel_m)));
+  if (box_area(texel_m) <= 4 * room) {
+    ORIEL_TRY_VOID(draw_masks(texel_m));
+    placed_.resize(charts_.size());
+    if (padded_area(masks_, padding) <= 2 * room)
+      pages_ = pack_compact(masks_, {side, side, padding, kMaxPages}, placed_);
+  }
+  if (pages_.empty() && !charts_.empty()) {
+    double fits = texel_m * 1.1;
+    for (int i = 0; i < 400 && box_area(fits) > 0.8 * room; ++i) fits *= 1.1;
+    return fail(ErrorCode::kRuntime, "atlas",
+                "a texel of {:.4g} m needs more than {} pages of {}x{} texels; a texel of {:.3g} m fits", texel_m,
+                kMaxPages, side, side, fits);
+  }
+  double texels = 0;
+  for (PackedPage& page : pages_) {
+    page = {round_up_4(page.width), round_up_4(page.height)};
+    texels += static_cast<double>(page.width) * page.height;
+  }
+  return check_memory(texel_m, texels);
+}
+
+Status Layout::pack_one_page() {
+  const std::uint32_t side = options_.side, padding = options_.padding;
+  const PackLimits limits{side, side, padding, 1};
+  std::vector<PackedChart> trial(charts_.size());
+  const auto attempt = [&](double texel_m) -> Status {
+    ORIEL_TRY_VOID(draw_masks(texel_m));
+    // A little over half of the padding lies outside the page or is shared by more than two charts.
+    if (padded_area(masks_, 0) > static_cast<double>(side) * side) return {};
+    const auto pages = pack_masks(masks_, limits, trial);
+    if (!pages.empty()) pages_ = pages, placed_ = trial, texel_m_ = texel_m;
+    return {};
+  };
+  double longest = 0;
+  for (const Entry& e : charts_) longest = std::max(longest, e.chart->size.x);
+  double too_fine = std::max(std::sqrt(surface_area()), longest) / side * 0.999;
+  ORIEL_TRY_VOID(attempt(std::max(longest, too_fine)));
+  if (pages_.empty()) {
+    const double least = std::ceil(std::sqrt(static_cast<double>(charts_.size())) * (1 + padding) * 1.05);
+    return fail(ErrorCode::kRuntime, "atlas",
+                "{} charts do not fit into one page of {}x{} texels; about {:.0f}x{:.0f} are needed", charts_.size(),
+                side, side, least, least);
+  }
+  double guess = std::min(too_fine * 1.2, texel_m_);  // four fifths full at once, as most are
+  while (texel_m_ > too_fine * 1.005) {
+    ORIEL_TRY_VOID(attempt(guess));
+    if (texel_m_ != guess) too_fine = guess;
+    guess = std::min(std::sqrt(texel_m_ * too_fine), too_fine * 1.2);
+  }
+  pages_[0] = {side, side};
+  return check_memory(texel_m_, static_cast<double>(side) * side);
+}
+
+void Layout::warn_coarsened() const {
+  std::size_t count = 0;
+  double worst = texel_m_;
+  for (const Entry& e : charts_) {
+    const double texel = chart_texel(*e.chart, texel_m_);
+    if (texel <= texel_m_ * (1 + 1e-3)) continue;
+    ++count;
+    worst = std::max(worst, texel);
+  }
+  if (count > 0)
+    context_.warning(fmt::format(
+        "atlas: {} of {} charts are longer than a page of {} texels at {:.4g} m a texel; theirs are up to {:.4g} m",
+        count, charts_.size(), options_.side, texel_m_, worst));
+}
+
+void Layout::write(Atlas& atlas) const {
+  atlas.texel_m = static_cast<float>(texel_m_);
+  const auto first_page = static_cast<std::uint32_t>(atlas.pages.size());
+  for (const PackedPage& page : pages_) atlas.pages.push_back({page.width, page.height, false});
+  for (std::size_t c = 0; c < charts_.size(); ++c) {
+    const auto& [set, chart] = charts_[c];
+    const PackedChart& at = placed_[c];
+    const Frame f = frame(*chart, texel_m_);
+    const DVec2 page_size(pages_[at.page].width, pages_[at.page].height);
+    for (std::uint32_t i = chart->first; i < chart->first + chart->count; ++i) {
+      const std::uint32_t t = set->triangles[i];
+      atlas.page[t] = static_cast<std::int32_t>(first_page + at.page);
+      atlas.chart[t] = atlas.chart_count;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DVec2 p = turned(f.to_texels(set->points[i][k]), at.turns, f.x.size, f.y.size);
+        atlas.uv[t][k] = Vec2((p + DVec2(at.x, at.y)) / page_size);
+      }
+    }
+    ++atlas.chart_count;
+  }
+}
+
+// In double and before coordinates are rounded to the page's floats, which would be most of what is seen of triangles
+// much smaller than a texel.
+void Layout::measure(const Scene& scene, AtlasReport& report) const {
+  StretchSum sum;
+  for (const auto& [set, chart] : charts_) {
+    const Frame f = frame(*chart, texel_m_);
+    for (std::uint32_t i = chart->first; i < chart->first + chart->count; ++i) {
+      const Triangle2& t = set->points[i];
+      sum.add(triangle_corners(scene, set->triangles[i]), {f.to_texels(t[0]), f.to_texels(t[1]), f.to_texels(t[2])});
+    }
+  }
+  report.l2_stretch = sum.l2();
+  report.linf_stretch = sum.linf();
+  report.angle_distortion = sum.angle();
+  report.area_distortion = sum.area();
+}
+
+}  // namespace
+
+Status lay_out(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context,
+               Atlas& atlas) {
+  Layout layout(sets, options, context);
+  ORIEL_TRY_VOID(layout.pack());
+  if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
+  layout.warn_coarsened();
+  layout.write(atlas);
+  layout.measure(scene, atlas.report);
+  return {};
+}
+
+}  // namespace oriel
