@@ -39,7 +39,7 @@ void add_uniform(const Suite& suite, bool thorough, std::vector<Case>& cases) {
     Case c =
         new_case("ENC-01", "rho " + rho,
                  uniform_room(suite, "ENC-01_rho" + rho, DVec3(1), DVec3(j["inputs"]["reflectances"][i]), DVec3(1)),
-                 thorough ? 0.1 : 0.25, 0.003);
+                 thorough ? 0.1 : 0.25, 0.0035);
     const double e = j["expected"]["irradiance"][i];
     c.readings.push_back(everywhere("worst point", e, e * j["tolerance"]["rel"].get<double>()));
     cases.push_back(c);
@@ -70,7 +70,7 @@ void add_points(const Json& j, Case& c) {
 void add_boxes(const Suite& suite, bool thorough, std::vector<Case>& cases) {
   for (const char* id : {"ENC-04", "ENC-08"}) {
     const Json& j = suite.find(id);
-    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.02 : 0.025, 0.002);
+    Case c = new_case(id, j["title"], suite.scene(id).value(), thorough ? 0.01 : 0.02, 0.003);
     for (const auto& [face, e] : j["expected"]["mean_irradiance_per_face"].items()) {
       std::vector<std::string> nodes{face};
       if (id == std::string("ENC-08") && face == "z1") nodes = {"z1_lit", "z1_dark"};
@@ -97,7 +97,7 @@ void add_sphere(const Suite& suite, bool thorough, std::vector<Case>& cases) {
     const double ci = 1, co = std::cos(0.4);
     spot.intensity = Vec3(static_cast<float>(flux / (2 * kPiD * ((1 - ci) + (ci - co) / 3))));
     scene.parts().scene().lights = {spot};
-    Case c = new_case("ENC-09", "rho " + j["inputs"]["rho"][i].dump(), scene.finish(), thorough ? 0.05 : 0.1, 0.004);
+    Case c = new_case("ENC-09", "rho " + j["inputs"]["rho"][i].dump(), scene.finish(), thorough ? 0.05 : 0.1, 0.006);
     const double e = j["expected"]["E_indirect"][i];
     for (const std::uint32_t t : {100u, 1500u, 4000u}) {
       const DVec3 p(point_on(c.scene, t, Vec2(1.0f / 3))), n(geometric_normal(c.scene, t));
