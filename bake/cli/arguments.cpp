@@ -1,9 +1,6 @@
 #include "bake/cli/arguments.h"
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
-
+#include "bake/cli/lux_arguments.h"
 #include "bake/run/version.h"
 
 namespace oriel {
@@ -19,25 +16,12 @@ constexpr const char* kFooter = R"(Examples:
 Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
 130 stopped by the user (nothing half-written is left).)";
 
-// A CLI11 validator out of one of our parsers: the message says what was found and what was expected.
-template <class Parser>
-CLI::Validator checked(Parser parse, const char* name) {
-  return CLI::Validator(
-      [parse](std::string& text) {
-        const auto result = parse(text);
-        return result ? std::string() : result.error().message;
-      },
-      name);
-}
-
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", sky = "0", atlas = "auto", only,
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", atlas = "auto", only,
               estimator = "cached", error = "2%";
   std::uint32_t samples = 0;
-  std::vector<std::string> ies;
-  bool quiet = false, json_log = false;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
 };
@@ -72,7 +56,7 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
 }
 
-void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option(
          "--estimator", texts.estimator,
          "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred "
@@ -104,29 +88,6 @@ void add_light_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "has a normal map), on, off. Costs a tenth more variance and about 4 bytes a texel")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
-  app.add_option(
-         "--sky", texts.sky,
-         "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or "
-         ".exr whose centre is +X and whose right is +Z, as in Blender")
-      ->check(checked(parse_sky, "L|R,G,B|FILE"))
-      ->capture_default_str();
-  app.add_option("--sky-scale", bake.import.sky_scale, "Radiance in cd/m² of a 1 in the sky's file")
-      ->check(CLI::Range(0.0f, 1e30f))
-      ->capture_default_str();
-  app.add_option("--sky-rotation", bake.import.sky_rotation_deg,
-                 "Turns the sky's file, counter-clockwise seen from above, degrees")
-      ->check(CLI::Range(-360.0f, 360.0f))
-      ->capture_default_str();
-  app.add_option("--sun-angle", bake.import.sun_angle_deg,
-                 "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as "
-                 "the file says (extras.oriel.angular_diameter_deg), which is a point")
-      ->check(CLI::Range(0.0f, 180.0f));
-  app.add_option(
-         "--ies", texts.ies,
-         "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity "
-         "and cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated")
-      ->check(checked(parse_ies_option, "NODE=FILE"))
-      ->take_all();
 }
 
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
@@ -155,13 +116,6 @@ Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
-  ORIEL_TRY(SkyChoice sky, parse_sky(texts.sky));
-  bake.import.sky = sky.radiance;
-  bake.import.sky_file = std::move(sky.file);
-  for (const std::string& text : texts.ies) {
-    ORIEL_TRY(auto profile, parse_ies_option(text));
-    bake.import.ies.push_back(std::move(profile));
-  }
   bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;
@@ -197,11 +151,17 @@ Status resolve(const Texts& texts, Arguments& args) {
         return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance or material", part);
     }
   }
-  args.style = texts.json_log            ? ProgressPrinter::Style::kJson
-               : texts.quiet             ? ProgressPrinter::Style::kQuiet
-               : ::isatty(STDERR_FILENO) ? ProgressPrinter::Style::kBar
-                                         : ProgressPrinter::Style::kPlain;
   return {};
+}
+
+// With `lux` no option of the bake means anything; without it SCENE and -o must be there.
+void require_bake_arguments(const CLI::App& app, bool lux) {
+  if (!lux)
+    for (const char* name : {"SCENE", "--output"})
+      if (app.get_option(name)->count() == 0) throw CLI::RequiredError(name);
+  if (lux)
+    for (const CLI::Option* option : app.get_options())
+      if (option->count() > 0) throw CLI::ExcludesError("lux", option->get_name());
 }
 
 }  // namespace
@@ -209,6 +169,8 @@ Status resolve(const Texts& texts, Arguments& args) {
 Arguments parse_arguments(int argc, char** argv) {
   Arguments args;
   Texts texts;
+  SharedTexts shared;
+  LuxTexts lux_texts;
   CLI::App app(
       "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
       "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with "
@@ -216,30 +178,27 @@ Arguments parse_arguments(int argc, char** argv) {
       "oriel-bake");
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("oriel-bake ") + kVersion);
-  app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures")->required();
-  app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all")->required();
+  // CLI11's required() would be asked for with the subcommand too: require_bake_arguments() stands in for it.
+  app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
+  app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_atlas_options(app, texts, args.bake);
-  add_light_options(app, texts, args.bake);
+  add_radiosity_options(app, texts, args.bake);
+  add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
-  app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
-  app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The bytes of the pack do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--seed", args.seed, "Of every random number: another seed gives another, equally good, estimate")
-      ->capture_default_str();
-  app.add_flag("--reproducible", args.bake.reproducible,
-               "Pin Embree's instruction set, about 15 % slower: with one C library the same bytes on CPUs that differ "
-               "in AVX only");
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
-  auto* quiet = app.add_flag("--quiet", texts.quiet, "No progress; warnings and errors only");
-  app.add_flag("--json-log", texts.json_log, "Progress, warnings and errors as JSON lines on stderr")->excludes(quiet);
+  add_run_options(app, shared, args);
+  const CLI::App* lux = add_lux(app, lux_texts, shared, args);
   try {
     app.parse(argc, argv);
+    args.wants_lux = lux->parsed();
+    require_bake_arguments(app, args.wants_lux);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
     return args;
   }
-  if (const Status resolved = resolve(texts, args); !resolved) {
+  Status resolved = resolve_shared(shared, args);
+  if (resolved) resolved = args.wants_lux ? resolve_lux(lux_texts, args) : resolve(texts, args);
+  if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
     args.exit_code = 1;
   }

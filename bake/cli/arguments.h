@@ -2,12 +2,16 @@
 #pragma once
 
 #include "bake/cli/progress.h"
+#include "bake/run/measure.h"
 #include "bake/run/options.h"
 
 namespace oriel {
 
 struct Arguments {
   BakeOptions bake;
+  bool wants_lux = false;  // the subcommand: measure `lux` instead of baking `bake`
+  MeasureJob lux;
+  std::filesystem::path lux_output;  // empty: stdout
   int threads = 0;
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;

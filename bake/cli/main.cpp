@@ -1,4 +1,4 @@
-// oriel-bake: a glTF scene into one .oriel pack.
+// oriel-bake: a glTF scene into one .oriel pack, or into a table of illuminance.
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/cli/arguments.h"
+#include "bake/lux/table.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
 #include "formats/pack/writer.h"
@@ -37,7 +38,7 @@ void on_stop(int) {
 
 void install_signal_handlers(Context& context, const std::filesystem::path& output) {
   g_context = &context;
-  const std::string temporary = temporary_name(output).string();
+  const std::string temporary = output.empty() ? "" : temporary_name(output).string();
   if (temporary.size() < sizeof(g_temporary)) std::copy(temporary.begin(), temporary.end(), g_temporary);
   std::signal(SIGALRM, on_alarm);
   std::signal(SIGINT, on_stop);
@@ -57,8 +58,14 @@ int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinte
   return static_cast<int>(error.code);
 }
 
+std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& scene, const ImportOptions& import) {
+  std::vector<std::filesystem::path> inputs{scene, import.sky_file};
+  for (const auto& [node, file] : import.ies) inputs.push_back(file);
+  return inputs;
+}
+
 // Fails before hours of work where their result could not be written, or would replace what is read.
-Status check_output(const std::filesystem::path& output, const BakeOptions& options) {
+Status check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs) {
   namespace fs = std::filesystem;
   std::error_code ec;
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
@@ -68,8 +75,6 @@ Status check_output(const std::filesystem::path& output, const BakeOptions& opti
     return fail(ErrorCode::kIo, output.string(), "the folder {} cannot be written: {}", folder.string(),
                 std::strerror(errno));
   if (fs::is_directory(output, ec)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
-  std::vector<fs::path> inputs = {options.scene, options.import.sky_file};
-  for (const auto& [node, file] : options.import.ies) inputs.push_back(file);
   for (const fs::path& input : inputs)
     if (fs::equivalent(output, input, ec))
       return fail(ErrorCode::kUsage, output.string(), "is an input, which would be overwritten: expected another name");
@@ -84,10 +89,25 @@ void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter&
     printer.note(fmt::format("omitted: {} more, see oriel-inspect info or --report", omissions.size() - kShown));
 }
 
-Status run_checked(const Arguments& args, Context& context, ProgressPrinter& printer) {
-  ORIEL_TRY_VOID(check_output(args.bake.output, args.bake));
+Status run_lux(const Arguments& args, Context& context) {
+  if (!args.lux_output.empty()) {
+    auto inputs = inputs_of(args.lux.scene, args.lux.import);
+    inputs.push_back(args.lux.points);
+    ORIEL_TRY_VOID(check_output(args.lux_output, inputs));
+  }
+  ORIEL_TRY(const Measurement measured, measure(args.lux, context));
+  const std::string csv = lux_csv(measured.points, measured.results);
+  if (!args.lux_output.empty()) return write_file_atomically(args.lux_output, std::as_bytes(std::span(csv)));
+  if (std::fwrite(csv.data(), 1, csv.size(), stdout) != csv.size() || std::fflush(stdout) != 0)
+    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
+  return {};
+}
+
+Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  const auto inputs = inputs_of(args.bake.scene, args.bake.import);
+  ORIEL_TRY_VOID(check_output(args.bake.output, inputs));
   if (!args.report.empty()) {
-    ORIEL_TRY_VOID(check_output(args.report, args.bake));
+    ORIEL_TRY_VOID(check_output(args.report, inputs));
     if (args.report.lexically_normal() == args.bake.output.lexically_normal())
       return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
   }
@@ -110,8 +130,9 @@ Status run_checked(const Arguments& args, Context& context, ProgressPrinter& pri
 // Our code throws nothing, but the libraries and the allocator may.
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   try {
-    return run_checked(args, context, printer);
+    return args.wants_lux ? run_lux(args, context) : run_bake(args, context, printer);
   } catch (const std::bad_alloc&) {
+    if (args.wants_lux) return fail(ErrorCode::kRuntime, "", "not enough memory: try a larger spacing of --grid");
     return fail(ErrorCode::kRuntime, "",
                 "not enough memory: try a larger --texel, fewer --views or a smaller --memory");
   } catch (const std::exception& error) {
@@ -128,7 +149,7 @@ int main_of_bake(int argc, char** argv) {
   ProgressPrinter printer(args.style);
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
-  install_signal_handlers(context, args.bake.output);
+  install_signal_handlers(context, args.wants_lux ? args.lux_output : args.bake.output);
   const Status status = run(args, context, printer);
   ::alarm(0);
   return status ? 0 : print_error(status.error(), args.style, printer);

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/buried.h"
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/sides.h"
-#include "bake/trace/warp.h"
+#include "bake/direct/buried.h"
 
 namespace oriel {
 namespace {

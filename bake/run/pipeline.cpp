@@ -70,12 +70,6 @@ PathOptions path_options(const BakeOptions& options) {
   return paths;
 }
 
-void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
-  if (lights.empty() && luminance(scene.sky) <= 0)
-    context.warning(
-        "the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it bakes to black");
-}
-
 // Whether the lightmap is to hold directions; why not is noted.
 bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
   if (wanted == Directional::kOn) return true;
@@ -91,6 +85,11 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<std:
 }
 
 }  // namespace
+
+void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
+  if (lights.empty() && luminance(scene.sky) <= 0)
+    context.warning("the scene has no light: no emissive material, no KHR_lights_punctual, no --sky; it is black");
+}
 
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;

@@ -9,6 +9,9 @@ namespace oriel {
 inline float luminance(const Vec3& rgb) {
   return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;
 }
+inline double luminance(const DVec3& rgb) {
+  return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;
+}
 
 // IEC 61966-2-1. Both take and return [0, 1]; outside it they extend without clamping (negative: 0).
 float linear_from_srgb(float encoded);

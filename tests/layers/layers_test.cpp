@@ -44,10 +44,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
+  m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/radiosity"].insert("bake/radiosity/cached");
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity"});  // the cached estimator's pieces
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
   m["player/gpu"] = core;
   m["player/walk"] = assets;
@@ -55,7 +56,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/passes"] = plus(m["player/scene"], {"player/scene"});
   m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
   m["scenes/kit"] = core;
-  m["scenes"] = plus(core, {"scenes/kit"});
+  m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;
 }();
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/buried.h"
+#include "bake/direct/buried.h"
 #include "bake/radiosity/sides.h"
 #include "bake/scene/shade.h"
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bake/run/measure.h"
 #include "bake/run/options.h"
 #include "formats/core/file.h"
 #include "formats/pack/reader.h"
@@ -199,6 +200,47 @@ TEST_F(BakeCli, InterruptLeavesNothing) {
     EXPECT_TRUE(entry.path().filename() == "cornell.glb" || entry.path().filename() == "log") << entry.path();
 }
 
+TEST_F(BakeCli, LuxPrintsATable) {
+  write("points.csv", "x,y,z,nx,ny,nz\n0.1,0,-0.1,0,1,0\n0.3,0.2,-0.3,0,0,-1\n");
+  ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o a.csv --error 5%"), 0) << log();
+  const auto lines = [&](const char* name) {
+    const Bytes bytes = *read_file(folder_ / name);
+    std::istringstream in(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    std::vector<std::string> out;
+    for (std::string line; std::getline(in, line);) out.push_back(line);
+    return out;
+  };
+  ASSERT_EQ(lines("a.csv").size(), 3u);
+  EXPECT_EQ(lines("a.csv")[0].rfind("x,y,z,nx,ny,nz,E,E_r,", 0), 0u);
+  EXPECT_EQ(lines("a.csv")[1].rfind("0.1,0,-0.1,0,1,0,", 0), 0u);
+  ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv --error 5% --threads 1 --quiet"), 0);
+  EXPECT_EQ(lines("log"), lines("a.csv")) << "stdout holds the table and nothing else";
+  ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv --samples 1000 --quiet"), 0) << log();
+}
+
+TEST_F(BakeCli, LuxExitCodesAndMessages) {
+  write("points.csv", "0.1,0,-0.1,0,1,0\n");
+  write("zero.csv", "0.1,0,-0.1,0,1,0\n0.1,0,-0.1,0,0,0\n");
+  EXPECT_EQ(run("oriel-bake lux --help"), 0);
+  EXPECT_NE(log().find("--grid"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake lux"), 1);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb"), 1);
+  EXPECT_NE(log().find("--points"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv --grid floor,1m,0"), 1);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --grid floor,1m"), 1);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --grid nowhere,1m,0"), 1);
+  EXPECT_NE(log().find("nowhere"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv --error 5x"), 1);
+  EXPECT_EQ(run("oriel-bake --texel 5cm lux cornell.glb --points points.csv"), 1);
+  EXPECT_NE(log().find("--texel"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake lux missing.glb --points points.csv"), 2);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points missing.csv"), 2);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points zero.csv"), 3);
+  EXPECT_NE(log().find("zero.csv:2"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o points.csv"), 1);
+  EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o cornell.glb"), 1);
+}
+
 TEST(Quantities, ParseAndRefuse) {
   EXPECT_FLOAT_EQ(*parse_length("5cm"), 0.05f);
   EXPECT_FLOAT_EQ(*parse_length("20 mm"), 0.02f);
@@ -208,6 +250,11 @@ TEST(Quantities, ParseAndRefuse) {
   EXPECT_FALSE(parse_bytes("many"));
   EXPECT_EQ(*parse_color("5"), Vec3(5));
   EXPECT_EQ(*parse_color("1,2,3"), Vec3(1, 2, 3));
+  EXPECT_DOUBLE_EQ(*parse_fraction("0.5%"), 0.005);
+  for (const char* bad : {"", "0%", "-1%", "%", "nan%", "1x"}) EXPECT_FALSE(parse_fraction(bad)) << bad;
+  EXPECT_EQ(parse_grid("a,b,1m,0")->node, "a,b");
+  for (const char* bad : {"", "floor", "floor,1m", ",1m,1m", "floor,0m,1m", "floor,1m,-1m", "floor,1,1"})
+    EXPECT_FALSE(parse_grid(bad)) << bad;
   for (const char* bad : {"", "1,2", "1,2,3,4", "-1", "a", "1,,2"}) EXPECT_FALSE(parse_color(bad)) << bad;
   EXPECT_EQ(parse_sky("2000")->radiance, Vec3(2000));
   EXPECT_EQ(parse_sky("skies/Noon.EXR")->file, "skies/Noon.EXR");

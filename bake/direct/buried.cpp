@@ -1,4 +1,4 @@
-#include "bake/radiosity/buried.h"
+#include "bake/direct/buried.h"
 
 #include "bake/trace/warp.h"
 
