@@ -87,7 +87,7 @@ TEST(Srgb, EveryCodeComesBack) {
   EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404114f, 1e-6f);
   EXPECT_EQ(srgb_from_linear(-1.0f), 0.0f);
   EXPECT_EQ(srgb_from_linear(kNan), 0.0f);
-  EXPECT_NEAR(luminance({1, 1, 1}), 1, 1e-6);
+  EXPECT_NEAR(luminance(Vec3{1, 1, 1}), 1, 1e-6);
 }
 
 TEST(Bytes, ReadsWhatWasWritten) {
