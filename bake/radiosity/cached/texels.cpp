@@ -4,7 +4,6 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/buried.h"
-#include "bake/radiosity/sides.h"
 #include "bake/scene/shade.h"
 
 namespace oriel {
@@ -15,9 +14,8 @@ constexpr std::uint32_t kManyPoints = 64;  // tried where a texel is partly buri
 
 class SiteFinder {
  public:
-  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const std::vector<char>& back,
-             std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), back_(back), seed_(seed) {}
+  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::uint64_t seed)
+      : t_(t), atlas_(atlas), maps_(maps), seed_(seed) {}
 
   void find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
@@ -66,7 +64,7 @@ class SiteFinder {
     const Vec2 uv = sampler.next2();
     const TexelPoint point = sample_texel(atlas_, map, texels.index[i], Vec3(uv, sampler.next1()));
     const Scene& scene = t_.accel.scene();
-    return {point_on_side(scene, point, back_[atlas_.chart[point.triangle]]),
+    return {point_on_side(scene, point.triangle, point.barycentric),
             shade_point(scene, point.triangle, point.barycentric).diffuse};
   }
 
@@ -77,7 +75,6 @@ class SiteFinder {
   const Transport& t_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
-  const std::vector<char>& back_;
   std::uint64_t seed_;
 };
 
@@ -126,7 +123,7 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays) {
+                           Context& context, std::atomic<std::uint64_t>& rays) {
   Texels texels;
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
@@ -144,7 +141,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   const std::size_t n = texels.count();
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, back, context.seed);
+  const SiteFinder finder(t, atlas, texel_map, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "texel points", (n + kRun - 1) / kRun, [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {

@@ -54,9 +54,8 @@ struct Texels {
   std::vector<Placement> placement;
 };
 
-// Which side of a chart is baked: by chart, 1 for the back (sides.h).
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays);
+                           Context& context, std::atomic<std::uint64_t>& rays);
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);
