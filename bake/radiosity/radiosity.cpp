@@ -7,6 +7,7 @@
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
+#include "bake/radiosity/texel_part.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
@@ -35,12 +36,14 @@ class Baker {
     TexelSums sums;
     const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
     const bool mixed = any_buried(map, i, stream, rays);
+    const TexelPart part(t_, atlas_, map, i, context_.seed, stream, rays);
     for (std::uint32_t k = 0; k < options_.samples; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
       Sampler sampler(context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
       const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
       if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
+      if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
       const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays, options_.directional);
       const DVec3 value(e.direct + e.indirect);
       sums.sum += value;

@@ -53,7 +53,7 @@ struct RadiosityReport {
 struct Radiosity {
   std::vector<LightmapPage> pages;
   // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other
-  // geometry.
+  // geometry nor behind a wall on the texel (TexelPart).
   std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };
@@ -62,8 +62,8 @@ struct Radiosity {
 //
 // The `reference` estimator: unbiased paths from points spread over each texel, light and BSDF sampling combined.
 // Points that lie inside other geometry (independent probes meet little but back faces of one-sided materials) are left
-// out; a texel with none left is kBuried and filled from its chart's neighbours. Stage name "radiosity"; error
-// kStopped.
+// out, and so are those behind a wall that stands on the texel; a texel with none left is kBuried and filled from its
+// chart's neighbours. Stage name "radiosity"; error kStopped.
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context);

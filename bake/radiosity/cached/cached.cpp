@@ -38,7 +38,7 @@ class CachedBake {
     if (options_.bounces != 1) {  // the gather itself is one
       const SweepOptions how{256, options_.bounces > 0 ? options_.bounces - 1 : 0,
                              kTailShare * std::max(target(), 1e-3)};
-      ORIEL_TRY(sweeps, sweep(texels_, around_, direct_.value, how, context_, rays_));
+      ORIEL_TRY(sweeps, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
     }
     irradiance_ = direct_.value;
     for (std::size_t i = 0; i < texels_.count(); ++i)

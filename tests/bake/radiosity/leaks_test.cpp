@@ -76,9 +76,12 @@ TEST_P(Leaks, ThinWall) {
 }
 
 TEST_P(Leaks, WallWithoutThickness) {
-  SceneParts parts = two_rooms();
-  parts.quad("wall", two_sided(parts), {0, 0, 1}, {0, 0, -1}, {0, 1, 0});
-  EXPECT_LE(leaked_share(bake(parts.finish()), on_the_right), 0.01);
+  for (const bool faces_the_light : {false, true}) {
+    SceneParts parts = two_rooms();
+    const float z = faces_the_light ? 0.0f : 1.0f;
+    parts.quad("wall", two_sided(parts), {0, 0, z}, {0, 0, 1 - 2 * z}, {0, 1, 0});
+    EXPECT_LE(leaked_share(bake(parts.finish()), on_the_right), 0.01) << faces_the_light;
+  }
 }
 
 // Quads that share no vertex meet in the edges of a closed room; the lamp hangs outside.
