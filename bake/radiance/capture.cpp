@@ -67,7 +67,10 @@ class Capture {
 
  private:
   bool own(std::uint32_t triangle) const {
-    return std::binary_search(found_.triangles.begin(), found_.triangles.end(), triangle);
+    const auto listed = [&](std::uint32_t t) {
+      return std::binary_search(found_.triangles.begin(), found_.triangles.end(), t);
+    };
+    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
   }
 
   // Adds what the surface shows. True where the ray ends there.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
-#include "bake/radiosity/sides.h"
-#include "bake/direct/buried.h"
+#include "bake/radiosity/texel_part.h"
 
 namespace oriel {
 namespace {
@@ -21,27 +21,28 @@ struct Run {
 // What the paths of one texel found.
 struct TexelSums {
   DVec3 sum{0}, squares{0};
-  DVec3 vector{0};  // of luminance, as IrradianceSample's; negated where the back is baked
+  DVec3 vector{0};  // of luminance, as IrradianceSample's
   double mean = 0;
   std::uint32_t count = 0;
 };
 
 class Baker {
  public:
-  Baker(const Transport& t, const Atlas& atlas, const std::vector<char>& back, const RadiosityOptions& options,
-        const Context& context)
-      : t_(t), atlas_(atlas), back_(back), options_(options), context_(context) {}
+  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, const Context& context)
+      : t_(t), atlas_(atlas), options_(options), context_(context) {}
 
   TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
     TexelSums sums;
     const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
     const bool mixed = any_buried(map, i, stream, rays);
+    const TexelPart part(t_, atlas_, map, i, context_.seed, stream, rays);
     for (std::uint32_t k = 0; k < options_.samples; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
       Sampler sampler(context_.seed, stream, k);
       const Vec2 uv = sampler.next2();
       const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
       if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
+      if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
       const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays, options_.directional);
       const DVec3 value(e.direct + e.indirect);
       sums.sum += value;
@@ -50,14 +51,13 @@ class Baker {
       sums.mean += e.mean;
       ++sums.count;
     }
-    if (back_[atlas_.chart[map.fragments[map.first[i]].triangle]]) sums.vector = -sums.vector;
     return sums;
   }
 
  private:
   SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const {
     const TexelPoint point = sample_texel(atlas_, map, i, u);
-    return point_on_side(t_.accel.scene(), point, back_[atlas_.chart[point.triangle]]);
+    return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
   }
 
   // Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most
@@ -73,7 +73,6 @@ class Baker {
 
   const Transport& t_;
   const Atlas& atlas_;
-  const std::vector<char>& back_;  // by chart: bake the back
   const RadiosityOptions& options_;
   const Context& context_;
 };
@@ -172,19 +171,16 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     result.pages.push_back(std::move(page));
     result.visible.emplace_back(map.texel.size());
   }
-  std::uint64_t side_rays = 0;
-  const std::vector<char> back = choose_sides(transport, atlas, texel_map, context.seed, side_rays);
-  std::atomic<std::uint64_t> rays{side_rays};
+  std::atomic<std::uint64_t> rays{0};
   if (options.estimator == Estimator::kCached) {
-    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, back, options, context, rays, result));
+    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result));
   } else {
     ORIEL_TRY_VOID(
-        bake_reference(Baker(transport, atlas, back, options, context), texel_map, options, context, rays, result));
+        bake_reference(Baker(transport, atlas, options, context), texel_map, options, context, rays, result));
   }
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
   summarize(transport.accel.scene(), atlas, texel_map, result);
   result.report.rays = rays;
-  result.report.back_charts = static_cast<std::size_t>(std::count(back.begin(), back.end(), 1));
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
     if (options.hidden == Hidden::kBlack)
       darken_hidden(texel_map[p], result.visible[p], result.pages[p]);

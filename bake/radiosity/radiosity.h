@@ -40,9 +40,8 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
-  std::size_t back_charts = 0;  // of double-sided surfaces whose back is lit more: the back was baked (sides.h)
-  Vec3 mean{0};                 // lux, over valid texels
-  Vec3 max{0};                  // lux
+  Vec3 mean{0};  // lux, over valid texels
+  Vec3 max{0};   // lux
   double relative_error =
       0;                  // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
   int sweeps = 0;         // cached: bounces computed in the coarse lightmap
@@ -54,15 +53,17 @@ struct RadiosityReport {
 struct Radiosity {
   std::vector<LightmapPage> pages;
   // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other
-  // geometry.
+  // geometry nor behind a wall on the texel (TexelPart).
   std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };
 
+// Texels hold the light of the front sides; split_sides() gives lit backs texels of their own.
+//
 // The `reference` estimator: unbiased paths from points spread over each texel, light and BSDF sampling combined.
 // Points that lie inside other geometry (independent probes meet little but back faces of one-sided materials) are left
-// out; a texel with none left is kBuried and filled from its chart's neighbours. Stage name "radiosity"; error
-// kStopped.
+// out, and so are those behind a wall that stands on the texel; a texel with none left is kBuried and filled from its
+// chart's neighbours. Stage name "radiosity"; error kStopped.
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context);

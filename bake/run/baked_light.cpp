@@ -40,12 +40,11 @@ Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const Ligh
   const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
   if (material.unlit) return surface.shade.base_color;
   Vec3 light = surface.emits ? surface.shade.emission : Vec3(0);
-  if (!surface.reflects) return light;
+  if (!hit.front) return light;  // lit backs have triangles of their own
   const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, towards_eye));
   const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + r;
-  const float side = hit.front ? 1.0f : -1.0f;
-  const Vec3 normal = side * geometry_at(scene, hit, -towards_eye).normal;
-  const Vec3 e = baked_irradiance(atlas, pages, hit.triangle, hit.barycentric, side * surface.normal, normal);
+  const Vec3 normal = geometry_at(scene, hit, -towards_eye).normal;
+  const Vec3 e = baked_irradiance(atlas, pages, hit.triangle, hit.barycentric, surface.normal, normal);
   return light + share / kPi * e;
 }
 

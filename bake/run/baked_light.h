@@ -16,7 +16,7 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, s
                       const Vec2& barycentric, const Vec3& tilted, const Vec3& normal);
 
 // Radiance that a hit surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
-// specular part as a wide lobe R E/π, and its own emission. Constant cost: no further ray.
+// specular part as a wide lobe R E/π, and its own emission; backs reflect nothing. Constant cost: no further ray.
 Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages, const Hit& hit,
                     const Vec3& towards_eye);
 

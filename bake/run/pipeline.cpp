@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/report.h"
@@ -84,6 +85,28 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<std:
   return false;
 }
 
+struct LitScene {
+  Accel accel;
+  SidesReport sides;
+};
+
+// Splits the scene's double-sided surfaces by the light on their sides; its accelerator.
+Result<LitScene> light_sides(const BakeOptions& options, Scene& scene, Stopwatch& timed, Context& context) {
+  const auto build = [&](auto&) { return Accel::build(scene, {options.reproducible, thread_count(context)}); };
+  ORIEL_TRY(Accel accel, timed("accelerator", build));
+  ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
+              const LightSet lights(scene);
+              auto sides = find_lit_sides({accel, lights, path_options(options)}, context);
+              if (sides) rays = sides->report.rays;
+              return sides;
+            }));
+  if (found.change_scene()) {
+    scene = split_sides(std::move(scene), found.sides);
+    ORIEL_TRY(accel, timed("accelerator", build));
+  }
+  return LitScene{std::move(accel), found.report};
+}
+
 }  // namespace
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
@@ -94,14 +117,13 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;
   Stopwatch timed(result.times);
-  ORIEL_TRY(const ImportedScene imported,
+  ORIEL_TRY(ImportedScene imported,
             timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
+  ORIEL_TRY(const LitScene lit, light_sides(options, imported.scene, timed, context));
   const Scene& scene = imported.scene;
+  const Accel& accel = lit.accel;
   ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
   ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
-  ORIEL_TRY(const Accel accel, timed("accelerator", [&](auto&) {
-              return Accel::build(scene, {options.reproducible, thread_count(context)});
-            }));
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 
@@ -138,7 +160,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, radiosity.report, pack, result.omissions, lights.power(),
+  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(),
                          result.times.back().rays, options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;

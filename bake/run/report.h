@@ -1,6 +1,7 @@
 // What a pack says of itself, as JSON.
 #pragma once
 
+#include "bake/radiosity/lit_sides.h"
 #include "bake/run/pipeline.h"
 
 namespace oriel {
@@ -9,6 +10,7 @@ namespace oriel {
 struct BakeFacts {
   const Scene& scene;
   const Atlas& atlas;
+  const SidesReport& sides;
   const RadiosityReport& radiosity;
   const Pack& pack;
   const std::vector<std::string>& omissions;

@@ -110,6 +110,10 @@ struct Scene {
   // geometric_normal() of the first triangles, kept; it computes those of the others. Who moves vertices clears it.
   std::vector<Vec3> face_normals;
   std::vector<std::uint32_t> triangle_surface;
+  // By triangle: the same one seen from behind, where a double-sided surface was split into two one-sided ones; ~0u:
+  // none; empty: no triangle has one. Symmetric. A pair stands in a ray's way once: Accel answers with the one whose
+  // front the ray meets.
+  std::vector<std::uint32_t> twin;
   std::vector<Surface> surfaces;
   std::vector<SceneMaterial> materials;
   std::vector<Image> images;

@@ -59,12 +59,16 @@ struct Accel::Impl {
     rtcReleaseGeometry(geometry);
   }
 
+  // Of a pair of twins only the first is traced.
+  bool is_second_twin(std::uint32_t t) const { return !scene->twin.empty() && scene->twin[t] < t; }
+
   void split_groups() {
     std::vector<char> transmits(scene->materials.size());
     for (std::size_t m = 0; m < transmits.size(); ++m)
       any_transmitting |= transmits[m] = may_transmit(scene->materials[m]);
-    if (!any_transmitting) return;
+    if (!any_transmitting && scene->twin.empty()) return;
     for (std::uint32_t t = 0; t < scene->triangles.size(); ++t) {
+      if (is_second_twin(t)) continue;
       Group& group = groups[transmits[scene->surfaces[scene->triangle_surface[t]].material] ? 1 : 0];
       group.indices.push_back(scene->triangles[t]);
       group.triangle.push_back(t);
@@ -97,6 +101,11 @@ struct Accel::Impl {
     // Embree's unnormalised normal underflows for tiny triangles: their side is found in double.
     const float side = glm::dot(normal, direction);
     hit.front = side != 0 ? side < 0 : glm::dot(geometric_normal(*scene, hit.triangle), direction) < 0;
+    if (!hit.front && !scene->twin.empty() && scene->twin[hit.triangle] != ~0u) {
+      hit.triangle = scene->twin[hit.triangle];
+      hit.barycentric = {barycentric.y, barycentric.x};  // its second and third vertex are swapped
+      hit.front = true;
+    }
     return hit;
   }
 

@@ -148,7 +148,7 @@ class Walk {
     const float cosine = glm::dot(surface.normal, wo);
     const Vec3 specular = reflectance(surface.shade, cosine);
     const Vec3 weight = throughput_ * surface.shade.diffuse * (1 - max_component(specular));
-    if (max_component(weight) > 0) (*on_diffuse_)({surface.triangle, surface.barycentric, weight});
+    if (max_component(weight) > 0) (*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, weight});
     surface.shade.diffuse = Vec3(0);
     // The rest goes on as often as it is bright.
     const float q = std::min(1.0f, max_component(specular) + max_component(surface.shade.transmission));
@@ -218,6 +218,7 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
                    s.geometric_normal);
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
+  s.front = hit.front;
   s.reflects = hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
   return s;
 }
@@ -232,6 +233,11 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
   s.shade = shade_point(scene, hit.triangle, hit.barycentric);
   s.emits = s.reflects && max_component(s.shade.emission) > 0;
   return s;
+}
+
+SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front) {
+  const Vec3 normal = geometric_normal(scene, triangle);
+  return geometry_at(scene, {triangle, 0, barycentric, front}, front ? -normal : normal);
 }
 
 PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {

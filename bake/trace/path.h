@@ -30,6 +30,7 @@ struct SurfacePoint {
   Vec3 geometric_normal{0, 0, 1};  // unit, on the side of wo
   Vec3 normal{0, 0, 1};            // unit shading normal, on the side of wo
   ShadePoint shade;
+  bool front = true;      // wo is on the triangle's front side
   bool emits = false;     // towards wo
   bool reflects = false;  // towards wo: false for the back of a one-sided surface
 };
@@ -38,6 +39,9 @@ struct SurfacePoint {
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction);
 // The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit).
 SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction);
+
+// The surface as light meets it that falls straight on one side of it, as geometry_at().
+SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front = true);
 
 // The origin of a ray that leaves the surface.
 inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
@@ -60,6 +64,7 @@ PathLight trace_path(const Transport& transport, const Ray& ray, float bsdf_pdf,
 struct DiffuseVertex {
   std::uint32_t triangle = 0;
   Vec2 barycentric{0};
+  bool front = true;  // the side that is seen
   Vec3 weight{0};
 };
 using OnDiffuse = std::function<void(const DiffuseVertex&)>;

@@ -24,8 +24,7 @@ struct LightmapPage {
       standard_error;  // lux per channel: one standard deviation of the estimate's own noise; 0 where not baked
   std::vector<TexelState> state;
   // Of a directional lightmap, else empty: the L1 band of the incident luminance over its L0 band, d = v / m with
-  // m = ∫ L dω / 4π and v = ∫ L ω dω / 4π above the texel; pack space, |d| <= 1. Where the back of a double-sided
-  // surface was baked it is negated: what front and back show is then one function of the front's normals.
+  // m = ∫ L dω / 4π and v = ∫ L ω dω / 4π above the texel; pack space, |d| <= 1.
   std::vector<Vec3> direction{};
 };
 

@@ -43,8 +43,10 @@ vec3 reflectance_of(vec3 tilted) {
   return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
 }
 
+// Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
 vec3 irradiance_on(vec3 tilted) {
   vec3 irradiance = texture(u_lightmap, v_lightmap_uv).rgb * u_lightmap_scale;
+  if (!gl_FrontFacing) return vec3(0.0);
   if (!u_normal_mapped || !u_directional) return irradiance;
   return irradiance * directional_ratio(texture(u_direction, v_lightmap_uv).xyz, tilted, front_normal());
 }

@@ -95,14 +95,6 @@ TEST_F(NormalMaps, WithoutDirectionsOnlyReflectionsTilt) {
   }
 }
 
-// What lies behind a sheet shows the same light, told in the front's normals.
-TEST_F(NormalMaps, BothSidesOfASheetShowTheSame) {
-  Pack pack = mapped_quad(Vec3(256), Vec3(0.6f, 0, 0.8f), {200, 128, 220}, false);
-  pack.materials[0].double_sided = true;
-  const Vec3 front = draw(pack, camera_at({0, 0, 2}), 8, 8).at(4, 4);
-  expect_light(draw(pack, camera_at({0, 0, -2}), 8, 8).at(4, 4), front, 1e-4f);
-}
-
 TEST_F(NormalMaps, SeeThroughSurfacesToo) {
   Pack pack = mapped_quad(Vec3(256), Vec3(0.6f, 0, 0.8f), {200, 128, 220}, false);
   const Vec3 whole = draw(pack, camera_at({0, 0, 2}), 8, 8).at(4, 4);

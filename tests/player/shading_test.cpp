@@ -106,14 +106,15 @@ TEST_F(Shading, SeeThroughSurfacesDimAndAdd) {
   expect_light(draw(pack, facing_camera(), 4, 4).at(1, 1), 4.0f + 0.75f * Vec3(64, 32, 16));
 }
 
-TEST_F(Shading, BackFacesOfOneSidedMaterialsAreOpen) {
+TEST_F(Shading, BackFacesAreOpenOrDark) {
   Pack pack = lit_quad(Vec3(256));
   pack.sky = {3, 4, 5};
   Camera behind = facing_camera(-2);
   behind.forward = {0, 0, 1};
   expect_light(draw(pack, behind, 4, 4).at(1, 1), Vec3(3, 4, 5));
   pack.materials[0].double_sided = true;
-  expect_light(draw(pack, behind, 4, 4).at(1, 1), Vec3(128, 64, 256) / kPi);
+  pack.materials[0].emission = Vec3(2);
+  expect_light(draw(pack, behind, 4, 4).at(1, 1), Vec3(2));  // the lightmap holds the front's light
 }
 
 TEST_F(Shading, UnlitSurfacesShowTheirColourAtAnyExposure) {

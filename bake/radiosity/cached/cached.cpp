@@ -20,14 +20,14 @@ constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared e
 
 class CachedBake {
  public:
-  CachedBake(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const std::vector<char>& back,
+  CachedBake(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps,
              const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays, const Texels& texels)
       : options_(options),
         context_(context),
         rays_(rays),
         texels_(texels),
         order_(coherent_order(texels)),
-        direct_light_(t, atlas, maps, back, texels, context.seed),
+        direct_light_(t, atlas, maps, texels, context.seed),
         around_(t, texels, direct_light_.closed_form(), context.seed),
         direct_(texels.count()),
         gathered_(texels.count()),
@@ -43,7 +43,7 @@ class CachedBake {
       how.tolerance = kTailShare * std::max(target(), 1e-3);
       how.side = target() >= kCoarseTarget ? 2 : 1;
       while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
-      ORIEL_TRY(sweeps, sweep(texels_, around_, direct_.value, how, context_, rays_));
+      ORIEL_TRY(sweeps, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
     }
     irradiance_ = direct_.value;
     for (std::size_t i = 0; i < texels_.count(); ++i)
@@ -215,10 +215,10 @@ class CachedBake {
 }  // namespace
 
 Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                   const std::vector<char>& back, const RadiosityOptions& options, Context& context,
-                   std::atomic<std::uint64_t>& rays, Radiosity& result) {
-  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, back, context, rays));
-  CachedBake bake(t, atlas, texel_map, back, options, context, rays, texels);
+                   const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
+                   Radiosity& result) {
+  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays));
+  CachedBake bake(t, atlas, texel_map, options, context, rays, texels);
   return bake.run(result);
 }
 

@@ -8,7 +8,7 @@ namespace oriel {
 // Fills pages (allocated, empty), visible and the report's rays, samples and sweeps. Error kStopped; kInvalid where
 // light does not die away.
 Status bake_cached(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                   const std::vector<char>& back, const RadiosityOptions& options, Context& context,
-                   std::atomic<std::uint64_t>& rays, Radiosity& result);
+                   const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
+                   Radiosity& result);
 
 }  // namespace oriel

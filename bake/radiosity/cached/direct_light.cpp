@@ -1,7 +1,6 @@
 #include "bake/radiosity/cached/direct_light.h"
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/sides.h"
 
 namespace oriel {
 namespace {
@@ -80,7 +79,7 @@ class DirectGroup {
                           std::uint64_t{t.page[texel]} << 32 | map.texel[t.index[texel]], k);
           const Vec2 uv = sampler.next2();
           const TexelPoint p = sample_texel(d_.atlas_, map, t.index[texel], Vec3(uv, sampler.next1()));
-          const SurfacePoint s = point_on_side(d_.t_.accel.scene(), p, d_.back_[d_.atlas_.chart[p.triangle]]);
+          const SurfacePoint s = point_on_side(d_.t_.accel.scene(), p.triangle, p.barycentric);
           point.site = {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
         }
         points_.push_back(point);
@@ -193,8 +192,8 @@ class DirectGroup {
 };
 
 DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                         const std::vector<char>& back, const Texels& texels, std::uint64_t seed)
-    : t_(transport), atlas_(atlas), maps_(texel_map), back_(back), texels_(texels), seed_(seed) {
+                         const Texels& texels, std::uint64_t seed)
+    : t_(transport), atlas_(atlas), maps_(texel_map), texels_(texels), seed_(seed) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
   for (const Surface& surface : scene.surfaces) {

@@ -19,7 +19,7 @@ class DirectLight {
  public:
   // texel_map and atlas: for points beyond the texels' own sites.
   DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-              const std::vector<char>& back, const Texels& texels, std::uint64_t seed);
+              const Texels& texels, std::uint64_t seed);
 
   // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
   // polygons than it pays to visit one by one), see LightSet.
@@ -35,7 +35,6 @@ class DirectLight {
   const Transport& t_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
-  const std::vector<char>& back_;
   const Texels& texels_;
   std::uint64_t seed_;
   std::vector<PolygonLight> polygons_;

@@ -1,7 +1,7 @@
 #include "bake/radiosity/cached/patches.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <numeric>
 
 #include "bake/jobs/parallel.h"
 
@@ -22,26 +22,57 @@ struct Patch {
   DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
                                       // sky, emitters behind mirrors
   double area_m2 = 0;
+  std::uint32_t x = 0, y = 0;         // of its block
+  std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it
 };
 
-std::uint64_t block_key(const Texels& t, std::size_t i, std::uint32_t side) {
-  return mix64(std::uint64_t{t.page[i]} << 48 ^ std::uint64_t{t.chart[i]} << 24) ^
-         (std::uint64_t{t.y[i] / side} << 32 | t.x[i] / side);
+bool same_chart(const Texels& t, std::uint32_t a, std::uint32_t b) {
+  return t.page[a] == t.page[b] && t.chart[a] == t.chart[b];
+}
+
+// By texel: one texel that stands for all of its patch. Texels of a block belong together where neighbours, which see
+// each other, connect them within it.
+std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& graph, std::uint32_t side) {
+  std::vector<std::uint32_t> parent(t.count());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::uint32_t i = 0; i < parent.size(); ++i)
+    for (const std::uint32_t j : graph.of(i))
+      if (same_chart(t, i, j) && t.x[i] / side == t.x[j] / side && t.y[i] / side == t.y[j] / side)
+        parent[root(i)] = root(j);
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+  return parent;
 }
 
 class Solver {
  public:
-  Solver(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct, const SweepOptions& options)
+  Solver(const Texels& texels, const TexelGraph& graph, const Surroundings& around, std::span<const Vec3> direct,
+         const SweepOptions& options)
       : texels_(texels), around_(around), direct_(direct), options_(options) {
     patch_of_.assign(texels.count(), ~0u);
+    const std::vector<std::uint32_t> head = connect_blocks(texels, graph, options.side);
     for (const std::uint32_t i : coherent_order(texels)) {
       if (texels.visible[i] == 0) continue;
-      const auto [at, added] =
-          number_.try_emplace(block_key(texels, i, options.side), static_cast<std::uint32_t>(patches_.size()));
-      if (added) patches_.emplace_back();
-      patches_[at->second].texels.push_back(i);
-      patches_[at->second].area_m2 += shown_m2(i);
-      patch_of_[i] = at->second;
+      std::uint32_t& number = patch_of_[head[i]];  // a texel that is not visible has no neighbours
+      if (number == ~0u) {
+        number = static_cast<std::uint32_t>(patches_.size());
+        patches_.emplace_back();
+        patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
+      }
+      patches_[number].texels.push_back(i);
+      patches_[number].area_m2 += shown_m2(i);
+      patch_of_[i] = number;
+    }
+    for (std::uint32_t i = 0; i < texels.count(); ++i)
+      for (const std::uint32_t j : graph.of(i))
+        if (patch_of_[i] != patch_of_[j] && same_chart(texels, i, j))
+          patches_[patch_of_[i]].beside.push_back(patch_of_[j]);
+    for (Patch& patch : patches_) {
+      std::sort(patch.beside.begin(), patch.beside.end());
+      patch.beside.erase(std::unique(patch.beside.begin(), patch.beside.end()), patch.beside.end());
     }
   }
 
@@ -117,7 +148,6 @@ class Solver {
   const Surroundings& around_;
   std::span<const Vec3> direct_;
   SweepOptions options_;
-  std::unordered_map<std::uint64_t, std::uint32_t> number_;  // of a patch, by block
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by texel
   std::vector<Vec3> solution_;           // by patch
@@ -179,41 +209,36 @@ Status Solver::solve(Context& context, Sweeps& result) {
   return {};
 }
 
-// Bilinear between the patches of a chart, by the texels' place among their blocks.
+// Bilinear between a texel's patch and those beside it, by the texel's place among their blocks.
 void Solver::interpolate(Context& context, Sweeps& result) {
   constexpr std::size_t kRun = 1024;
   result.gathered.assign(texels_.count(), Vec3(0));
   (void)parallel_for(context, "", (texels_.count() + kRun - 1) / kRun, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(texels_.count(), (run + 1) * kRun); ++i) {
       if (patch_of_[i] == ~0u) continue;
-      const std::uint64_t chart = block_key(texels_, i, options_.side) ^
-                                  (std::uint64_t{texels_.y[i] / options_.side} << 32 | texels_.x[i] / options_.side);
-      const float fx = (static_cast<float>(texels_.x[i]) + 0.5f) / options_.side - 0.5f;
-      const float fy = (static_cast<float>(texels_.y[i]) + 0.5f) / options_.side - 0.5f;
-      const float bx = std::floor(fx), by = std::floor(fy);
+      const Vec2 at = (Vec2(texels_.x[i], texels_.y[i]) + 0.5f) / static_cast<float>(options_.side) - 0.5f;
       Vec3 sum(0);
       float weights = 0;
-      for (int dy = 0; dy < 2; ++dy)
-        for (int dx = 0; dx < 2; ++dx) {
-          const float cx = bx + static_cast<float>(dx), cy = by + static_cast<float>(dy);
-          if (cx < 0 || cy < 0) continue;
-          const auto at = number_.find(chart ^ (static_cast<std::uint64_t>(cy) << 32 | static_cast<std::uint64_t>(cx)));
-          if (at == number_.end()) continue;
-          const float w = (1 - std::abs(fx - cx)) * (1 - std::abs(fy - cy));
-          sum += w * solution_[at->second];
-          weights += w;
-        }
-      result.gathered[i] = weights > 0 ? sum / weights : solution_[patch_of_[i]];
+      const auto add = [&](std::uint32_t p) {
+        const Vec2 off = 1.0f - glm::abs(at - Vec2(patches_[p].x, patches_[p].y));
+        if (off.x <= 0 || off.y <= 0) return;
+        sum += off.x * off.y * solution_[p];
+        weights += off.x * off.y;
+      };
+      add(patch_of_[i]);
+      for (const std::uint32_t p : patches_[patch_of_[i]].beside) add(p);
+      result.gathered[i] = sum / weights;  // the own patch's is a quarter at least
     }
   });
 }
 
 }  // namespace
 
-Result<Sweeps> sweep(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct,
-                     const SweepOptions& options, Context& context, std::atomic<std::uint64_t>& rays) {
+Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
+                     std::span<const Vec3> direct, const SweepOptions& options, Context& context,
+                     std::atomic<std::uint64_t>& rays) {
   Sweeps result;
-  Solver solver(texels, around, direct, options);
+  Solver solver(texels, graph, around, direct, options);
   ORIEL_TRY_VOID(solver.trace(context, context.seed + 0xb0, rays));
   ORIEL_TRY_VOID(solver.solve(context, result));
   solver.interpolate(context, result);

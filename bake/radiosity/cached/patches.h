@@ -1,7 +1,9 @@
-// Bounces: a coarse radiosity problem over patches of a few texels, whose answer the final gather refines.
+// Bounces: a coarse radiosity problem over patches of a few texels, whose answer the final gather refines. A block of
+// texels that walls divide is a patch for each part of it.
 #pragma once
 
 #include "bake/radiosity/cached/directions.h"
+#include "bake/radiosity/cached/neighbours.h"
 #include "bake/radiosity/cached/surroundings.h"
 
 namespace oriel {
@@ -26,7 +28,8 @@ struct Sweeps {
 // Jacobi sweeps run over what they found, until the geometric bound on the rest, |ΔB| q/(1 - q) with q the ratio of
 // successive changes, is below tolerance. Errors: kStopped; kInvalid where the light does not die away (a closed scene
 // that absorbs nothing), with the energy balance.
-Result<Sweeps> sweep(const Texels& texels, const Surroundings& around, std::span<const Vec3> direct,
-                     const SweepOptions& options, Context& context, std::atomic<std::uint64_t>& rays);
+Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
+                     std::span<const Vec3> direct, const SweepOptions& options, Context& context,
+                     std::atomic<std::uint64_t>& rays);
 
 }  // namespace oriel

@@ -15,11 +15,11 @@ bool is_matt(const SceneMaterial& m) {
 Surroundings::Surroundings(const Transport& transport, const Texels& texels, bool closed_form, std::uint64_t seed)
     : t_(transport), texels_(texels), closed_form_(closed_form), seed_(seed) {
   const Scene& scene = transport.accel.scene();
-  faces_.resize(scene.triangles.size());
-  for (std::uint32_t t = 0; t < faces_.size(); ++t) {
+  kinds_.resize(scene.triangles.size());
+  for (std::uint32_t t = 0; t < kinds_.size(); ++t) {
     const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[t]].material];
     const bool emits = max_component(material.emission) > 0;
-    faces_[t] = {is_matt(material) && (closed_form || !emits) ? Kind::kMatt : Kind::kOther, material.double_sided};
+    kinds_[t] = is_matt(material) && (closed_form || !emits) ? Kind::kMatt : Kind::kOther;
   }
 }
 
@@ -35,12 +35,11 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
       answers.light[i] = sky_radiance(t_.accel.scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       continue;
     }
-    const Face face = faces_[hit.triangle];
-    if (face.kind == Kind::kOther) {
+    if (kinds_[hit.triangle] == Kind::kOther) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
     }
-    if (!hit.front && !face.double_sided) continue;
+    if (!hit.front) continue;  // texels hold the light of fronts
     const std::uint32_t texel = texels_.find(hit.triangle, hit.barycentric);
     if (texel != kNoTexel) answers.links.push_back({i, texel, texels_.albedo[texel]});
   }
@@ -50,6 +49,7 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
                           Answers& answers) const {
   Sampler sampler(seed_, about.stream, about.sample);
   const auto on_diffuse = [&](const DiffuseVertex& v) {
+    if (!v.front) return;
     const std::uint32_t texel = texels_.find(v.triangle, v.barycentric);
     if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
   };

@@ -50,11 +50,7 @@ class Surroundings {
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
-  struct Face {  // by triangle: what deciding about a hit needs, in one place
-    Kind kind = Kind::kOther;
-    bool double_sided = false;
-  };
-  std::vector<Face> faces_;
+  std::vector<Kind> kinds_;  // by triangle
 };
 
 }  // namespace oriel

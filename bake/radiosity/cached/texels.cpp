@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "bake/jobs/parallel.h"
 #include "bake/direct/buried.h"
-#include "bake/radiosity/sides.h"
+#include "bake/jobs/parallel.h"
+#include "bake/radiosity/texel_part.h"
 #include "bake/scene/shade.h"
 
 namespace oriel {
@@ -15,11 +15,11 @@ constexpr std::uint32_t kManyPoints = 64;  // tried where a texel is partly buri
 
 class SiteFinder {
  public:
-  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const std::vector<char>& back,
-             std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), back_(back), seed_(seed) {}
+  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::uint64_t seed)
+      : t_(t), atlas_(atlas), maps_(maps), seed_(seed) {}
 
-  void find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
+  // Returns what a wall leaves of the texel.
+  TexelPart find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
     Vec3 albedo(0);
     int buried = 0;
@@ -31,17 +31,22 @@ class SiteFinder {
     }
     texels.albedo[i] = albedo / static_cast<float>(kSites);
     texels.visible[i] = 1;
-    if (buried > 0) find_unburied(texels, i, stream, rays);
+    const TexelPart part(t_, atlas_, maps_[texels.page[i]], texels.index[i], seed_, stream, rays);
+    if (buried > 0 || !part.whole()) find_unburied(texels, i, stream, part, rays);
+    return part;
   }
 
   // Again, with more points: their share, and kSites of those that are left.
-  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
+  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, const TexelPart& part,
+                     std::uint64_t& rays) const {
     int found[kHalves] = {0, 0};
     Vec3 albedo(0);
     for (std::uint32_t k = 0; k < kManyPoints; ++k) {
       const int half = static_cast<int>(k % kHalves);
       const Candidate c = candidate(texels, i, half, k / kHalves);
-      if (is_buried(t_, c.surface, seed_, stream, kSites + k, rays)) continue;
+      if (is_buried(t_, c.surface, seed_, stream, kSites + k, rays) ||
+          !part.holds(c.surface.triangle, c.surface.barycentric, rays))
+        continue;
       albedo += c.albedo;
       texels.site[i][half * kSitesPerHalf + found[half]++ % kSitesPerHalf] = site_of(c.surface);
     }
@@ -66,7 +71,7 @@ class SiteFinder {
     const Vec2 uv = sampler.next2();
     const TexelPoint point = sample_texel(atlas_, map, texels.index[i], Vec3(uv, sampler.next1()));
     const Scene& scene = t_.accel.scene();
-    return {point_on_side(scene, point, back_[atlas_.chart[point.triangle]]),
+    return {point_on_side(scene, point.triangle, point.barycentric),
             shade_point(scene, point.triangle, point.barycentric).diffuse};
   }
 
@@ -77,7 +82,6 @@ class SiteFinder {
   const Transport& t_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
-  const std::vector<char>& back_;
   std::uint64_t seed_;
 };
 
@@ -105,11 +109,25 @@ std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
   const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
   const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
   const auto page_number = static_cast<std::uint32_t>(place.page);
-  if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) return texel;
+  if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
+    if (visible[texel] == 1) return texel;
+    std::uint64_t rays = 0;
+    const auto part = cut.find(texel);
+    return part == cut.end() || part->second.holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
+  }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
     if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return texel;
   return kNoTexel;
+}
+
+// Across the border next to p, in texels of the page; the texel itself where none lies there.
+std::uint32_t Texels::nearest_neighbour(std::uint32_t texel, const Vec2& p) const {
+  const Vec2 off = p - Vec2(x[texel], y[texel]) - 0.5f;
+  const bool level = std::abs(off.x) > std::abs(off.y);
+  const int dx = level ? (off.x > 0 ? 1 : -1) : 0, dy = level ? 0 : (off.y > 0 ? 1 : -1);
+  const std::uint32_t beside = at(page[texel], static_cast<int>(x[texel]) + dx, static_cast<int>(y[texel]) + dy);
+  return beside != kNoTexel && chart[beside] == chart[texel] ? beside : texel;
 }
 
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {
@@ -126,7 +144,7 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays) {
+                           Context& context, std::atomic<std::uint64_t>& rays) {
   Texels texels;
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
@@ -144,16 +162,19 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   const std::size_t n = texels.count();
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, back, context.seed);
-  ORIEL_TRY_VOID(parallel_for(context, "texel points", (n + kRun - 1) / kRun, [&](std::size_t run) {
+  const SiteFinder finder(t, atlas, texel_map, context.seed);
+  std::vector<std::vector<std::pair<std::uint32_t, TexelPart>>> cut((n + kRun - 1) / kRun);
+  ORIEL_TRY_VOID(parallel_for(context, "texel points", cut.size(), [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
-      finder.find(texels, i, traced);
+      const TexelPart part = finder.find(texels, i, traced);
+      if (!part.whole()) cut[run].emplace_back(static_cast<std::uint32_t>(i), part);
       texels.area_m2[i] =
           static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
     }
     rays += traced;
   }));
+  for (const auto& run : cut) texels.cut.insert(run.begin(), run.end());
   return texels;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <unordered_map>
 
 #include "bake/atlas/texel_map.h"
 #include "bake/direct/polygon_light.h"
+#include "bake/radiosity/texel_part.h"
 #include "bake/trace/path.h"
 
 namespace oriel {
@@ -37,7 +39,10 @@ struct Texels {
 
   std::size_t count() const { return page.size(); }
 
-  // The texel under a point of a triangle; kNoTexel where it takes no lightmap.
+  std::unordered_map<std::uint32_t, TexelPart> cut;  // texels on which a wall stands
+
+  // The texel under a point of a triangle, or the one beside it where a wall parts it from the point; kNoTexel where it
+  // takes no lightmap.
   std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel at a place of a page; kNoTexel where none is.
   std::uint32_t at(std::uint32_t page_number, int px, int py) const;
@@ -52,11 +57,13 @@ struct Texels {
     std::int32_t page = -1;
   };
   std::vector<Placement> placement;
+
+ private:
+  std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
 };
 
-// Which side of a chart is baked: by chart, 1 for the back (sides.h).
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const std::vector<char>& back, Context& context, std::atomic<std::uint64_t>& rays);
+                           Context& context, std::atomic<std::uint64_t>& rays);
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

@@ -1,6 +1,7 @@
-// A scene taken through atlas, texel map and radiosity, as a bake runs.
+// A scene taken through sides, atlas, texel map and radiosity, as a bake runs.
 #pragma once
 
+#include "bake/radiosity/lit_sides.h"
 #include "bake/radiosity/radiosity.h"
 #include "tests/bake/support/scene_parts.h"
 
@@ -10,6 +11,7 @@ struct Baked {
   Scene scene;
   Atlas atlas;
   std::vector<TexelMapPage> texel_map;
+  SidesReport sides;
   Radiosity radiosity;
 
   // Calls visit(page, texel, triangle) for every valid texel.
@@ -31,6 +33,13 @@ inline Baked bake(Scene scene, float texel_m, const RadiosityOptions& options, i
   Context context;
   context.threads = threads;
   context.seed = seed;
+  {
+    const Accel accel = *Accel::build(b.scene);
+    const LightSet lights(b.scene);
+    const FoundSides found = *find_lit_sides({accel, lights, {}}, context);
+    b.sides = found.report;
+    if (found.change_scene()) b.scene = split_sides(std::move(b.scene), found.sides);
+  }
   AtlasOptions atlas;
   atlas.texel_m = texel_m;
   b.atlas = *build_atlas(b.scene, atlas, context);

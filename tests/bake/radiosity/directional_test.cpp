@@ -143,25 +143,6 @@ TEST(Directional, IrradianceIsTheSame) {
   EXPECT_NEAR(b.radiosity.report.incident_lm.g / area * 0.2 / kPiD, 1, 0.005);
 }
 
-TEST(Directional, BackOfASheetIsToldInItsFrontsNormals) {
-  SceneParts parts;
-  SceneMaterial sheet;
-  sheet.metallic = 0;
-  sheet.specular = 0;
-  sheet.double_sided = true;
-  parts.quad("wall", parts.add(sheet), {0, 0, 0}, {0, 1, 0}, {1, 0, 0});  // faces -z
-  Light sun;
-  sun.type = LightType::kDirectional;
-  sun.direction = glm::normalize(Vec3(0.5f, 0, -1));
-  sun.intensity = Vec3(10);
-  parts.scene().lights.push_back(sun);
-  const Baked b = bake(parts.finish(), 0.25f, 16);
-  each_texel(b, "wall", [&](const Vec3& e, const Vec3& d) {
-    EXPECT_GT(e.g, 1);
-    EXPECT_LT(glm::length(d - sun.direction), 1e-5f);
-  });
-}
-
 TEST(Directional, SameBytesForOneAndTwoThreads) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.6f)), Vec3(0), Vec3(1), true);

@@ -179,20 +179,6 @@ TEST(Radiosity, BackFacesDoNotBrightenVisibleTexels) {
   EXPECT_EQ(seen, 4);
 }
 
-TEST(Radiosity, DoubleSidedWallFacingAwayIsLit) {
-  SceneParts parts;
-  SceneMaterial sheet;
-  sheet.metallic = 0;
-  sheet.specular = 0;
-  sheet.double_sided = true;
-  parts.quad("wall", parts.add(sheet), {0, 0, 0}, {0, 1, 0}, {1, 0, 0});  // faces -z
-  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), {0, 1, 1}, {1, 0, 0},
-             {0, -1, 0});  // faces -z, towards the wall's back
-  const Baked b = bake(parts.finish(), 0.25f, 16);
-  EXPECT_EQ(b.radiosity.report.back_charts, 1u);
-  EXPECT_GT(b.radiosity.report.mean.g, 1);
-}
-
 TEST(Radiosity, NoLightIsExactlyBlack) {
   SceneParts parts;
   parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(1), true);

@@ -1,0 +1,127 @@
+#include "bake/radiosity/lit_sides.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "bake/jobs/parallel.h"
+#include "bake/trace/warp.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kLit = 0.01;  // of the other side's mean
+// Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
+// where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
+constexpr std::size_t kPoints = 256, kFewPoints = 4, kAllPoints = std::size_t{1} << 20;
+
+// The double-sided triangles, part by part.
+struct Parts {
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::size_t> first{0};  // of each part, and the end
+
+  std::size_t count() const { return first.size() - 1; }
+  std::span<const std::uint32_t> of(std::size_t part) const {
+    return std::span(triangles).subspan(first[part], first[part + 1] - first[part]);
+  }
+};
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+void add_parts(const Scene& scene, const Surface& surface, Parts& parts) {
+  std::vector<std::uint32_t> parent(surface.vertex_count);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto corner = [&](std::uint32_t t, int k) { return scene.triangles[t][k] - surface.first_vertex; };
+  std::vector<std::uint32_t> own(surface.triangle_count);
+  std::iota(own.begin(), own.end(), surface.first_triangle);
+  for (const std::uint32_t t : own)
+    for (int k = 1; k < 3; ++k) parent[root_of(parent, corner(t, k))] = root_of(parent, corner(t, 0));
+  const auto part_of = [&](std::uint32_t t) { return root_of(parent, corner(t, 0)); };
+  std::stable_sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return part_of(a) < part_of(b); });
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    parts.triangles.push_back(own[i]);
+    if (i + 1 == own.size() || part_of(own[i]) != part_of(own[i + 1])) parts.first.push_back(parts.triangles.size());
+  }
+}
+
+Parts find_parts(const Scene& scene) {
+  Parts parts;
+  for (const Surface& surface : scene.surfaces) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    if (material.double_sided && !material.unlit) add_parts(scene, surface, parts);
+  }
+  return parts;
+}
+
+// The light on one side of a part.
+struct SideLight {
+  double sum = 0, max = 0;
+
+  void add(double light) {
+    sum += light;
+    max = std::max(max, light);
+  }
+  bool lit_beside(const SideLight& other, std::size_t points) const {
+    return max > kLit * other.sum / static_cast<double>(points);
+  }
+};
+
+LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std::size_t points, std::uint64_t seed,
+                   std::uint64_t& rays) {
+  const Scene& scene = t.accel.scene();
+  std::vector<double> area_until;
+  double total = 0;
+  for (const std::uint32_t triangle : part) area_until.push_back(total += triangle_area(scene, triangle));
+  SideLight front, back;
+  for (std::size_t k = 0; k < points; ++k) {
+    Sampler sampler(mix64(seed), part.front(), static_cast<std::uint32_t>(k));
+    const double area = sampler.next1() * total;
+    const auto at = std::lower_bound(area_until.begin(), area_until.end(), area) - area_until.begin();
+    const std::uint32_t triangle = part[std::min<std::size_t>(at, part.size() - 1)];
+    const Vec2 barycentric = square_to_triangle(sampler.next2());
+    for (SideLight* side : {&front, &back}) {
+      const SurfacePoint point = point_on_side(scene, triangle, barycentric, side == &front);
+      Sampler own = sampler;
+      const IrradianceSample e = sample_irradiance(t, point, own, rays);
+      side->add(luminance(e.direct + e.indirect));
+    }
+    // Most double-sided things in the light show it at once.
+    if (k + 1 >= kFewPoints && std::has_single_bit(k + 1) && front.lit_beside(back, k + 1) &&
+        back.lit_beside(front, k + 1))
+      return LitSides::kBoth;
+  }
+  if (!back.lit_beside(front, points)) return LitSides::kFront;
+  return front.lit_beside(back, points) ? LitSides::kBoth : LitSides::kBack;
+}
+
+}  // namespace
+
+Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) {
+  const Parts parts = find_parts(transport.accel.scene());
+  const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
+  std::vector<LitSides> of_part(parts.count());
+  std::atomic<std::uint64_t> rays{0};
+  ORIEL_TRY_VOID(parallel_for(
+      context, "sides", parts.count(),
+      [&](std::size_t i) {
+        std::uint64_t traced = 0;
+        of_part[i] = lit_sides(transport, parts.of(i), points, context.seed, traced);
+        rays += traced;
+      },
+      &rays));
+  FoundSides found;
+  found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    found.report.turned += of_part[i] == LitSides::kBack;
+    found.report.doubled += of_part[i] == LitSides::kBoth;
+    for (const std::uint32_t t : parts.of(i)) found.sides[t] = of_part[i];
+  }
+  found.report.rays = rays;
+  return found;
+}
+
+}  // namespace oriel

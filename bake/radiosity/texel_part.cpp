@@ -1,0 +1,84 @@
+#include "bake/radiosity/texel_part.h"
+
+#include <algorithm>
+#include <array>
+
+#include "bake/direct/buried.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kLift = 0.1f;          // of a texel's side
+constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
+
+// The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
+std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& atlas, const TexelMapPage& map,
+                                              std::size_t texel) {
+  const auto fragments = std::span(map.fragments).subspan(map.first[texel], map.first[texel + 1] - map.first[texel]);
+  const std::uint32_t triangle =
+      std::max_element(fragments.begin(), fragments.end(), [](const TexelFragment& a, const TexelFragment& b) {
+        return a.area < b.area;
+      })->triangle;
+  const auto placed = texel_triangle(atlas, triangle);
+  const DVec2 a(placed[0]), u = DVec2(placed[1]) - a, v = DVec2(placed[2]) - a;
+  const double area = u.x * v.y - u.y * v.x;
+  if (area == 0) return std::nullopt;
+  const DVec2 lower(map.texel[texel] % map.width, map.texel[texel] / map.width);
+  std::array<Vec3, 4> corners;
+  for (int k = 0; k < 4; ++k) {
+    const DVec2 p = lower + DVec2(k == 1 || k == 2, k >= 2) - a;
+    corners[k] = point_on(scene, triangle, Vec2(DVec2(p.x * v.y - p.y * v.x, u.x * p.y - u.y * p.x) / area));
+    if (!is_finite(corners[k])) return std::nullopt;
+  }
+  return corners;
+}
+
+}  // namespace
+
+TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
+                     std::uint64_t seed, std::uint64_t stream, std::uint64_t& rays)
+    : accel_(transport.accel) {
+  const Scene& scene = accel_.scene();
+  const auto corners = corners_of(scene, atlas, map, texel);
+  if (!corners) return;
+  lift_ = kLift * std::sqrt(0.5f * length2((*corners)[2] - (*corners)[0]));
+  const auto point = [&](const Vec3& u) {
+    const TexelPoint p = sample_texel(atlas, map, texel, u);
+    return point_on_side(scene, p.triangle, p.barycentric);
+  };
+  const Vec3 up = lift_ * point(Vec3(0.5f)).geometric_normal;
+  if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays))
+    return;
+  std::vector<Vec3> left;
+  for (std::uint32_t k = 0; k < kPoints; ++k) {
+    Sampler sampler(~seed, stream, k);
+    const Vec2 uv = sampler.next2();
+    const SurfacePoint p = point(Vec3(uv, sampler.next1()));
+    if (!is_buried(transport, p, seed, stream, ~k, rays)) left.push_back(lifted(p));
+  }
+  // Points that see one another stand on one side.
+  for (std::size_t most = 0; left.size() > most;) {
+    const Vec3 first = left.front();
+    const auto seen = std::partition(left.begin(), left.end(), [&](const Vec3& p) { return !is_free(first, p, rays); });
+    const auto count = static_cast<std::size_t>(left.end() - seen);
+    if (count > most) anchor_ = first, most = count;
+    left.erase(seen, left.end());
+  }
+}
+
+bool TexelPart::holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const {
+  return !anchor_ || is_free(*anchor_, lifted(point_on_side(accel_.scene(), triangle, barycentric)), rays);
+}
+
+Vec3 TexelPart::lifted(const SurfacePoint& point) const {
+  return point.position + lift_ * point.geometric_normal;
+}
+
+bool TexelPart::is_free(const Vec3& from, const Vec3& to, std::uint64_t& rays) const {
+  const float distance = glm::distance(from, to);
+  if (!(distance > 0)) return true;
+  ++rays;
+  return max_component(accel_.transmittance({from, (to - from) / distance, distance})) > 0;
+}
+
+}  // namespace oriel

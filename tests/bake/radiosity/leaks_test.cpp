@@ -1,0 +1,139 @@
+// Light where none can be: behind walls, in corners, under what stands on a floor.
+#include <gtest/gtest.h>
+
+#include "tests/bake/radiosity/baked.h"
+
+namespace oriel {
+namespace {
+
+using test::Baked;
+using test::SceneParts;
+
+constexpr float kTexel = 0.1f;
+
+class Leaks : public testing::TestWithParam<Estimator> {
+ protected:
+  static Baked bake(Scene scene) {
+    RadiosityOptions options;
+    options.estimator = GetParam();
+    options.samples = 64;
+    return test::bake(std::move(scene), kTexel, options);
+  }
+};
+
+std::uint32_t two_sided(SceneParts& parts) {
+  const std::uint32_t material = parts.diffuse(Vec3(0.7f));
+  parts.scene().materials[material].double_sided = true;
+  return material;
+}
+
+void add_lamp(SceneParts& parts, const Vec3& corner) {
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), corner, {0.3f, 0, 0}, {0, 0, 0.3f});
+}
+
+// Brightest texel whose centre `dark` accepts over the mean of all others but the lamp's.
+template <class Dark>
+double leaked_share(const Baked& b, const Dark& dark) {
+  double lit = 0, leaked = 0;
+  std::size_t count = 0, dark_count = 0;
+  for (std::size_t p = 0; p < b.texel_map.size(); ++p)
+    for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
+      const TexelPoint middle = sample_texel(b.atlas, b.texel_map[p], i, Vec3(0.5f));
+      const Surface& surface = b.scene.surfaces[b.scene.triangle_surface[middle.triangle]];
+      if (surface.name == "lamp") continue;
+      const double e = b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]].g;
+      const SurfacePoint point = point_on_side(b.scene, middle.triangle, middle.barycentric);
+      if (dark(surface, point)) {
+        leaked = std::max(leaked, e);
+        ++dark_count;
+      } else {
+        lit += e;
+        ++count;
+      }
+    }
+  EXPECT_GT(lit, 0);
+  EXPECT_GT(dark_count, 0u);
+  return leaked / (lit / static_cast<double>(count));
+}
+
+// Two rooms of 1 m with a wall between them at x = 0, which no border of the floor's texels meets; the lamp is in the
+// left one.
+SceneParts two_rooms() {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.7f)), {-1.03f, 0, 0}, {0.97f, 1, 1}, true);
+  add_lamp(parts, {-0.7f, 0.99f, 0.3f});
+  return parts;
+}
+
+bool on_the_right(const Surface&, const SurfacePoint& point) {
+  return point.position.x + 1e-4f * point.geometric_normal.x > 0;
+}
+
+TEST_P(Leaks, ThinWall) {
+  SceneParts parts = two_rooms();
+  parts.box("wall", parts.diffuse(Vec3(0.7f)), {-0.0005f, 0, 0}, {0.0005f, 1, 1});
+  EXPECT_LE(leaked_share(bake(parts.finish()), on_the_right), 0.01);
+}
+
+TEST_P(Leaks, WallWithoutThickness) {
+  for (const bool faces_the_light : {false, true}) {
+    SceneParts parts = two_rooms();
+    const float z = faces_the_light ? 0.0f : 1.0f;
+    parts.quad("wall", two_sided(parts), {0, 0, z}, {0, 0, 1 - 2 * z}, {0, 1, 0});
+    EXPECT_LE(leaked_share(bake(parts.finish()), on_the_right), 0.01) << faces_the_light;
+  }
+}
+
+// Quads that share no vertex meet in the edges of a closed room; the lamp hangs outside.
+TEST_P(Leaks, ClosedRoomOfSeparateQuads) {
+  SceneParts parts;
+  const auto wall = two_sided(parts);
+  parts.quad("floor", wall, {0, 0, 1}, {1, 0, 0}, {0, 0, -1});
+  parts.quad("ceiling", wall, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+  parts.quad("back", wall, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  parts.quad("front", wall, {1, 0, 1}, {-1, 0, 0}, {0, 1, 0});
+  parts.quad("left", wall, {0, 0, 1}, {0, 0, -1}, {0, 1, 0});
+  parts.quad("right", wall, {1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  parts.box("thing", parts.diffuse(Vec3(0.7f)), {0.4f, 0.4f, 0.4f}, {0.6f, 0.6f, 0.6f});
+  parts.quad("ground", parts.diffuse(Vec3(0.7f)), {-2, -1, 3}, {5, 0, 0}, {0, 0, -5});
+  add_lamp(parts, {0.3f, 3, 0.3f});
+  const Baked b = bake(parts.finish());
+  const auto inside = [](const Surface&, const SurfacePoint& p) {
+    const Vec3 above = p.position + 1e-4f * p.geometric_normal;
+    return glm::all(glm::greaterThan(above, Vec3(0))) && glm::all(glm::lessThan(above, Vec3(1)));
+  };
+  EXPECT_LE(leaked_share(b, inside), 0.01);
+  EXPECT_EQ(b.sides.doubled, 0u);
+  EXPECT_EQ(b.sides.turned, 6u) << "the light is outside";
+}
+
+// A box sunk into the floor: no light comes up under it, no dark rim runs around it.
+TEST_P(Leaks, ObjectStandingInTheFloor) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.7f)), {0, 0, 0}, {2, 2, 2}, true);
+  add_lamp(parts, {0.85f, 1.99f, 0.85f});
+  const Scene empty = parts.finish();
+  parts.box("box", parts.diffuse(Vec3(0)), {0.83f, -0.2f, 0.83f}, {1.17f, 0.05f, 1.17f});
+  const Baked bare = bake(empty), b = bake(parts.finish());
+  const auto floor_light = [](const Baked& baked, const auto& wanted) {
+    std::vector<double> found;
+    for (std::size_t p = 0; p < baked.texel_map.size(); ++p)
+      for (std::size_t i = 0; i < baked.texel_map[p].texel.size(); ++i) {
+        const TexelPoint middle = sample_texel(baked.atlas, baked.texel_map[p], i, Vec3(0.5f));
+        const Vec3 at = point_on(baked.scene, middle.triangle, middle.barycentric);
+        if (at.y == 0 && wanted(at))
+          found.push_back(baked.radiosity.pages[p].irradiance[baked.texel_map[p].texel[i]].g);
+      }
+    return found;
+  };
+  const auto by_the_box = [](const Vec3& at) { return std::max(std::abs(at.x - 1), std::abs(at.z - 1)) < 0.28f; };
+  const auto with = floor_light(b, by_the_box), without = floor_light(bare, by_the_box);
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) EXPECT_GT(with[i], 0.5 * without[i]) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, testing::Values(Estimator::kReference, Estimator::kCached),
+                         [](const auto& test) { return test.param == Estimator::kReference ? "Reference" : "Cached"; });
+
+}  // namespace
+}  // namespace oriel
