@@ -12,6 +12,9 @@ constexpr double kStep = 0.005;  // relative: a step on a seam that weighs as mu
 constexpr double kLeast = 0.01;  // relative error of any texel: it shows a mean over its square, not its centre
 constexpr double kFree = 0.2;    // relative error of a texel without surface
 constexpr double kDark = 0.01;   // of the mean light: what is darker counts as that
+constexpr int kAround = 2;       // texels to each side over which errors are pooled
+constexpr int kRounds = 4;
+constexpr double kHeld = 1e-6;  // relative error of a texel that must not move
 constexpr std::uint32_t kNone = ~0u;
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -86,7 +89,7 @@ class Stitcher {
     row.weight = std::sqrt(double{point.length});
     for (const auto& side : row.side)
       for (int i = 0; i < 4; ++i)
-        if (side.at.weight[i] > 0) add_unknown(side.page, side.at.texel[i]);
+        if (side.at.weight[i] > 0) add_to_unknown(side.page, side.at.texel[i], row);
     rows_.push_back(row);
   }
 
@@ -100,36 +103,26 @@ class Stitcher {
     }
   }
 
-  // False where there is nothing to solve, or rounding left no solution: then nothing was changed.
+  // False where there is nothing to solve, or rounding left no solution.
   bool solve() {
     if (rows_.empty()) return false;
-    const auto n = static_cast<Eigen::Index>(texels_.size()), m = static_cast<Eigen::Index>(rows_.size());
-    Rows jacobian(m, n);
-    jacobian.reserve(Eigen::VectorXi::Constant(m, 8));
-    Columns steps(m, 3);
-    for (Eigen::Index r = 0; r < m; ++r) fill_row(rows_[static_cast<std::size_t>(r)], r, jacobian, steps);
-    Matrix normal = Matrix(jacobian.transpose() * jacobian);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double error = texels_[static_cast<std::size_t>(i)].error;
-      normal.coeffRef(i, i) += 1 / (error * error);
+    Columns change;
+    for (int round = 0; round < kRounds; ++round) {
+      change = least_squares();
+      if (change.rows() == 0 || !change.allFinite()) return false;
+      if (!hold_negative(change)) break;
     }
-    const Eigen::SimplicialLDLT<Matrix> solver(normal);
-    if (solver.info() != Eigen::Success) return false;
-    const Columns change = solver.solve(-(jacobian.transpose() * steps));
-    if (!change.allFinite()) return false;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Texel& t = texels_[static_cast<std::size_t>(i)];
-      Vec3& light = pages_[t.page].irradiance[t.texel];
-      light = glm::max(Vec3(0), light + Vec3(t.scale * DVec3(change(i, 0), change(i, 1), change(i, 2))));
-    }
+    for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = glm::max(Vec3(0), changed(i, change));
     return true;
   }
 
  private:
   struct Texel {
     std::uint32_t page, texel;
-    double scale;  // lux
-    double error;  // relative to scale
+    double light;  // sum over the rows that read it: of both sides of the seam, which favours neither
+    int rows;
+    bool held = false;
+    double scale() const { return light / rows; }  // lux
   };
   struct Row {
     struct Side {
@@ -141,16 +134,78 @@ class Stitcher {
     double weight = 1;
   };
 
+  Vec3& light(const Texel& t) { return pages_[t.page].irradiance[t.texel]; }
+  Vec3 changed(std::size_t i, const Columns& change) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Texel& t = texels_[i];
+    return light(t) + Vec3(t.scale() * DVec3(change(row, 0), change(row, 1), change(row, 2)));
+  }
+
+  // Texels that would become negative stay at zero, and the others are to be solved for again (an active set that only
+  // grows). True where there were any.
+  bool hold_negative(const Columns& change) {
+    bool any = false;
+    for (std::size_t i = 0; i < texels_.size(); ++i) {
+      const Vec3 to = changed(i, change);
+      if (texels_[i].held || glm::min(to.r, glm::min(to.g, to.b)) >= 0) continue;
+      light(texels_[i]) = glm::max(Vec3(0), to);
+      any = texels_[i].held = true;
+    }
+    return any;
+  }
+
+  // Relative changes of the texels; no rows where there is no solution.
+  Columns least_squares() const {
+    const auto n = static_cast<Eigen::Index>(texels_.size()), m = static_cast<Eigen::Index>(rows_.size());
+    Rows jacobian(m, n);
+    jacobian.reserve(Eigen::VectorXi::Constant(m, 8));
+    Columns steps(m, 3);
+    for (Eigen::Index r = 0; r < m; ++r) fill_row(rows_[static_cast<std::size_t>(r)], r, jacobian, steps);
+    Matrix normal = Matrix(jacobian.transpose() * jacobian);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Texel& t = texels_[static_cast<std::size_t>(i)];
+      const double error = t.held ? kHeld : error_of(t);
+      normal.coeffRef(i, i) += 1 / (error * error);
+    }
+    const Eigen::SimplicialLDLT<Matrix> solver(normal);
+    if (solver.info() != Eigen::Success) return {};
+    return solver.solve(-(jacobian.transpose() * steps));
+  }
+
   DVec3 value(const Row& row, int side) const { return filtered(pages_[row.side[side].page], row.side[side].at); }
 
-  void add_unknown(std::uint32_t page, std::uint32_t texel) {
+  void add_to_unknown(std::uint32_t page, std::uint32_t texel, const Row& row) {
     std::uint32_t& index = unknown_[page][texel];
-    if (index != kNone) return;
-    index = static_cast<std::uint32_t>(texels_.size());
-    const double scale = luminance(pages_[page].irradiance[texel]) + dark_;
-    const double noise = luminance(pages_[page].standard_error[texel]) / scale;
-    const double free = kFree * (1 - std::min(1.0, double{covered_[page][texel]}));
-    texels_.push_back({page, texel, scale, std::sqrt(noise * noise + kLeast * kLeast + free * free)});
+    if (index == kNone) {
+      index = static_cast<std::uint32_t>(texels_.size());
+      texels_.push_back({page, texel, 0, 0});
+    }
+    texels_[index].light += row.mean;
+    ++texels_[index].rows;
+  }
+
+  // Root mean square of the standard errors around a texel. Its own is no measure: it is small where chance made the
+  // texel dark, and would draw the seam to the dark side.
+  double noise_around(const Texel& t) const {
+    const LightmapPage& page = pages_[t.page];
+    const auto width = static_cast<int>(page.width), height = static_cast<int>(page.height);
+    const int x0 = static_cast<int>(t.texel) % width, y0 = static_cast<int>(t.texel) / width;
+    double squares = 0;
+    int count = 0;
+    for (int y = std::max(0, y0 - kAround); y <= std::min(height - 1, y0 + kAround); ++y)
+      for (int x = std::max(0, x0 - kAround); x <= std::min(width - 1, x0 + kAround); ++x) {
+        const auto texel = static_cast<std::size_t>(y) * page.width + static_cast<std::size_t>(x);
+        if (page.state[texel] != TexelState::kValid) continue;
+        squares += std::pow(luminance(page.standard_error[texel]), 2), ++count;
+      }
+    return count > 0 ? std::sqrt(squares / count) : 0;
+  }
+
+  // Relative to the texel's scale.
+  double error_of(const Texel& t) const {
+    const double noise = noise_around(t) / t.scale();
+    const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
+    return std::sqrt(noise * noise + kLeast * kLeast + free * free);
   }
 
   void fill_row(const Row& row, Eigen::Index r, Rows& jacobian, Columns& steps) const {
@@ -162,7 +217,7 @@ class Stitcher {
         const auto& [page, at] = row.side[s];
         if (!(at.weight[i] > 0)) continue;
         const std::uint32_t index = unknown_[page][at.texel[i]];
-        jacobian.coeffRef(r, index) += (s == 0 ? factor : -factor) * at.weight[i] * texels_[index].scale;
+        jacobian.coeffRef(r, index) += (s == 0 ? factor : -factor) * at.weight[i] * texels_[index].scale();
       }
   }
 
