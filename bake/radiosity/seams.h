@@ -17,7 +17,7 @@ struct SeamPoint {
 };
 
 struct Seams {
-  std::vector<SeamPoint> points;  // about two a texel
+  std::vector<SeamPoint> points;  // about three a texel
   std::size_t pairs = 0;          // of triangle edges that meet
 };
 
