@@ -7,7 +7,10 @@
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
+#include "bake/radiosity/seams.h"
+#include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texel_part.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -99,6 +102,20 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
   page.state[texel] = TexelState::kValid;
 }
 
+// Power on the visible parts of all lightmapped surfaces, lm.
+DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                     const Radiosity& radiosity) {
+  DVec3 sum(0);
+  for (std::size_t p = 0; p < texel_map.size(); ++p)
+    for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
+      const std::uint32_t texel = texel_map[p].texel[i];
+      if (radiosity.pages[p].state[texel] == TexelState::kValid)
+        sum += DVec3(radiosity.pages[p].irradiance[texel]) *
+               (radiosity.visible[p][i] * texel_area_m2(scene, atlas, texel_map[p], i));
+    }
+  return sum;
+}
+
 void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
   const auto& pages = radiosity.pages;
   RadiosityReport& report = radiosity.report;
@@ -114,8 +131,8 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
       const Vec3& e = pages[p].irradiance[texel];
       sum += DVec3(e);
       report.max = glm::max(report.max, e);
-      report.incident_lm += DVec3(e) * (radiosity.visible[p][i] * texel_area_m2(scene, atlas, texel_map[p], i));
     }
+  report.incident_lm = incident_power(scene, atlas, texel_map, radiosity);
   if (report.texels == 0) return;
   report.mean = Vec3(sum / static_cast<double>(report.texels));
   double squares = 0;
@@ -128,6 +145,19 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
       }
     }
   report.relative_error = std::sqrt(squares / (3.0 * static_cast<double>(report.texels)));
+}
+
+Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                       Context& context, std::atomic<std::uint64_t>& rays, Radiosity& radiosity) {
+  ORIEL_TRY(const Seams seams, find_seams(transport, atlas, radiosity.pages, back, context, rays));
+  if (seams.points.empty()) return {};
+  const auto power = [&] {
+    return luminance(Vec3(incident_power(transport.accel.scene(), atlas, texel_map, radiosity)));
+  };
+  const double before = power();
+  radiosity.report.seams = stitch(seams, texel_map, radiosity.pages);
+  if (before > 0) radiosity.report.seams.energy_change = power() / before - 1;
+  return {};
 }
 
 void darken_hidden(const TexelMapPage& map, const std::vector<float>& visible, LightmapPage& page) {
@@ -179,13 +209,20 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
         bake_reference(Baker(transport, atlas, options, context), texel_map, options, context, rays, result));
   }
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+  const bool black = options.hidden == Hidden::kBlack;
+  if (!black) {
+    for (std::size_t p = 0; p < texel_map.size(); ++p) {
+      fill_buried(atlas, texel_map[p], result.pages[p]);
+      dilate(options.dilation, result.pages[p]);
+    }
+    if (options.stitch) {
+      ORIEL_TRY_VOID(stitch_lightmap(transport, atlas, texel_map, context, rays, result));
+    }
+  }
   summarize(transport.accel.scene(), atlas, texel_map, result);
   result.report.rays = rays;
-  for (std::size_t p = 0; p < texel_map.size(); ++p) {
-    if (options.hidden == Hidden::kBlack)
-      darken_hidden(texel_map[p], result.visible[p], result.pages[p]);
-    else
-      fill_buried(atlas, texel_map[p], result.pages[p]);
+  for (std::size_t p = 0; black && p < texel_map.size(); ++p) {
+    darken_hidden(texel_map[p], result.visible[p], result.pages[p]);
     dilate(options.dilation, result.pages[p]);
   }
   return result;

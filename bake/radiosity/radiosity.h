@@ -21,7 +21,7 @@ enum class Estimator : std::uint8_t {
 // What texels hold of the parts of them that lie inside other geometry.
 enum class Hidden : std::uint8_t {
   kLeftOut,  // the light of what can be seen: no dark rims where objects stand on a floor
-  kBlack,    // no light, as most bakers have it: for comparing with them
+  kBlack,    // no light, as most bakers have it: for comparing with them. Seams are not stitched then
 };
 
 struct RadiosityOptions {
@@ -33,7 +33,17 @@ struct RadiosityOptions {
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
+  bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
+};
+
+// Seams of the lightmap (seams.h), and what stitching did to the light there. Steps are differences of what bilinear
+// filtering reads on the two sides, relative to the light there (plus 1 % of the mean); of luminance.
+struct SeamReport {
+  std::size_t pairs = 0;  // of edges that were stitched
+  double mean_step_before = 0, max_step_before = 0;
+  double mean_step = 0, max_step = 0;  // after
+  double energy_change = 0;            // of the power on all surfaces, relative
 };
 
 struct RadiosityReport {
@@ -47,7 +57,8 @@ struct RadiosityReport {
   int sweeps = 0;         // cached: bounces computed in the coarse lightmap
   double sweep_tail = 0;  // cached: bound on what further bounces would add, relative
   double filter_drift = 0;  // cached: relative change of the gathered energy by the filter
-  DVec3 incident_lm{0};     // power falling on the visible parts of all lightmapped surfaces, front sides
+  SeamReport seams;
+  DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };
 
 struct Radiosity {

@@ -21,6 +21,15 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+Json seams_json(const SeamReport& r) {
+  return {{"stitched", r.pairs},
+          {"mean_step_before", r.mean_step_before},
+          {"max_step_before", r.max_step_before},
+          {"mean_step", r.mean_step},
+          {"max_step", r.max_step},
+          {"energy_change", r.energy_change}};
+}
+
 Json atlas_json(const Atlas& atlas) {
   const AtlasReport& r = atlas.report;
   return {{"pages", atlas.pages.size()},
@@ -60,6 +69,7 @@ std::string plan_json(const BakeFacts& f) {
         {"sweeps", f.radiosity.sweeps},
         {"sweep_tail", f.radiosity.sweep_tail},
         {"filter_drift", f.radiosity.filter_drift},
+        {"seams", seams_json(f.radiosity.seams)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},

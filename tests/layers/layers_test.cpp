@@ -67,7 +67,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenImageIO/", {"bake/scene"}},
     {"CGAL/", {"bake/scene"}},
     {"OpenMesh/", {"bake/atlas/chart"}},
-    {"Eigen/", {"bake/atlas/chart"}},
+    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},

@@ -1,0 +1,175 @@
+// Errors of baked lightmaps against a reference in two independent halves, on the scene's own lightmap coordinates
+// (docs/benchmarks.md defines them). Prints one JSON object a lightmap and set of texels.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "bake/atlas/texel_map.h"
+#include "bake/scene/import.h"
+#include "formats/image/exr.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+
+struct Options {
+  std::string scene, reference_a, reference_b;
+  int resolution = 256;
+  std::vector<std::string> hidden;     // two bakes that differ where texels are partly hidden
+  std::vector<std::string> lightmaps;  // EXR files
+  std::vector<double> scales;          // one a lightmap: what turns its values into the reference's quantity
+};
+
+struct Texel {
+  std::size_t index;
+  std::string object_class;  // the object's name up to its first underscore
+};
+
+// Texels whose centre and whose 8 neighbours' centres lie in one chart.
+std::vector<Texel> interior_texels(const Scene& scene, const Atlas& atlas) {
+  const int size = static_cast<int>(atlas.pages[0].width);
+  std::vector<std::uint32_t> chart(static_cast<std::size_t>(size) * size, kNone), surface(chart.size(), kNone);
+  for (std::uint32_t t = 0; t < atlas.page.size(); ++t) {
+    if (atlas.page[t] != 0) continue;
+    const auto p = texel_triangle(atlas, t);
+    const auto cross = [](const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; };
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    const DVec2 low = glm::min(p[0], glm::min(p[1], p[2])), high = glm::max(p[0], glm::max(p[1], p[2]));
+    for (int y = std::max(0, static_cast<int>(low.y)); y < std::min<double>(size, high.y); ++y)
+      for (int x = std::max(0, static_cast<int>(low.x)); x < std::min<double>(size, high.x); ++x) {
+        const DVec2 c(x + 0.5, y + 0.5);
+        bool inside = area != 0;
+        for (std::size_t k = 0; k < 3; ++k) inside &= cross(p[(k + 1) % 3] - p[k], c - p[k]) / area >= -1e-9;
+        if (!inside) continue;
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
+        chart[i] = atlas.chart[t], surface[i] = scene.triangle_surface[t];
+      }
+  }
+  std::vector<Texel> texels;
+  for (int y = 1; y + 1 < size; ++y)
+    for (int x = 1; x + 1 < size; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
+      bool same = chart[i] != kNone;
+      for (int k = 0; k < 9; ++k)
+        same &= chart[i + static_cast<std::size_t>((k / 3 - 1) * size + k % 3 - 1)] == chart[i];
+      if (!same) continue;
+      const std::string& name = scene.surfaces[surface[i]].name;
+      texels.push_back({i, name.substr(0, name.find('_'))});
+    }
+  return texels;
+}
+
+DVec3 pixel(const FloatImage& image, std::size_t i) {
+  return {image.pixels[i * image.channels], image.pixels[i * image.channels + 1], image.pixels[i * image.channels + 2]};
+}
+
+struct Errors {
+  double relative = 0, normalised = 0;  // root mean squares, not net
+  double bias = 0;
+};
+
+Errors errors(const FloatImage& x, double scale, const FloatImage& a, const FloatImage& b,
+              const std::vector<Texel>& texels, const DVec3& mean, bool halves) {
+  Errors e;
+  DVec3 sum(0), truth(0);
+  for (const Texel& t : texels) {
+    const DVec3 r = 0.5 * (pixel(a, t.index) + pixel(b, t.index));
+    const DVec3 d = halves ? 0.5 * (pixel(a, t.index) - pixel(b, t.index)) : scale * pixel(x, t.index) - r;
+    sum += d, truth += r;
+    for (int c = 0; c < 3; ++c) {
+      e.relative += d[c] * d[c] / (r[c] * r[c] + 1e-4 * mean[c] * mean[c]);
+      e.normalised += d[c] * d[c] / (mean[c] * mean[c]);
+    }
+  }
+  const double n = 3.0 * static_cast<double>(texels.size());
+  e.relative = std::sqrt(e.relative / n), e.normalised = std::sqrt(e.normalised / n);
+  e.bias = (sum.r + sum.g + sum.b) / (truth.r + truth.g + truth.b);
+  return e;
+}
+
+DVec3 mean_light(const FloatImage& a, const FloatImage& b, const std::vector<Texel>& texels) {
+  DVec3 sum(0);
+  for (const Texel& t : texels) sum += 0.5 * (pixel(a, t.index) + pixel(b, t.index));
+  return sum / static_cast<double>(texels.size());
+}
+
+void print(const std::string& file, const char* set, const FloatImage& x, double scale, const FloatImage& a,
+           const FloatImage& b, const std::vector<Texel>& texels) {
+  const DVec3 mean = mean_light(a, b, texels);
+  const Errors e = errors(x, scale, a, b, texels, mean, false), noise = errors(x, scale, a, b, texels, mean, true);
+  const auto net = [](double total, double own) { return std::sqrt(std::max(0.0, total * total - own * own)); };
+  std::map<std::string, std::vector<Texel>> classes;
+  for (const Texel& t : texels) classes[t.object_class].push_back(t);
+  std::string biases;
+  for (const auto& [name, own] : classes)
+    biases += fmt::format("{}\"{}\": {:.6f}", biases.empty() ? "" : ", ", name,
+                          errors(x, scale, a, b, own, mean, false).bias);
+  fmt::print(
+      "{{\"file\": \"{}\", \"set\": \"{}\", \"texels\": {}, \"relRMSE\": {:.6f}, \"nRMSE\": {:.6f}, \"bias\": {:.6f}, "
+      "\"reference_relRMSE\": {:.6f}, \"reference_nRMSE\": {:.6f}, \"biases\": {{{}}}}}\n",
+      file, set, texels.size(), net(e.relative, noise.relative), net(e.normalised, noise.normalised), e.bias,
+      noise.relative, noise.normalised, biases);
+}
+
+Result<FloatImage> load(const std::string& file, int resolution) {
+  ORIEL_TRY(FloatImage image, read_exr(file));
+  const auto side = static_cast<std::uint32_t>(resolution);
+  if (image.width != side || image.height != side || image.channels < 3)
+    return fail(ErrorCode::kInvalid, file, "found {} x {} pixels of {} channels, expected {} x {} of 3", image.width,
+                image.height, image.channels, side, side);
+  return image;
+}
+
+Status compare(const Options& o) {
+  Context context;
+  ORIEL_TRY(const ImportedScene imported, import_gltf(o.scene, {}, context));
+  AtlasOptions atlas_options;
+  atlas_options.source = AtlasOptions::Source::kUv1;
+  atlas_options.resolution = o.resolution;
+  ORIEL_TRY(const Atlas atlas, build_atlas(imported.scene, atlas_options, context));
+  ORIEL_TRY(const FloatImage a, load(o.reference_a, o.resolution));
+  ORIEL_TRY(const FloatImage b, load(o.reference_b, o.resolution));
+  std::vector<Texel> texels = interior_texels(imported.scene, atlas);
+  const auto dark = [&](const Texel& t) { return glm::length(pixel(a, t.index) + pixel(b, t.index)) <= 0; };
+  std::erase_if(texels, dark);  // inside other geometry
+  std::vector<Texel> whole = texels;
+  if (o.hidden.size() == 2) {
+    ORIEL_TRY(const FloatImage black, load(o.hidden[0], o.resolution));
+    ORIEL_TRY(const FloatImage visible, load(o.hidden[1], o.resolution));
+    std::erase_if(whole, [&](const Texel& t) {
+      return glm::all(glm::lessThan(pixel(black, t.index), 0.9999 * pixel(visible, t.index)));
+    });
+  }
+  if (whole.empty()) return fail(ErrorCode::kInvalid, o.scene, "found no interior texel that the reference lights");
+  for (std::size_t i = 0; i < o.lightmaps.size(); ++i) {
+    ORIEL_TRY(const FloatImage x, load(o.lightmaps[i], o.resolution));
+    const double scale = i < o.scales.size() ? o.scales[i] : 1;
+    print(o.lightmaps[i], "interior", x, scale, a, b, texels);
+    if (o.hidden.size() == 2) print(o.lightmaps[i], "unhidden", x, scale, a, b, whole);
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace oriel
+
+int main(int argc, char** argv) {
+  oriel::Options o;
+  CLI::App app("Errors of lightmaps against a reference in two independent halves.", "lightmap_compare");
+  app.add_option("SCENE", o.scene)->required();
+  app.add_option("REFERENCE_A", o.reference_a)->required();
+  app.add_option("REFERENCE_B", o.reference_b)->required();
+  app.add_option("--resolution", o.resolution, "Side of the page in texels")->capture_default_str();
+  app.add_option("--hidden", o.hidden, "Two bakes, with and without --hidden-black")->expected(2);
+  app.add_option("--lightmap", o.lightmaps, "EXR files to be judged")->required();
+  app.add_option("--scale", o.scales, "A factor for each of them");
+  CLI11_PARSE(app, argc, argv);
+  if (const oriel::Status done = oriel::compare(o); !done) {
+    std::fprintf(stderr, "lightmap_compare: %s\n", done.error().text().c_str());
+    return static_cast<int>(done.error().code);
+  }
+  return 0;
+}
