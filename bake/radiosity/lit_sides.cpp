@@ -14,7 +14,7 @@ namespace {
 constexpr double kLit = 0.01;  // of the other side's mean
 // Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
 // where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
-constexpr std::size_t kPoints = 256, kFewPoints = 4, kAllPoints = std::size_t{1} << 20;
+constexpr std::size_t kPoints = 256, kFewPoints = 8, kAllPoints = std::size_t{1} << 19;
 
 // The double-sided triangles, part by part.
 struct Parts {
