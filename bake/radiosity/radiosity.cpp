@@ -5,11 +5,11 @@
 #include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/cached/cached.h"
-#include "bake/radiosity/cached/texels.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
-#include "bake/radiosity/texel_part.h"
+#include "bake/radiosity/texels/texel_part.h"
+#include "bake/radiosity/texels/texels.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -149,7 +149,7 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
 
 Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                        Context& context, std::atomic<std::uint64_t>& rays, Radiosity& radiosity) {
-  ORIEL_TRY(const Seams seams, find_seams(transport, atlas, radiosity.pages, back, context, rays));
+  ORIEL_TRY(const Seams seams, find_seams(transport, atlas, radiosity.pages, context, rays));
   if (seams.points.empty()) return {};
   const auto power = [&] {
     return luminance(Vec3(incident_power(transport.accel.scene(), atlas, texel_map, radiosity)));

@@ -4,8 +4,8 @@
 #include <bit>
 #include <unordered_map>
 
+#include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/buried.h"
 
 namespace oriel {
 namespace {
@@ -191,7 +191,7 @@ class Finder {
     DVec3 weight(0);
     const auto c = static_cast<int>(edge.corner), next = (c + 1) % 3;
     weight[c] = 1 - at, weight[next] = at;
-    side.surface = point_on_side(scene_, {edge.triangle, Vec2(weight.y, weight.z)}, false);
+    side.surface = point_on_side(scene_, edge.triangle, Vec2(weight.y, weight.z));
     const auto corner = texel_triangle(atlas_, edge.triangle);
     side.place = corner[0] * weight.x + corner[1] * weight.y + corner[2] * weight.z;
     const DVec2 inwards = (corner[0] + corner[1] + corner[2]) / 3.0 - side.place;
@@ -222,7 +222,6 @@ class Finder {
   }
 
   bool goes_on(const Side& a, const Side& b) const {
-    const auto chart = [&](const Side& s) { return atlas_.chart[edges_[s.edge].triangle]; };
     if (a.page == b.page && glm::distance(a.place, b.place) < kSamePlace) return false;
     return glm::dot(a.surface.normal, b.surface.normal) >= kSameNormal &&
            glm::dot(a.surface.geometric_normal, b.surface.geometric_normal) >= kSameFace;

@@ -45,8 +45,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
-  m["bake/radiosity"].insert("bake/radiosity/cached");
-  m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity"});  // the cached estimator's pieces
+  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
+  m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
+  m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // its pieces
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});

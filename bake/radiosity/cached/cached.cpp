@@ -105,12 +105,13 @@ class CachedBake {
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
 
-  // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first.
+  // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first. Those
+  // twice as good as asked are left alone: they cannot make up for a few that stay bad.
   std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
                                    const std::vector<std::uint32_t>& samples) const {
     std::vector<std::uint32_t> by_error;
     for (const std::uint32_t i : order_)
-      if (relative_[i] > 0 && samples[i] < most) by_error.push_back(i);
+      if (relative_[i] > goal / 4 && samples[i] < most) by_error.push_back(i);
     std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
       const double ea = relative_[a] / samples[a], eb = relative_[b] / samples[b];
       return ea != eb ? ea > eb : a < b;

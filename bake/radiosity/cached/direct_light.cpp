@@ -73,7 +73,7 @@ class DirectGroup {
     const TexelMapPage& map = d_.maps_[t.page[texel]];
     for (int half = 0; half < kHalves; ++half)
       for (std::uint32_t k = 0; k < per_half_; ++k) {
-        Point point{t.site[texel][half * kSitesPerHalf + k % kSitesPerHalf], i, half, k};
+        Point point{t.site_for(texel, half, k), i, half, k};
         if (k >= kSitesPerHalf && t.visible[texel] == 1) {
           Sampler sampler(d_.seed_ + static_cast<std::uint64_t>(half),
                           std::uint64_t{t.page[texel]} << 32 | map.texel[t.index[texel]], k);

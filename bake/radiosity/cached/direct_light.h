@@ -1,7 +1,7 @@
 // Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
 #pragma once
 
-#include "bake/radiosity/cached/texels.h"
+#include "bake/radiosity/texels/texels.h"
 
 namespace oriel {
 

@@ -1,7 +1,7 @@
 // The directions of gather rays: few sets, shared by many texels, so that neighbours trace the same way.
 #pragma once
 
-#include "bake/radiosity/cached/texels.h"
+#include "bake/radiosity/texels/texels.h"
 
 namespace oriel {
 

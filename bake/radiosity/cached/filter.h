@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bake/radiosity/cached/gather.h"
-#include "bake/radiosity/cached/neighbours.h"
 #include "bake/radiosity/radiosity.h"
+#include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
 

@@ -30,7 +30,7 @@ class GroupGather {
     batch_.clear(), about_.clear(), target_.clear();
     for (const std::uint32_t t : list_) {
       if (texels_.visible[t] == 0 || sums.samples[t] > k) continue;
-      const TexelSite& site = texels_.site[t][half * kSitesPerHalf + k % kSitesPerHalf];
+      const TexelSite& site = texels_.site_for(t, half, k);
       const std::uint32_t set = DirectionSets::set_of(texels_.page[t], texels_.x[t], texels_.y[t]);
       GatherRay about;
       batch_.push_back(gather_ray(site, sets_.local(set, half, k), about.incidence));

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bake/radiosity/cached/directions.h"
-#include "bake/radiosity/cached/neighbours.h"
 #include "bake/radiosity/cached/surroundings.h"
+#include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
 

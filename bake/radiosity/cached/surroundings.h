@@ -1,7 +1,7 @@
 // What gather rays find: cached texels, and light that no texel holds.
 #pragma once
 
-#include "bake/radiosity/cached/texels.h"
+#include "bake/radiosity/texels/texels.h"
 
 namespace oriel {
 

@@ -6,7 +6,7 @@
 
 #include "bake/atlas/texel_map.h"
 #include "bake/direct/polygon_light.h"
-#include "bake/radiosity/texel_part.h"
+#include "bake/radiosity/texels/texel_part.h"
 #include "bake/trace/path.h"
 
 namespace oriel {
@@ -24,7 +24,7 @@ struct TexelSite {
 
 // Two halves of every texel's estimate share nothing, neither points nor directions: their difference tells the error.
 inline constexpr int kHalves = 2;
-inline constexpr int kSitesPerHalf = 2;
+inline constexpr int kSitesPerHalf = 4;
 inline constexpr int kSites = kHalves * kSitesPerHalf;
 
 struct Texels {
@@ -33,11 +33,20 @@ struct Texels {
   std::vector<std::uint32_t> x, y;                  // on the page
   std::vector<std::uint32_t> chart;                 // of Atlas
   std::vector<std::array<TexelSite, kSites>> site;  // [half * kSitesPerHalf + k]; not buried, stratified over the texel
-  std::vector<float> visible;                       // share of the texel that is not inside other geometry; 0: no site
+  // Texels that are partly hidden: their light varies more over them, and so they have more sites, by half.
+  std::unordered_map<std::uint32_t, std::array<std::vector<TexelSite>, kHalves>> many_sites;
+  std::vector<float> visible;  // share of the texel that is not inside other geometry; 0: no site
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
 
   std::size_t count() const { return page.size(); }
+
+  // The k-th site of a half, again from the first where there are no more. The texel must be visible.
+  const TexelSite& site_for(std::uint32_t i, int half, std::uint32_t k) const {
+    if (visible[i] == 1) return site[i][half * kSitesPerHalf + k % kSitesPerHalf];
+    const std::vector<TexelSite>& many = many_sites.at(i)[half];
+    return many[k % many.size()];
+  }
 
   std::unordered_map<std::uint32_t, TexelPart> cut;  // texels on which a wall stands
 

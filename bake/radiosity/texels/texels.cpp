@@ -1,16 +1,17 @@
-#include "bake/radiosity/cached/texels.h"
+#include "bake/radiosity/texels/texels.h"
 
 #include <algorithm>
 
 #include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/texel_part.h"
+#include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::size_t kRun = 256;          // texels a task
+constexpr std::uint32_t kProbed = 2;       // sites of a half that are asked whether they are buried
 constexpr std::uint32_t kManyPoints = 64;  // tried where a texel is partly buried
 
 class SiteFinder {
@@ -18,61 +19,66 @@ class SiteFinder {
   SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::uint64_t seed)
       : t_(t), atlas_(atlas), maps_(maps), seed_(seed) {}
 
-  // Returns what a wall leaves of the texel.
-  TexelPart find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
+  struct Found {
+    TexelPart part;  // what a wall leaves of the texel
+    std::array<std::vector<TexelSite>, kHalves> many;
+  };
+
+  Found find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
     Vec3 albedo(0);
     int buried = 0;
     for (int k = 0; k < kSites; ++k) {
-      const Candidate c = candidate(texels, i, k / kSitesPerHalf, static_cast<std::uint32_t>(k % kSitesPerHalf));
-      texels.site[i][k] = site_of(c.surface);
-      albedo += c.albedo;
-      buried += is_buried(t_, c.surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
+      const auto turn = static_cast<std::uint32_t>(k % kSitesPerHalf);
+      const SurfacePoint surface = candidate(texels, i, k / kSitesPerHalf, turn);
+      texels.site[i][k] = site_of(surface);
+      if (turn >= kProbed) continue;
+      albedo += albedo_at(surface);
+      buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
     }
-    texels.albedo[i] = albedo / static_cast<float>(kSites);
+    texels.albedo[i] = albedo / static_cast<float>(kHalves * kProbed);
     texels.visible[i] = 1;
-    const TexelPart part(t_, atlas_, maps_[texels.page[i]], texels.index[i], seed_, stream, rays);
-    if (buried > 0 || !part.whole()) find_unburied(texels, i, stream, part, rays);
-    return part;
+    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], seed_, stream, rays), {}};
+    if (buried > 0 || !found.part.whole()) find_unburied(texels, i, stream, found, rays);
+    return found;
   }
 
-  // Again, with more points: their share, and kSites of those that are left.
-  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, const TexelPart& part,
-                     std::uint64_t& rays) const {
-    int found[kHalves] = {0, 0};
+  // Again, with many points: their share, and those that are left.
+  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, Found& found, std::uint64_t& rays) const {
     Vec3 albedo(0);
     for (std::uint32_t k = 0; k < kManyPoints; ++k) {
       const int half = static_cast<int>(k % kHalves);
-      const Candidate c = candidate(texels, i, half, k / kHalves);
-      if (is_buried(t_, c.surface, seed_, stream, kSites + k, rays) ||
-          !part.holds(c.surface.triangle, c.surface.barycentric, rays))
+      const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
+      if (is_buried(t_, surface, seed_, stream, kSites + k, rays) ||
+          !found.part.holds(surface.triangle, surface.barycentric, rays))
         continue;
-      albedo += c.albedo;
-      texels.site[i][half * kSitesPerHalf + found[half]++ % kSitesPerHalf] = site_of(c.surface);
+      albedo += albedo_at(surface);
+      found.many[half].push_back(site_of(surface));
     }
-    const int total = found[0] + found[1];
+    const std::size_t total = found.many[0].size() + found.many[1].size();
     // A handful of points that escaped the probes do not make a texel visible.
-    texels.visible[i] = total * 16 < static_cast<int>(kManyPoints) || std::min(found[0], found[1]) < kSitesPerHalf
-                            ? 0.0f
-                            : static_cast<float>(total) / kManyPoints;
+    const bool enough = total * 16 >= kManyPoints && !found.many[0].empty() && !found.many[1].empty();
+    // Never exactly whole: visible == 1 says that there are no many_sites.
+    texels.visible[i] = enough ? std::min(0.9999f, static_cast<float>(total) / kManyPoints) : 0.0f;
     if (total > 0) texels.albedo[i] = albedo / static_cast<float>(total);
+    if (!enough) found.many = {};
+    for (std::size_t k = 0; enough && k < kSites; ++k) {
+      const auto& many = found.many[k / kSitesPerHalf];
+      texels.site[i][k] = many[k % kSitesPerHalf % many.size()];
+    }
   }
 
  private:
-  struct Candidate {
-    SurfacePoint surface;
-    Vec3 albedo;
-  };
-
-  Candidate candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
+  SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     const TexelMapPage& map = maps_[texels.page[i]];
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | map.texel[texels.index[i]];
     Sampler sampler(seed_ + static_cast<std::uint64_t>(half), stream, k);
     const Vec2 uv = sampler.next2();
     const TexelPoint point = sample_texel(atlas_, map, texels.index[i], Vec3(uv, sampler.next1()));
-    const Scene& scene = t_.accel.scene();
-    return {point_on_side(scene, point.triangle, point.barycentric),
-            shade_point(scene, point.triangle, point.barycentric).diffuse};
+    return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
+  }
+  Vec3 albedo_at(const SurfacePoint& s) const {
+    return shade_point(t_.accel.scene(), s.triangle, s.barycentric).diffuse;
   }
 
   static TexelSite site_of(const SurfacePoint& s) {
@@ -163,18 +169,23 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
   place_triangles(atlas, texels);
   const SiteFinder finder(t, atlas, texel_map, context.seed);
-  std::vector<std::vector<std::pair<std::uint32_t, TexelPart>>> cut((n + kRun - 1) / kRun);
-  ORIEL_TRY_VOID(parallel_for(context, "texel points", cut.size(), [&](std::size_t run) {
+  using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
+  std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
+  ORIEL_TRY_VOID(parallel_for(context, "texel points", hidden.size(), [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
-      const TexelPart part = finder.find(texels, i, traced);
-      if (!part.whole()) cut[run].emplace_back(static_cast<std::uint32_t>(i), part);
+      SiteFinder::Found found = finder.find(texels, i, traced);
+      if (texels.visible[i] != 1) hidden[run].emplace_back(static_cast<std::uint32_t>(i), std::move(found));
       texels.area_m2[i] =
           static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
     }
     rays += traced;
   }));
-  for (const auto& run : cut) texels.cut.insert(run.begin(), run.end());
+  for (auto& run : hidden)
+    for (auto& [i, found] : run) {
+      if (!found.part.whole()) texels.cut.emplace(i, found.part);
+      if (texels.visible[i] > 0) texels.many_sites.emplace(i, std::move(found.many));
+    }
   return texels;
 }
 

@@ -1,4 +1,4 @@
-#include "bake/radiosity/cached/neighbours.h"
+#include "bake/radiosity/texels/neighbours.h"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,4 +1,4 @@
-#include "bake/radiosity/texel_part.h"
+#include "bake/radiosity/texels/texel_part.h"
 
 #include <algorithm>
 #include <array>

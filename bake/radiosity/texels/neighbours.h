@@ -1,7 +1,7 @@
 // Which texels lie side by side on the same surface, in the world: across charts and objects, never through walls.
 #pragma once
 
-#include "bake/radiosity/cached/texels.h"
+#include "bake/radiosity/texels/texels.h"
 
 namespace oriel {
 
