@@ -18,9 +18,11 @@ Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input
 
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
+constexpr double kBestError = 1e-3;  // where only time limits the work
+
 struct Texts {
   std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", atlas = "auto", only,
-              estimator = "cached", error = "2%";
+              estimator = "cached", error = "2%", time;
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -68,6 +70,11 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                                "by 1 % of the mean. Work stops there")
                     ->check(checked(parse_fraction, "SHARE"))
                     ->capture_default_str();
+  app.add_option("--time", texts.time,
+                 "Instead of --error: refine for so long (the stage's fixed work comes first and the round at work is "
+                 "finished). The pack then depends on the machine")
+      ->check(checked(parse_duration, "TIME"))
+      ->excludes(error);
   app.add_option("--samples", texts.samples,
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
       ->check(CLI::Range(1u, 1u << 24))
@@ -120,6 +127,10 @@ Status resolve(const Texts& texts, Arguments& args) {
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;
     bake.radiosity.error = 0;
+  } else if (!texts.time.empty()) {
+    ORIEL_TRY(bake.time_s, parse_duration(texts.time));
+    bake.radiosity.error = kBestError;
+    bake.radiosity.samples = kMostSamples;
   } else {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
     bake.radiosity.samples = kMostSamples;

@@ -81,6 +81,14 @@ Status check_output(const std::filesystem::path& output, const std::vector<std::
   return {};
 }
 
+std::string light_line(const RadiosityReport& r) {
+  std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
+  if (const Certificate& c = r.certificate; c.texels > 0)
+    line += fmt::format("; {} of them beside unbiased paths: {:+.2g} % ± {:.2g} % brighter, error {:.2g} %", c.texels,
+                        100 * c.bias, 100 * c.bias_interval, 100 * c.relative_error);
+  return line;
+}
+
 // The first few; the pack's plan and the report hold them all.
 void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter& printer) {
   constexpr std::size_t kShown = 8;
@@ -113,6 +121,7 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
   }
   ORIEL_TRY(const BakeResult result, bake(args.bake, context));
   print_omissions(result.omissions, printer);
+  printer.note(light_line(result.radiosity));
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
   if (!args.report.empty()) {
     const std::string report = report_json(result);

@@ -2,82 +2,24 @@
 
 #include <algorithm>
 
-#include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/cached/cached.h"
+#include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
-#include "bake/radiosity/texels/texel_part.h"
+#include "bake/radiosity/texels/texel_paths.h"
 #include "bake/radiosity/texels/texels.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
+constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
   std::size_t page, first, last;
-};
-
-// What the paths of one texel found.
-struct TexelSums {
-  DVec3 sum{0}, squares{0};
-  DVec3 vector{0};  // of luminance, as IrradianceSample's
-  double mean = 0;
-  std::uint32_t count = 0;
-};
-
-class Baker {
- public:
-  Baker(const Transport& t, const Atlas& atlas, const RadiosityOptions& options, const Context& context)
-      : t_(t), atlas_(atlas), options_(options), context_(context) {}
-
-  TexelSums bake(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint64_t& rays) const {
-    TexelSums sums;
-    const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
-    const bool mixed = any_buried(map, i, stream, rays);
-    const TexelPart part(t_, atlas_, map, i, context_.seed, stream, rays);
-    for (std::uint32_t k = 0; k < options_.samples; ++k) {
-      if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
-      Sampler sampler(context_.seed, stream, k);
-      const Vec2 uv = sampler.next2();
-      const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
-      if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
-      if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
-      const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays, options_.directional);
-      const DVec3 value(e.direct + e.indirect);
-      sums.sum += value;
-      sums.squares += value * value;
-      sums.vector += DVec3(e.vector);
-      sums.mean += e.mean;
-      ++sums.count;
-    }
-    return sums;
-  }
-
- private:
-  SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const {
-    const TexelPoint point = sample_texel(atlas_, map, i, u);
-    return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
-  }
-
-  // Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most
-  // texels answer with one ray a point.
-  bool any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
-    for (std::uint32_t k = 0; k < 16; ++k) {
-      Sampler sampler(~context_.seed, stream, k);
-      const Vec2 uv = sampler.next2();
-      if (is_buried(t_, point_of(map, i, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;
-    }
-    return false;
-  }
-
-  const Transport& t_;
-  const Atlas& atlas_;
-  const RadiosityOptions& options_;
-  const Context& context_;
 };
 
 Vec3 direction_of(const TexelSums& sums) {
@@ -92,13 +34,9 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
     page.state[texel] = TexelState::kBuried;
     return;
   }
-  const double n = sums.count;
-  const DVec3 mean = sums.sum / n;
-  // One path says nothing of its spread: its error is taken to be as large as itself.
-  const DVec3 variance = sums.count < 2 ? mean * mean : glm::max(DVec3(0), sums.squares / n - mean * mean);
-  page.irradiance[texel] = Vec3(mean);
+  page.irradiance[texel] = Vec3(sums.irradiance());
   if (!page.direction.empty()) page.direction[texel] = direction_of(sums);
-  page.standard_error[texel] = Vec3(glm::sqrt(variance / std::max(1.0, n - 1)));
+  page.standard_error[texel] = Vec3(glm::sqrt(sums.variance()));
   page.state[texel] = TexelState::kValid;
 }
 
@@ -114,6 +52,26 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
                (radiosity.visible[p][i] * texel_area_m2(scene, atlas, texel_map[p], i));
     }
   return sum;
+}
+
+// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean.
+double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
+  DVec3 mean(0);
+  double count = 0, squares = 0;
+  const auto each_valid = [&](const auto& visit) {
+    for (std::size_t p = 0; p < texel_map.size(); ++p)
+      for (const std::uint32_t t : texel_map[p].texel)
+        if (radiosity.pages[p].state[t] == TexelState::kValid)
+          visit(radiosity.pages[p].irradiance[t], radiosity.pages[p].standard_error[t]);
+  };
+  each_valid([&](const Vec3& e, const Vec3&) { mean += DVec3(e), ++count; });
+  each_valid([&](const Vec3& e, const Vec3& error) {
+    for (int c = 0; c < 3; ++c) {
+      const double floor = 0.01 * mean[c] / count, denominator = double{e[c]} * e[c] + floor * floor;
+      if (denominator > 0) squares += double{error[c]} * error[c] / denominator;
+    }
+  });
+  return count > 0 ? std::sqrt(squares / (3 * count)) : 0;
 }
 
 void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
@@ -135,16 +93,7 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
   report.incident_lm = incident_power(scene, atlas, texel_map, radiosity);
   if (report.texels == 0) return;
   report.mean = Vec3(sum / static_cast<double>(report.texels));
-  double squares = 0;
-  for (std::size_t p = 0; p < pages.size(); ++p)
-    for (const std::uint32_t texel : texel_map[p].texel) {
-      if (pages[p].state[texel] != TexelState::kValid) continue;
-      for (int c = 0; c < 3; ++c) {
-        const double denominator = pages[p].irradiance[texel][c] + 0.01 * report.mean[c];
-        if (denominator > 0) squares += std::pow(pages[p].standard_error[texel][c] / denominator, 2);
-      }
-    }
-  report.relative_error = std::sqrt(squares / (3.0 * static_cast<double>(report.texels)));
+  report.relative_error = relative_error(texel_map, radiosity);
 }
 
 Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
@@ -167,23 +116,35 @@ void darken_hidden(const TexelMapPage& map, const std::vector<float>& visible, L
   }
 }
 
-Status bake_reference(const Baker& baker, std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
+// Rounds that double the paths, until the error asked for holds or all are taken. Each texel's sums go on from round to
+// round: the result is that of one round.
+Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                       Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
   std::vector<Run> runs;
-  for (std::size_t p = 0; p < texel_map.size(); ++p)
+  std::vector<std::vector<TexelSums>> sums;
+  for (std::size_t p = 0; p < texel_map.size(); ++p) {
+    sums.emplace_back(texel_map[p].texel.size());
     for (std::size_t first = 0; first < texel_map[p].texel.size(); first += kRun)
       runs.push_back({p, first, std::min(first + kRun, texel_map[p].texel.size())});
-  const auto body = [&](std::size_t r) {
-    const Run& run = runs[r];
-    std::uint64_t traced = 0;
-    for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
-      const TexelSums sums = baker.bake(texel_map[run.page], run.page, i, traced);
-      result.visible[run.page][i] = static_cast<float>(sums.count) / static_cast<float>(options.samples);
-      store(sums, options.samples, result.pages[run.page], texel_map[run.page].texel[i]);
-    }
-    rays += traced;
-  };
-  return parallel_for(context, "radiosity", runs.size(), body, &rays);
+  }
+  std::uint32_t done = 0,
+                next = options.error > 0 || options.enough ? std::min(options.samples, kFirstPaths) : options.samples;
+  for (;; done = next, next = std::min(options.samples, 2 * done)) {
+    const auto body = [&](std::size_t r) {
+      const Run& run = runs[r];
+      std::uint64_t traced = 0;
+      for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
+        TexelSums& own = sums[run.page][i];
+        paths.add(texel_map[run.page], run.page, i, done, next, own, traced);
+        result.visible[run.page][i] = static_cast<float>(own.count) / static_cast<float>(next);
+        store(own, next, result.pages[run.page], texel_map[run.page].texel[i]);
+      }
+      rays += traced;
+    };
+    ORIEL_TRY_VOID(parallel_for(context, "paths", runs.size(), body, &rays));
+    if (next == options.samples || context.stopped() || (options.enough && options.enough())) return {};
+    if (options.error > 0 && relative_error(texel_map, result) <= options.error) return {};
+  }
 }
 
 }  // namespace
@@ -205,8 +166,8 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   if (options.estimator == Estimator::kCached) {
     ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result));
   } else {
-    ORIEL_TRY_VOID(
-        bake_reference(Baker(transport, atlas, options, context), texel_map, options, context, rays, result));
+    ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,
+                                  context, rays, result));
   }
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
   const bool black = options.hidden == Hidden::kBlack;
@@ -220,6 +181,10 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     }
   }
   summarize(transport.accel.scene(), atlas, texel_map, result);
+  if (options.estimator == Estimator::kCached && options.certify) {
+    ORIEL_TRY(result.report.certificate, certify(transport, atlas, texel_map, result, rays, context));
+    rays += result.report.certificate.rays;
+  }
   result.report.rays = rays;
   for (std::size_t p = 0; black && p < texel_map.size(); ++p) {
     darken_hidden(texel_map[p], result.visible[p], result.pages[p]);

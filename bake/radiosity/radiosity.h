@@ -1,6 +1,8 @@
 // Radiosity textures: irradiance per texel of the lightmap, with its standard error.
 #pragma once
 
+#include <functional>
+
 #include "bake/atlas/texel_map.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
@@ -28,9 +30,11 @@ struct RadiosityOptions {
   Estimator estimator = Estimator::kReference;
   std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
                                 // cached: gather rays a texel, at most
-  double error = 0;  // cached: stop at this relative error (RadiosityReport::relative_error); 0: take all samples
-  int bounces = 0;   // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
-  FilterOptions filter = {};  // cached
+  double error = 0;             // stop at this relative error (RadiosityReport::relative_error); 0: take all samples
+  int bounces = 0;  // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
+  std::function<bool()> enough = {};  // asked between rounds of refinement: true ends them (a time limit, say)
+  bool certify = true;                // cached: state the difference to unbiased paths
+  FilterOptions filter = {};          // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
   bool stitch = true;        // make light continuous over the seams of the lightmap
@@ -46,7 +50,18 @@ struct SeamReport {
   double energy_change = 0;            // of the power on all surfaces, relative
 };
 
+// What unbiased paths from random texels say of a bake.
+struct Certificate {
+  std::size_t texels = 0;     // compared
+  std::uint32_t paths = 0;    // from each
+  double bias = 0;            // Σ (baked - paths) / Σ paths, luminance
+  double bias_interval = 0;   // the truth lies within bias ± this with 95 % certainty
+  double relative_error = 0;  // rms over those texels and channels, the paths' own noise taken away
+  std::uint64_t rays = 0;
+};
+
 struct RadiosityReport {
+  Certificate certificate;  // of the cached estimator
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;

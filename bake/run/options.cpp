@@ -46,6 +46,11 @@ Result<std::uint64_t> parse_bytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+Result<double> parse_duration(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
+  return parse_quantity(text, kUnits, "time", "30s, 10min or 2h");
+}
+
 Result<double> parse_fraction(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -117,6 +122,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},
       {"error", o.radiosity.error},
+      {"time_s", o.time_s},
       {"filter_passes", o.radiosity.filter.passes},
       {"filter_strength", o.radiosity.filter.strength},
       {"bounces", o.radiosity.bounces},

@@ -30,6 +30,7 @@ struct BakeOptions {
   MaterialOptions material;
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
+  double time_s = 0;  // for radiosity: stop refining after it; 0: no limit. The bytes then depend on the machine
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
@@ -37,6 +38,8 @@ struct BakeOptions {
 Result<float> parse_length(const std::string& text);
 // "64MiB", "2GB", "500000B" as bytes; a unit is required. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
+// "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
+Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.
 Result<double> parse_fraction(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.

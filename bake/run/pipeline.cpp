@@ -65,6 +65,15 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
   return {};
 }
 
+void warn_about_error(const BakeOptions& options, const RadiosityReport& report, Context& context) {
+  const double asked = options.radiosity.error;
+  if (asked <= 0 || options.time_s > 0 || report.relative_error <= 1.25 * asked) return;
+  context.warning(fmt::format(
+      "the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays each, or lie "
+      "where light changes within a texel; --texel makes those finer",
+      100 * report.relative_error, 100 * asked, options.radiosity.samples));
+}
+
 PathOptions path_options(const BakeOptions& options) {
   PathOptions paths;
   if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
@@ -128,6 +137,10 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   warn_about_light(scene, lights, context);
 
   RadiosityOptions radiosity_options = options.radiosity;
+  if (options.time_s > 0) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.time_s);
+    radiosity_options.enough = [end] { return std::chrono::steady_clock::now() >= end; };
+  }
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
               auto baked =
@@ -135,6 +148,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
               if (baked) rays = baked->report.rays;
               return baked;
             }));
+  result.radiosity = radiosity.report;
+  warn_about_error(options, radiosity.report, context);
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
   ORIEL_TRY(MaterialMaps materials,

@@ -14,7 +14,8 @@ struct StageTime {
 
 struct BakeResult {
   Pack pack;
-  std::vector<StageTime> times;        // wall clock; not in the pack, whose bytes depend on input and options only
+  std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
+  RadiosityReport radiosity;
   std::vector<std::string> omissions;  // what was not modelled, and why
 };
 

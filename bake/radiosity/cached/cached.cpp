@@ -5,6 +5,7 @@
 
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
+#include "bake/radiosity/cached/moments.h"
 #include "bake/radiosity/cached/patches.h"
 
 namespace oriel {
@@ -29,8 +30,8 @@ class CachedBake {
         order_(coherent_order(texels)),
         direct_light_(t, atlas, maps, texels, context.seed),
         around_(t, texels, direct_light_.closed_form(), context.seed),
-        direct_(texels.count()),
-        gathered_(texels.count()),
+        direct_(texels.count(), options.directional),
+        gathered_(texels.count(), options.directional),
         relative_(texels.count()) {}
 
   Status run(Radiosity& result) {
@@ -63,7 +64,9 @@ class CachedBake {
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
   Status first_direct() {
-    ORIEL_TRY_VOID(direct_light_.estimate(order_, kFirstDirect, context_, direct_, rays_));
+    // Closed forms do not tell where light comes from, samples do.
+    const std::uint32_t first = options_.directional ? 4 * kFirstDirect : kFirstDirect;
+    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
     std::vector<std::uint32_t> edges;
     for (const std::uint32_t i : order_) {
       bool edge = max_component(direct_.variance[i] + direct_.sampled[i]) > 0;
@@ -72,7 +75,7 @@ class CachedBake {
     }
     // A fixed number of gather rays brings a fixed number of shadow rays with it.
     const std::uint32_t per_half = options_.error > 0 ? 0 : options_.samples / (4 * kHalves);
-    return direct_light_.estimate(edges, std::max(4 * kFirstDirect, per_half), context_, direct_, rays_);
+    return direct_light_.estimate(edges, std::max(4 * first, per_half), context_, direct_, rays_);
   }
 
   // Of the direct light.
@@ -81,6 +84,8 @@ class CachedBake {
     for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += direct_.variance[i];
     return variance;
   }
+
+  bool done() const { return context_.stopped() || (options_.enough && options_.enough()); }
 
   // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
   double relative2(std::size_t i, const Vec3& variance) const {
@@ -146,7 +151,7 @@ class CachedBake {
     const double goal = (1 - kDirectShare) * target() * target();
     for (;;) {
       const double now = mean_squares(estimate_.variance);
-      if (now <= goal || context_.stopped()) return {};
+      if (now <= goal || done()) return {};
       // Each texel doubles its own count: those of one count are gathered together.
       std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
       if (list.empty()) return {};
@@ -169,7 +174,7 @@ class CachedBake {
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
       const double now = mean_squares(direct_variance()), goal = kDirectShare * target() * target();
-      if (now <= goal || context_.stopped()) return {};
+      if (now <= goal || done()) return {};
       std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
       if (list.empty()) return {};
       while (!list.empty()) {
@@ -185,12 +190,14 @@ class CachedBake {
 
   void store(Radiosity& result) {
     const std::vector<Vec3> of_direct = direct_variance();
+    const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       LightmapPage& page = result.pages[texels_.page[i]];
       const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
       result.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
       page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
       if (texels_.visible[i] == 0) continue;
+      if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
       page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
       page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i]);
     }

@@ -1,6 +1,8 @@
 #include "bake/radiosity/cached/direct_light.h"
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiosity/cached/moments.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -41,6 +43,7 @@ class DirectGroup {
       sums.variance[list_[i]] = tallies_[i].variance;
       sums.sampled[list_[i]] = tallies_[i].sampled;
       sums.per_half[list_[i]] = per_half_;
+      if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
     }
   }
   std::uint64_t rays() const { return rays_; }
@@ -55,11 +58,14 @@ class DirectGroup {
   struct Shot {  // a shadow ray
     std::uint32_t point = 0;
     Vec3 weight{0};
+    Vec3 direction{0};
   };
   // By texel. Of the light at hand: Σ unoccluded irradiance, and by half Σ weights, Σ weights * transmittance.
   struct Tally {
     Vec3 open{0}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
+    Vec4 from{0};                            // Σ moments of weights * transmittance, by luminance
     Vec3 total{0}, variance{0}, sampled{0};  // of all lights so far
+    Vec4 moments{0};
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const {
@@ -119,20 +125,26 @@ class DirectGroup {
     tallies_[p.texel].weight[p.half] += weight;
     if (ray.max_distance > 0) {
       rays_to_trace_.push_back(ray);
-      shots_.push_back({point, weight});
+      shots_.push_back({point, weight, ray.direction});
     } else {
-      tallies_[p.texel].passed[p.half] += weight;  // touching
+      receive({point, weight, ray.direction}, Vec3(1));  // touching
     }
+  }
+
+  void receive(const Shot& shot, const Vec3& passed) {
+    const Point& p = points_[shot.point];
+    Tally& tally = tallies_[p.texel];
+    const Vec3 light = shot.weight * passed;
+    tally.passed[p.half] += light;
+    const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
+    tally.from += moments_of(luminance(light) / cosine, shot.direction);
   }
 
   void trace() {
     passed_.resize(rays_to_trace_.size());
     d_.t_.accel.transmittance(rays_to_trace_, passed_);
     rays_ += rays_to_trace_.size();
-    for (std::size_t i = 0; i < shots_.size(); ++i) {
-      const Point& p = points_[shots_[i].point];
-      tallies_[p.texel].passed[p.half] += shots_[i].weight * passed_[i];
-    }
+    for (std::size_t i = 0; i < shots_.size(); ++i) receive(shots_[i], passed_[i]);
     shots_.clear();
     rays_to_trace_.clear();
   }
@@ -146,15 +158,23 @@ class DirectGroup {
       const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
       const Vec3 halves = 0.5f * (ratio(t.passed[0], t.weight[0]) + ratio(t.passed[1], t.weight[1]));
       const Vec3 open = radiance * t.open / n;
-      t.total += open * (2.0f * share - halves);
+      const Vec3 value = open * (2.0f * share - halves);
+      t.total += value;
+      add_moments(t, value);
       // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
       t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
       forget_light(t);
     }
   }
+  // The light of `value` came as the samples did.
+  static void add_moments(Tally& t, const Vec3& value) {
+    const float seen = luminance(t.passed[0] + t.passed[1]);
+    if (seen > 0) t.moments += t.from * (std::max(0.0f, luminance(value)) / seen);
+  }
   static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
   static void forget_light(Tally& t) {
     t.open = Vec3(0);
+    t.from = Vec4(0);
     for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
   }
 
@@ -173,7 +193,9 @@ class DirectGroup {
     trace();
     const auto n = static_cast<float>(per_half_);
     for (Tally& t : tallies_) {
-      t.total += (t.passed[0] + t.passed[1]) / (kHalves * n);
+      const Vec3 value = (t.passed[0] + t.passed[1]) / (kHalves * n);
+      t.total += value;
+      add_moments(t, value);
       const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
       t.sampled += 0.25f * difference * difference;
       forget_light(t);

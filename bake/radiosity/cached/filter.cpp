@@ -62,11 +62,12 @@ std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const C
 }
 
 // The mean of a quantity over each texel's surroundings, `passes` wide.
-std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int passes, Context& context) {
-  std::vector<Vec3> next(values.size());
+template <class V>
+std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
+  std::vector<V> next(values.size());
   for (int pass = 0; pass < passes; ++pass) {
     each_texel(context, values.size(), [&](std::size_t i) {
-      Vec3 sum = values[i];
+      V sum = values[i];
       for (const std::uint32_t j : graph.of(i)) sum += values[j];
       next[i] = sum / static_cast<float>(1 + graph.count[i]);
     });
@@ -76,6 +77,13 @@ std::vector<Vec3> pooled(const TexelGraph& graph, std::vector<Vec3> values, int 
 }
 
 }  // namespace
+
+std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
+  std::vector<Vec4> moments = sums.moments;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    moments[i] /= static_cast<float>(kHalves * std::max(1u, sums.samples[i]));
+  return pooled(graph, std::move(moments), 1, context);
+}
 
 std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
                                 const std::vector<Vec3>& light, Context& context) {

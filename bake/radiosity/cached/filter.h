@@ -21,6 +21,9 @@ struct Estimate {
 Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
                 Context& context);
 
+// Where gathered light comes from, smoothed over each texel's surroundings: a few dozen rays tell it poorly.
+std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context);
+
 // Squared errors pooled over each texel's surroundings (about 33 texels), relative to its light: a dark texel beside
 // bright ones has their relative error, not their absolute one. `light`: lux.
 std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,

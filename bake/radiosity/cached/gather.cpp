@@ -1,6 +1,8 @@
 #include "bake/radiosity/cached/gather.h"
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiosity/cached/moments.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -41,9 +43,14 @@ class GroupGather {
     }
     around_.answer(batch_, about_, answers_);
     rays_ += batch_.size() + answers_.rays;
-    auto& sum = sums.sum[half];
-    for (const Link& link : answers_.links) sum[target_[link.ray]] += link.weight * irradiance_[link.texel];
-    for (std::size_t i = 0; i < batch_.size(); ++i) sum[target_[i]] += kPi * answers_.light[i];
+    auto& light = answers_.light;
+    for (const Link& link : answers_.links) light[link.ray] += link.weight * irradiance_[link.texel] / kPi;
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+      sums.sum[half][target_[i]] += kPi * light[i];
+      if (!sums.moments.empty())
+        sums.moments[target_[i]] +=
+            moments_of(luminance(light[i]) * kPi / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);
+    }
   }
 
   const Texels& texels_;

@@ -10,8 +10,11 @@ namespace oriel {
 struct HalfSums {
   std::array<std::vector<Vec3>, kHalves> sum;  // lux * samples
   std::vector<std::uint32_t> samples;          // of each half
+  // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
+  // samples. Empty unless asked for.
+  std::vector<Vec4> moments;
 
-  explicit HalfSums(std::size_t texels) : samples(texels) {
+  HalfSums(std::size_t texels, bool directional) : samples(texels), moments(directional ? texels : 0) {
     for (auto& s : sum) s.resize(texels);
   }
   Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }

@@ -6,6 +6,7 @@
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/radiosity.h"
 #include "formats/core/color.h"
+#include "tests/bake/radiosity/baked.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {
@@ -131,6 +132,26 @@ TEST(Directional, LampAgreesWithQuadrature) {
   EXPECT_NEAR(mean / m, 1, 0.002);
   EXPECT_NEAR(irradiance / e, 1, 0.002);
   EXPECT_LT(glm::length(vector - v) / m, 0.002);
+}
+
+// The cached estimator tells the same directions as unbiased paths.
+TEST(Directional, CachedAgreesWithPaths) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.6f)), Vec3(-1), Vec3(1), true);
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(8)), {0.4f, 0.9f, -0.3f}, {0.4f, 0, 0}, {0, 0, 0.6f});  // faces down
+  const Scene scene = parts.finish();
+  RadiosityOptions paths{.samples = 2048, .dilation = 0, .directional = true}, cached = paths;
+  cached.estimator = Estimator::kCached;
+  cached.samples = 512;
+  const auto truth = test::bake(scene, 0.25f, paths), baked = test::bake(scene, 0.25f, cached);
+  double squares = 0;
+  int count = 0;
+  truth.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
+    const auto p = static_cast<std::size_t>(&page - truth.radiosity.pages.data());
+    squares += length2(baked.radiosity.pages[p].direction[t] - page.direction[t]);
+    ++count;
+  });
+  EXPECT_LT(std::sqrt(squares / count), 0.05);
 }
 
 // Half of the rays are uniform then: the irradiance stays what it is.

@@ -1,0 +1,48 @@
+// Unbiased paths from the points of a texel.
+#pragma once
+
+#include "bake/atlas/texel_map.h"
+#include "bake/jobs/context.h"
+#include "bake/trace/path.h"
+
+namespace oriel {
+
+// What the paths of one texel found, lux.
+struct TexelSums {
+  DVec3 sum{0}, squares{0};
+  DVec3 vector{0};  // of luminance, as IrradianceSample's
+  double mean = 0;
+  std::uint32_t count = 0;  // paths; fewer than asked where points are buried
+
+  DVec3 irradiance() const { return count > 0 ? sum / double(count) : DVec3(0); }
+  // Squared standard error of irradiance(). One path says nothing of its spread: its error is taken to be as large as
+  // itself.
+  DVec3 variance() const {
+    const DVec3 m = irradiance();
+    if (count < 2) return m * m;
+    return glm::max(DVec3(0), squares / double(count) - m * m) / double(count - 1);
+  }
+};
+
+class TexelPaths {
+ public:
+  // directional: sample so that IrradianceSample's moments are known, too.
+  TexelPaths(const Transport& transport, const Atlas& atlas, bool directional, const Context& context)
+      : t_(transport), atlas_(atlas), directional_(directional), context_(context) {}
+
+  // Paths number first to last of texel i of a page. Points inside other geometry (independent probes meet little but
+  // back faces of one-sided materials) are left out, and so is what a thin wall cuts off the texel. Adds to rays.
+  void add(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint32_t first, std::uint32_t last,
+           TexelSums& sums, std::uint64_t& rays) const;
+
+ private:
+  SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const;
+  bool any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const;
+
+  const Transport& t_;
+  const Atlas& atlas_;
+  bool directional_;
+  const Context& context_;
+};
+
+}  // namespace oriel
