@@ -33,14 +33,4 @@ std::vector<std::uint32_t> coherent_order(const Texels& t) {
   return order;
 }
 
-Ray gather_ray(const TexelSite& site, const Vec3& local, float& incidence_out) {
-  Vec3 direction = frame_from_normal(site.normal) * local;
-  const Vec3& g = site.geometric_normal;
-  const float height = glm::dot(direction, g);
-  if (height < 0) direction -= 2 * height * g;
-  direction /= std::sqrt(length2(direction));
-  incidence_out = std::max(incidence(site.receiver(), direction), 1e-12f);
-  return {site.origin, direction};
-}
-
 }  // namespace oriel

@@ -22,8 +22,9 @@ class DirectionSets {
   // Which set a place of the lightmap uses.
   static std::uint32_t set_of(std::uint32_t page, std::uint32_t x, std::uint32_t y);
   // Cosine-distributed around +z.
-  const Vec3& local(std::uint32_t set, int half, std::uint32_t i) const {
-    return directions_[(std::size_t{set} * kHalves + static_cast<std::size_t>(half)) * per_half_ + i];
+  const Vec3& local(std::uint32_t set, int half, std::uint32_t i) const { return row(set, half)[i]; }
+  const Vec3* row(std::uint32_t set, int half) const {
+    return &directions_[(std::size_t{set} * kHalves + static_cast<std::size_t>(half)) * per_half_];
   }
   std::uint32_t per_half() const { return per_half_; }
 
@@ -35,7 +36,30 @@ class DirectionSets {
 // The order in which texels are traced: those that share a set and a neighbourhood come together.
 std::vector<std::uint32_t> coherent_order(const Texels& texels);
 
-// A gather ray from a point: `local` turned to its normal, mirrored above the real surface where it falls below.
-Ray gather_ray(const TexelSite& site, const Vec3& local, float& incidence_out);
+// A site made ready for many rays.
+class GatherSite {
+ public:
+  GatherSite() = default;
+  explicit GatherSite(const TexelSite& site)
+      : frame_(frame_from_normal(site.normal)), site_(site), tilted_(site.normal != site.geometric_normal) {}
+
+  // `local` turned to the site's normal, mirrored above the real surface where it falls below.
+  Ray ray(const Vec3& local) const {
+    Vec3 direction = frame_ * local;
+    if (tilted_)
+      if (const float height = glm::dot(direction, site_.geometric_normal); height < 0)
+        direction -= 2 * height * site_.geometric_normal;
+    return {site_.origin, direction};
+  }
+  // π times the density of that direction.
+  float incidence(const Vec3& direction) const {
+    return std::max(oriel::incidence(site_.receiver(), direction), 1e-12f);
+  }
+
+ private:
+  Mat3 frame_{1};
+  TexelSite site_;
+  bool tilted_ = false;
+};
 
 }  // namespace oriel

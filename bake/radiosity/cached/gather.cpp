@@ -9,46 +9,79 @@ namespace {
 
 constexpr std::size_t kGroup = 64;  // texels whose rays of one number are traced together: four packets
 
-// One group of texels, in its thread's memory.
+// One group of texels, in its thread's memory: what every ray needs of its texel is fetched once.
 class GroupGather {
  public:
   GroupGather(const Texels& texels, const Surroundings& around, const DirectionSets& sets,
-              std::span<const std::uint32_t> list, std::span<const Vec3> irradiance)
-      : texels_(texels), around_(around), sets_(sets), list_(list), irradiance_(irradiance) {}
+              std::span<const std::uint32_t> list, std::span<const Vec3> irradiance, bool moments)
+      : texels_(texels), around_(around), sets_(sets), irradiance_(irradiance), moments_(moments) {
+    for (const std::uint32_t t : list) {
+      if (texels.visible[t] == 0) continue;
+      members_.emplace_back();
+      members_.back().texel = t;
+      members_.back().set = DirectionSets::set_of(texels.page[t], texels.x[t], texels.y[t]);
+    }
+  }
 
   void run(std::uint32_t per_half, HalfSums& sums) {
+    std::uint32_t first = per_half;
+    for (const Member& m : members_) first = std::min(first, sums.samples[m.texel]);
     for (int half = 0; half < kHalves; ++half) {
-      std::uint32_t first = per_half;
-      for (const std::uint32_t t : list_) first = std::min(first, sums.samples[t]);
-      for (std::uint32_t k = first; k < per_half; ++k) add_sample(half, k, sums);
+      for (Member& m : members_) {
+        m.sum = Vec3(0), m.moments = Vec4(0);
+        m.directions = sets_.row(m.set, half);
+        m.done = sums.samples[m.texel];
+      }
+      for (std::uint32_t k = first; k < per_half; ++k) {
+        if (k == first || k % kKeptSites == 0) fetch_sites(half, k - k % kKeptSites);
+        add_sample(half, k);
+      }
+      for (const Member& m : members_) {
+        sums.sum[half][m.texel] += m.sum;
+        if (moments_) sums.moments[m.texel] += m.moments;
+      }
     }
-    for (const std::uint32_t t : list_)
-      if (texels_.visible[t] > 0) sums.samples[t] = per_half;
+    for (const Member& m : members_) sums.samples[m.texel] = per_half;
   }
   std::uint64_t rays() const { return rays_; }
 
  private:
-  void add_sample(int half, std::uint32_t k, HalfSums& sums) {
+  static constexpr std::uint32_t kKeptSites = 4;
+  struct Member {
+    std::uint32_t texel = 0, set = 0;
+    std::uint32_t done = 0;  // samples of each half that it has
+    const Vec3* directions = nullptr;
+    std::array<GatherSite, kKeptSites> site;
+    Vec3 sum{0};
+    Vec4 moments{0};
+  };
+
+  void fetch_sites(int half, std::uint32_t k) {
+    for (Member& m : members_)
+      for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
+  }
+
+  void add_sample(int half, std::uint32_t k) {
     batch_.clear(), about_.clear(), target_.clear();
-    for (const std::uint32_t t : list_) {
-      if (texels_.visible[t] == 0 || sums.samples[t] > k) continue;
-      const TexelSite& site = texels_.site_for(t, half, k);
-      const std::uint32_t set = DirectionSets::set_of(texels_.page[t], texels_.x[t], texels_.y[t]);
-      GatherRay about;
-      batch_.push_back(gather_ray(site, sets_.local(set, half, k), about.incidence));
-      about.stream = std::uint64_t{t} * kHalves + static_cast<std::uint64_t>(half);
-      about.sample = k;
-      about_.push_back(about);
-      target_.push_back(t);
+    const bool weighs = moments_ || around_.weighs();
+    for (std::uint32_t i = 0; i < members_.size(); ++i) {
+      const Member& m = members_[i];
+      if (m.done > k) continue;
+      const GatherSite& site = m.site[k % kKeptSites];
+      batch_.push_back(site.ray(m.directions[k]));
+      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0,
+                        std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half), k});
+      target_.push_back(i);
     }
     around_.answer(batch_, about_, answers_);
     rays_ += batch_.size() + answers_.rays;
     auto& light = answers_.light;
     for (const Link& link : answers_.links) light[link.ray] += link.weight * irradiance_[link.texel] / kPi;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      sums.sum[half][target_[i]] += kPi * light[i];
-      if (!sums.moments.empty())
-        sums.moments[target_[i]] +=
+      Member& m = members_[target_[i]];
+      m.sum += kPi * light[i];
+      if (moments_)
+        m.moments +=
             moments_of(luminance(light[i]) * kPi / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);
     }
   }
@@ -56,11 +89,12 @@ class GroupGather {
   const Texels& texels_;
   const Surroundings& around_;
   const DirectionSets& sets_;
-  std::span<const std::uint32_t> list_;
   std::span<const Vec3> irradiance_;
+  bool moments_;
+  std::vector<Member> members_;
   std::vector<Ray> batch_;
   std::vector<GatherRay> about_;
-  std::vector<std::uint32_t> target_;
+  std::vector<std::uint32_t> target_;  // into members_
   Answers answers_;
   std::uint64_t rays_ = 0;
 };
@@ -72,7 +106,8 @@ Status gather(const Texels& texels, const Surroundings& around, const DirectionS
               Context& context, HalfSums& sums, std::atomic<std::uint64_t>& rays) {
   const auto body = [&](std::size_t g) {
     const std::size_t first = g * kGroup;
-    GroupGather group(texels, around, sets, list.subspan(first, std::min(kGroup, list.size() - first)), irradiance);
+    GroupGather group(texels, around, sets, list.subspan(first, std::min(kGroup, list.size() - first)), irradiance,
+                      !sums.moments.empty());
     group.run(per_half, sums);
     rays += group.rays();
   };

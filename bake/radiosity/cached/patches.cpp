@@ -109,8 +109,9 @@ class Solver {
       const std::uint32_t set =
           DirectionSets::set_of(texels_.page[t], texels_.x[t] / options_.side, texels_.y[t] / options_.side);
       GatherRay& ray = about[p - first];
-      batch.push_back(gather_ray(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves), sets.local(set, 0, k),
-                                 ray.incidence));
+      const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
+      batch.push_back(site.ray(sets.local(set, 0, k)));
+      if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
       ray.stream = ~std::uint64_t{p};
       ray.sample = k;
     }

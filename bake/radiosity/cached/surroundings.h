@@ -35,6 +35,8 @@ class Surroundings {
   // Answers a batch; what Answers held is dropped.
   void answer(std::span<const Ray> rays, std::span<const GatherRay> about, Answers& answers) const;
 
+  // Whether answers depend on GatherRay::incidence.
+  bool weighs() const { return !closed_form_ || t_.lights.samples_sky(); }
   bool closed_form() const { return closed_form_; }
   const Transport& transport() const { return t_; }
 
