@@ -129,7 +129,6 @@ struct Accel::Impl {
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(active.data(), rtc_scene, &context, &query);
     const RTCHit16& h = query.hit;
     for (int i = 0; i < count; ++i)
