@@ -18,6 +18,11 @@ struct Method {
   std::function<Measurements(const Case&)> measure;
 };
 
+// Names it in messages, where bytes of a function would change from run to run.
+std::ostream& operator<<(std::ostream& out, const Method& method) {
+  return out << method.name;
+}
+
 const Method kMethods[] = {
     {"Lux", false, [](const Case& c) { return measure_by_lux(c, kSeed); }},
     {"Cached", true,

@@ -80,7 +80,9 @@ class CachedBake {
 
   // Of the direct light.
   std::vector<Vec3> direct_variance() {
-    std::vector<Vec3> variance = pooled_errors(texels_, graph_, direct_.sampled, direct_.value, context_);
+    std::vector<Vec3> variance(texels_.count());
+    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = direct_.sampled[i] + direct_.uneven[i];
+    variance = pooled_errors(texels_, graph_, std::move(variance), direct_.value, context_);
     for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += direct_.variance[i];
     return variance;
   }

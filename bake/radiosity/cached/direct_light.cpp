@@ -1,5 +1,7 @@
 #include "bake/radiosity/cached/direct_light.h"
 
+#include <array>
+
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/cached/moments.h"
 #include "formats/core/color.h"
@@ -42,6 +44,7 @@ class DirectGroup {
       sums.value[list_[i]] = tallies_[i].total;
       sums.variance[list_[i]] = tallies_[i].variance;
       sums.sampled[list_[i]] = tallies_[i].sampled;
+      sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
       sums.per_half[list_[i]] = per_half_;
       if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
     }
@@ -60,12 +63,13 @@ class DirectGroup {
     Vec3 weight{0};
     Vec3 direction{0};
   };
-  // By texel. Of the light at hand: Σ unoccluded irradiance, and by half Σ weights, Σ weights * transmittance.
+  // By texel. Of the light at hand, by half: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
   struct Tally {
-    Vec3 open{0}, weight[kHalves] = {Vec3(0), Vec3(0)}, passed[kHalves] = {Vec3(0), Vec3(0)};
+    std::array<Vec3, kHalves> open{}, weight{}, passed{};
     Vec4 from{0};                            // Σ moments of weights * transmittance, by luminance
     Vec3 total{0}, variance{0}, sampled{0};  // of all lights so far
     Vec4 moments{0};
+    Vec3 uneven{0};  // what the halves' points differ by, all lights together
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const {
@@ -99,7 +103,7 @@ class DirectGroup {
       const Receiver receiver = point.site.receiver();
       const float open = polygon_irradiance(light, receiver);
       if (!(open > 0)) continue;
-      tallies_[point.texel].open += Vec3(open);
+      tallies_[point.texel].open[point.half] += Vec3(open);
       Sampler sampler(d_.seed_ + 0xd1ec + l, stream_of(list_[point.texel], point.half), point.k);
       const auto s = sample_polygon(light, receiver, sampler.next2());
       if (!s) continue;
@@ -115,7 +119,7 @@ class DirectGroup {
       const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
       const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
       if (!(max_component(value) > 0)) continue;
-      tallies_[point.texel].open += value;
+      tallies_[point.texel].open[point.half] += value;
       shoot(p, {point.site.origin, s.direction, s.distance}, value);
     }
   }
@@ -157,12 +161,14 @@ class DirectGroup {
     for (Tally& t : tallies_) {
       const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
       const Vec3 halves = 0.5f * (ratio(t.passed[0], t.weight[0]) + ratio(t.passed[1], t.weight[1]));
-      const Vec3 open = radiance * t.open / n;
+      const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
       const Vec3 value = open * (2.0f * share - halves);
       t.total += value;
       add_moments(t, value);
       // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
       t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+      // The closed form is exact at a point; the texel's mean is had from a few.
+      t.uneven += radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
       forget_light(t);
     }
   }
@@ -173,9 +179,8 @@ class DirectGroup {
   }
   static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
   static void forget_light(Tally& t) {
-    t.open = Vec3(0);
     t.from = Vec4(0);
-    for (int h = 0; h < kHalves; ++h) t.weight[h] = t.passed[h] = Vec3(0);
+    t.open = t.weight = t.passed = {};
   }
 
   // Light without a closed form: one sampled light a point, combined with the gather's own hits on it.

@@ -10,11 +10,17 @@ struct DirectSums {
   std::vector<Vec3> value;
   std::vector<Vec3> variance;           // of value's closed forms, predicted from the mix of lit and dark samples
   std::vector<Vec3> sampled;            // of the rest, from one difference of halves: to be pooled over neighbours
+  std::vector<Vec3> uneven;             // of the closed forms' means over the texel, likewise from one difference
   std::vector<std::uint32_t> per_half;  // samples of each half for each light
   std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless asked for
 
   DirectSums(std::size_t texels, bool directional)
-      : value(texels), variance(texels), sampled(texels), per_half(texels), moments(directional ? texels : 0) {}
+      : value(texels),
+        variance(texels),
+        sampled(texels),
+        uneven(texels),
+        per_half(texels),
+        moments(directional ? texels : 0) {}
 };
 
 class DirectLight {

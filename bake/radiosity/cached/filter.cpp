@@ -61,15 +61,16 @@ std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const C
   return values;
 }
 
-// The mean of a quantity over each texel's surroundings, `passes` wide.
+// A quantity spread over each texel's surroundings, `passes` wide. Its sum over texels stays: what a texel gains its
+// neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full.
 template <class V>
 std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
   std::vector<V> next(values.size());
   for (int pass = 0; pass < passes; ++pass) {
     each_texel(context, values.size(), [&](std::size_t i) {
-      V sum = values[i];
-      for (const std::uint32_t j : graph.of(i)) sum += values[j];
-      next[i] = sum / static_cast<float>(1 + graph.count[i]);
+      V gain(0);
+      for (const std::uint32_t j : graph.of(i)) gain += values[j] - values[i];
+      next[i] = values[i] + gain / static_cast<float>(kMaxNeighbours + 1);
     });
     values.swap(next);
   }
@@ -127,23 +128,22 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   for (int h = 0; h < kHalves; ++h) smooth[h] = diffuse(texels, graph, c, half[h], options.passes, context);
 
   result.value.resize(n), result.variance.resize(n);
-  std::vector<Vec3> of_one(n), of_both(n);
+  std::vector<Vec3> beyond(n), of_both(n);
   each_texel(context, n, [&](std::size_t i) {
     result.value[i] = 0.5f * (smooth[0][i] + smooth[1][i]);
-    for (int h = 0; h < kHalves; ++h) {
-      const Vec3 d = smooth[h][i] - half[1 - h][i];
-      of_one[i] += 0.5f * d * d;
-    }
-    const Vec3 d = smooth[0][i] - smooth[1][i];
+    const Vec3 d = smooth[0][i] - smooth[1][i], unfiltered = half[0][i] - half[1][i];
     of_both[i] = 0.25f * d * d;  // noise of the mean of both
-  });
-  of_one = pooled_errors(texels, graph, std::move(of_one), guide, context);
-  of_both = pooled_errors(texels, graph, std::move(of_both), guide, context);
-  each_texel(context, n, [&](std::size_t i) {
     // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
-    const Vec3 error = of_one[i] - noise[i];
-    result.variance[i] = glm::max(error - of_both[i], of_both[i]);
+    for (int h = 0; h < kHalves; ++h) {
+      const Vec3 to_other = smooth[h][i] - half[1 - h][i];
+      beyond[i] += 0.5f * to_other * to_other;
+    }
+    beyond[i] -= 0.5f * unfiltered * unfiltered + of_both[i];
   });
+  // Relative to the light that the filter leaves, as the error asked for is.
+  beyond = pooled_errors(texels, graph, std::move(beyond), result.value, context);
+  of_both = pooled_errors(texels, graph, std::move(of_both), result.value, context);
+  each_texel(context, n, [&](std::size_t i) { result.variance[i] = glm::max(beyond[i], of_both[i]); });
   const double before = total(texels, mean), after = total(texels, result.value);
   result.energy_drift = before > 0 ? after / before - 1 : 0;
   return result;
