@@ -12,6 +12,8 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
+constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
+constexpr float kUncertain = 0.1f, kUneven = 0.02f;     // of the direct light
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr double kDirectShare = 0.3;                    // of the squared error asked for
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
@@ -67,15 +69,34 @@ class CachedBake {
     // Closed forms do not tell where light comes from, samples do.
     const std::uint32_t first = options_.directional ? 4 * kFirstDirect : kFirstDirect;
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
-    std::vector<std::uint32_t> edges;
-    for (const std::uint32_t i : order_) {
-      bool edge = max_component(direct_.variance[i] + direct_.sampled[i]) > 0;
-      for (const std::uint32_t j : graph_.of(i)) edge |= max_component(direct_.variance[j]) > 0;
-      if (edge) edges.push_back(i);
+    // Bounces start from it: what is uncertain by more than a few percent would tint them all.
+    std::uint32_t per_half = first;
+    for (int round = 0; round < kDirectRounds; ++round) {
+      per_half *= 4;
+      // A fixed number of gather rays brings a fixed number of shadow rays with it.
+      if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
+      const std::vector<std::uint32_t> list = uncertain_direct(round == 0 ? 0 : kUncertain);
+      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
-    // A fixed number of gather rays brings a fixed number of shadow rays with it.
-    const std::uint32_t per_half = options_.error > 0 ? 0 : options_.samples / (4 * kHalves);
-    return direct_light_.estimate(edges, std::max(4 * first, per_half), context_, direct_, rays_);
+    return {};
+  }
+
+  // Texels whose direct light, or a neighbour's, is uncertain by more than that share of it.
+  std::vector<std::uint32_t> uncertain_direct(float share) const {
+    const auto uncertain = [&](std::uint32_t i) {
+      const Vec3 error = direct_.variance[i] + direct_.sampled[i] + direct_.uneven[i];
+      const Vec3 bound = share * share * direct_.value[i] * direct_.value[i];
+      const float least = std::max(share, kUneven);  // light that is merely uneven over a texel is known well enough
+      return max_component(direct_.variance[i] + direct_.sampled[i] - bound) > 0 ||
+             max_component(error - least * least * direct_.value[i] * direct_.value[i]) > 0;
+    };
+    std::vector<std::uint32_t> list;
+    for (const std::uint32_t i : order_) {
+      bool any = uncertain(i);
+      for (const std::uint32_t j : graph_.of(i)) any |= uncertain(j);
+      if (any) list.push_back(i);
+    }
+    return list;
   }
 
   // Of the direct light.
