@@ -7,8 +7,8 @@ namespace oriel {
 namespace {
 
 constexpr const char* kFooter = R"(Examples:
-  oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, reflections, 256 paths a texel
-  oriel-bake house.glb -o house.oriel --texel 5cm --samples 1024     finer and with half the noise
+  oriel-bake house.glb -o house.oriel                      sensible defaults: 10 cm texels, 2 % error, reflections
+  oriel-bake house.glb -o house.oriel --texel 5cm --error 1%         finer, with half the error
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
   oriel-bake house.glb -o house.oriel --sky noon.exr --sky-scale 1000 --ies "lamp=downlight.ies"  measured light
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images

@@ -93,9 +93,8 @@ void print_biases(const Scene& scene, const Radiosity& x, const Radiosity& r, st
     }
   std::vector<std::size_t> order(sums.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(sums[a].difference) > std::abs(sums[b].difference);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return std::abs(sums[a].difference) > std::abs(sums[b].difference); });
   for (std::size_t k = 0; k < std::min<std::size_t>(16, order.size()); ++k) {
     const Sum& sum = sums[order[k]];
     std::printf("    %-24s bias %+.2f %% ± %.2f\n", scene.surfaces[order[k]].name.c_str(),

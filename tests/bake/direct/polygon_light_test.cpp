@@ -30,8 +30,7 @@ double sampled(const PolygonLight& light, const Receiver& r, std::uint32_t n) {
   double sum = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
     Sampler sampler(1, 2, i);
-    if (const auto s = sample_polygon(light, r, sampler.next2()))
-      sum += incidence(r, s->direction) * s->solid_angle;
+    if (const auto s = sample_polygon(light, r, sampler.next2())) sum += incidence(r, s->direction) * s->solid_angle;
   }
   return sum / n;
 }
