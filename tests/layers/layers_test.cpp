@@ -39,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
   m["bake/atlas"].insert("bake/atlas/chart");
   m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
-  m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});  // what the stages that compute irradiance share
+  m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});        // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
@@ -63,16 +63,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
 
 // Libraries that must not spread: the folders that may include their headers.
 const std::map<std::string, std::set<std::string>> kGuarded = {
-    {"embree3/", {"bake/trace"}},
-    {"tbb/", {"bake/jobs"}},
-    {"OpenImageIO/", {"bake/scene"}},
-    {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas/chart"}},
-    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
-    {"OpenEXR/", {"formats/image"}},
-    {"Imf", {"formats/image"}},
-    {"GLFW/", {"player/app"}},
-    {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
+    {"embree3/", {"bake/trace"}},        {"tbb/", {"bake/jobs"}},
+    {"OpenImageIO/", {"bake/scene"}},    {"CGAL/", {"bake/scene"}},
+    {"OpenMesh/", {"bake/atlas/chart"}}, {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"OpenEXR/", {"formats/image"}},     {"Imf", {"formats/image"}},
+    {"GLFW/", {"player/app"}},           {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {
