@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "bake/jobs/parallel.h"
+#include "bake/trace/warp.h"
 
 namespace oriel {
 namespace {
@@ -77,10 +78,9 @@ class Solver {
   }
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
-    const DirectionSets sets(seed, options_.rays_per_patch);
     return parallel_for(context, "bounces", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
       const std::size_t first = g * kGroup, end = std::min(patches_.size(), first + kGroup);
-      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, sets);
+      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, seed);
       for (std::size_t p = first; p < end; ++p) join_links(patches_[p].links);
     });
   }
@@ -100,17 +100,15 @@ class Solver {
   }
   double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
 
-  std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, const DirectionSets& sets) {
+  std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
     std::vector<Ray> batch;
     std::vector<GatherRay> about(end - first);
     for (std::size_t p = first; p < end; ++p) {
       const std::uint32_t t = texel_for(patches_[p], k / kSites);
-      // Patches stand side by side as texels do: the same pattern of sets.
-      const std::uint32_t set =
-          DirectionSets::set_of(texels_.page[t], texels_.x[t] / options_.side, texels_.y[t] / options_.side);
       GatherRay& ray = about[p - first];
       const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
-      batch.push_back(site.ray(sets.local(set, 0, k)));
+      // Directions of its own: what patches share in the final gather would tint the mean of all bounces here.
+      batch.push_back(site.ray(square_to_cosine_hemisphere(Sampler(seed, p, k).next2())));
       if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
       ray.stream = ~std::uint64_t{p};
       ray.sample = k;
