@@ -68,4 +68,15 @@ Vec2 Sampler::next2() {
   return {unit_float(x), unit_float(y)};
 }
 
+ShiftedNet::ShiftedNet(std::uint64_t seed, std::uint32_t count) : seed_(mix64(seed)) {
+  digits_.reserve(count);
+  for (std::uint32_t k = 0; k < count; ++k) digits_.emplace_back(Sampler(seed, 0, k).next2() * 0x1p24f);
+  for (UVec2& d : digits_) d <<= 8u;
+}
+
+UVec2 ShiftedNet::shift(std::uint64_t stream) const {
+  const std::uint64_t h = mix64(seed_ ^ stream);
+  return {static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32)};
+}
+
 }  // namespace oriel

@@ -1,7 +1,7 @@
 // Random numbers as a function of (seed, stream, sample, dimension): never of a thread.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "formats/core/vec.h"
 
@@ -27,6 +27,24 @@ class Sampler {
   std::uint64_t key_;
   std::uint32_t reversed_sample_;
   std::uint32_t dimension_ = 0;
+};
+
+// One Owen-scrambled Sobol sequence that many streams share, each with digits flipped by its own random shift (Cranley
+// & Patterson's rotation in base 2): nets stay nets, and points cost an exclusive or. For millions of short streams.
+class ShiftedNet {
+ public:
+  ShiftedNet(std::uint64_t seed, std::uint32_t count);
+
+  UVec2 shift(std::uint64_t stream) const;
+  // sample: below the count.
+  Vec2 point(std::uint32_t sample, const UVec2& shift) const {
+    const UVec2 bits = digits_[sample] ^ shift;
+    return Vec2(bits >> 8u) * 0x1p-24f;
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::vector<UVec2> digits_;
 };
 
 }  // namespace oriel

@@ -7,14 +7,17 @@
 
 namespace oriel {
 
-// Concentric map, Shirley & Chiu 1997. pdf = 1/π per unit area of the unit disk.
+// Concentric map, Shirley & Chiu 1997. pdf = 1/π per unit area of the unit disk. Sine and cosine by Taylor's series up
+// to 45°, where their remainders are below a float's rounding: a fifth of a gather's own time went into libm's.
 inline Vec2 square_to_disk(const Vec2& u) {
   const Vec2 o = 2.0f * u - Vec2(1.0f);
   if (o.x == 0 && o.y == 0) return Vec2(0.0f);
   const bool wide = std::abs(o.x) > std::abs(o.y);
   const float r = wide ? o.x : o.y;
-  const float phi = wide ? kPi / 4 * (o.y / o.x) : kPi / 2 - kPi / 4 * (o.x / o.y);
-  return r * Vec2(std::cos(phi), std::sin(phi));
+  const float phi = kPi / 4 * (wide ? o.y / o.x : o.x / o.y), p2 = phi * phi;
+  const float sine = phi * (1 - p2 / 6 * (1 - p2 / 20 * (1 - p2 / 42 * (1 - p2 / 72))));
+  const float cosine = 1 - p2 / 2 * (1 - p2 / 12 * (1 - p2 / 30 * (1 - p2 / 56)));
+  return wide ? Vec2(r * cosine, r * sine) : Vec2(r * sine, r * cosine);
 }
 
 // Directions around +z with density cosθ/π per steradian (Malley).

@@ -19,6 +19,7 @@ using DVec4 = glm::dvec4;
 using DMat3 = glm::dmat3;
 using DMat4 = glm::dmat4;
 using IVec2 = glm::ivec2;
+using UVec2 = glm::uvec2;
 using UVec3 = glm::uvec3;
 
 inline constexpr float kPi = 3.14159265358979323846f;

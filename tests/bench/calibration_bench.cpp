@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <sstream>
+#include <map>
+#include <algorithm>
 
 #include "tests/bake/radiosity/baked.h"
 #include "tests/bake/radiosity/rooms.h"
@@ -47,7 +49,7 @@ Calibration measure(const Scene& scene, const Settings& settings) {
   const Baked truth = converged(scene, settings);
   const DVec3 mean = mean_light(truth);
   Calibration c;
-  double count = 0, light = 0;
+  double count = 0, light = 0; std::map<std::pair<int,int>, std::array<double,5>> dbg;
   for (int seed = 1; seed <= settings.bakes; ++seed) {
     const Baked b = bake(scene, settings.texel_m, settings.cached, 0, static_cast<std::uint64_t>(seed));
     c.stated += std::pow(b.radiosity.report.relative_error, 2) / settings.bakes;
@@ -62,9 +64,13 @@ Calibration measure(const Scene& scene, const Settings& settings) {
         c.error += (off * off - noise2) / scale2;
         c.truth += noise2 / scale2;
         c.bias += off, light += value, ++count;
+        if (k == 1) { auto& d = dbg[{(int)(&page - truth.radiosity.pages.data()), (int)t}]; d[0] += off*off/scale2/settings.bakes; d[1] += std::pow(ours.standard_error[t][k],2)/scale2/settings.bakes; d[2] = value; d[3] += off/settings.bakes; d[4] = noise2/scale2; }
       }
     });
   }
+  if (getenv("DBG")) { std::vector<std::pair<double,std::pair<int,int>>> o; for (auto& [k,d] : dbg) o.push_back({d[0],k}); std::sort(o.rbegin(), o.rend());
+    double tot=0; for (auto& x : o) tot += x.first; std::printf("texels %zu total %.4f\n", o.size(), tot/o.size());
+    for (int i = 0; i < atoi(getenv("DBG")); ++i) { auto& d = dbg[o[i].second]; const auto& pg = truth.radiosity.pages[o[i].second.first]; std::printf("p%d x%d y%d share %.3f rms %.3f stated %.3f value %.2f bias %.3f truth %.3f vis %.2f\n", o[i].second.first, o[i].second.second % (int)pg.width, o[i].second.second / (int)pg.width, d[0]/tot, std::sqrt(d[0]), std::sqrt(d[1]), d[2], d[3]/d[2], std::sqrt(d[4]), 0.0); } }
   c.covered /= count;
   c.error = std::sqrt(std::max(0.0, c.error / count));
   c.stated = std::sqrt(c.stated);

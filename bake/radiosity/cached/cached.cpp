@@ -1,7 +1,6 @@
 #include "bake/radiosity/cached/cached.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
@@ -136,17 +135,21 @@ class CachedBake {
   // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first. Those
   // twice as good as asked are left alone: they cannot make up for a few that stay bad.
   std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
-                                   const std::vector<std::uint32_t>& samples) const {
+                                   const std::vector<std::uint32_t>& samples) {
+    std::vector<float> typical(relative_);
+    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
+    typical = typical_errors(graph_, std::move(typical), context_);
+    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
     std::vector<std::uint32_t> by_error;
     for (const std::uint32_t i : order_)
-      if (relative_[i] > goal / 4 && samples[i] < most) by_error.push_back(i);
+      if (typical[i] > goal / 4 && samples[i] < most) by_error.push_back(i);
     std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double ea = relative_[a] / samples[a], eb = relative_[b] / samples[b];
+      const double ea = typical[a] / samples[a], eb = typical[b] / samples[b];
       return ea != eb ? ea > eb : a < b;
     });
     double left = (now - goal) * static_cast<double>(count_);
     std::size_t taken = 0;
-    while (taken < by_error.size() && left > 0) left -= gain * relative_[by_error[taken++]];
+    while (taken < by_error.size() && left > 0) left -= gain * typical[by_error[taken++]];
     by_error.resize(taken);
     std::sort(by_error.begin(), by_error.end());
     std::vector<std::uint32_t> in_order;
@@ -166,9 +169,9 @@ class CachedBake {
 
   Status gather_to_target() {
     const std::uint32_t most = std::max(1u, options_.samples / kHalves);
+    const CachedLight cached = cache_light(texels_, graph_, irradiance_, context_);
     std::uint32_t per_half = options_.error > 0 ? std::min(most, kFirstGather) : most;
-    DirectionSets sets(context_.seed, std::bit_ceil(per_half));
-    ORIEL_TRY_VOID(gather(texels_, around_, sets, order_, per_half, irradiance_, context_, gathered_, rays_));
+    ORIEL_TRY_VOID(gather(texels_, around_, order_, per_half, cached, context_, gathered_, rays_));
     update_estimate();
     if (options_.error <= 0) return {};
     const double goal = (1 - kDirectShare) * target() * target();
@@ -185,8 +188,7 @@ class CachedBake {
         const std::vector<std::uint32_t> same(list.begin(), rest);
         list.erase(list.begin(), rest);
         per_half = std::min(most, 2 * std::max(1u, samples));
-        if (sets.per_half() < per_half) sets = DirectionSets(context_.seed, std::bit_ceil(per_half));
-        ORIEL_TRY_VOID(gather(texels_, around_, sets, same, per_half, irradiance_, context_, gathered_, rays_));
+        ORIEL_TRY_VOID(gather(texels_, around_, same, per_half, cached, context_, gathered_, rays_));
       }
       update_estimate();
     }

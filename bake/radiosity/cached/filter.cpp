@@ -6,7 +6,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kRun = 1024;
-constexpr int kPoolPasses = 4;
+constexpr int kPoolPasses = 4, kWidePasses = 16;
 
 // body(i) for every texel, in parallel.
 template <class Body>
@@ -26,21 +26,33 @@ double total(const Texels& texels, const std::vector<Vec3>& values) {
 // Conductances of the graph's edges, symmetric, in the order of TexelGraph::of().
 using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 
-// How alike two texels are, given the variance of their difference; worst channel decides.
-float likeness(const Vec3& a, const Vec3& b, const Vec3& va, const Vec3& vb, float strength) {
-  const Vec3 d = a - b, s = (va + vb) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
-  return std::exp(-0.5f * max_component(d * d / s));
-}
+// Light by texel with its variance.
+struct Guide {
+  const std::vector<Vec3>& light;
+  const std::vector<Vec3>& variance;
 
-Conductance conductances(const Texels& texels, const TexelGraph& graph, const std::vector<Vec3>& guide,
-                         const std::vector<Vec3>& variance, float strength, Context& context) {
+  // Squared difference of two texels over its variance; worst channel decides.
+  float distance2(std::size_t i, std::size_t j, float strength) const {
+    const Vec3 &a = light[i], &b = light[j], d = a - b;
+    const Vec3 s = (variance[i] + variance[j]) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
+    return max_component(d * d / s);
+  }
+};
+
+// Smoothed light tells a gentle slope from noise, but a single dark texel from its surroundings it does not: raw light
+// does, though only beyond what noise brings about by itself.
+Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
+                         float strength, Context& context) {
+  constexpr float kNoiseAlone = 3;  // standard deviations
   Conductance c(texels.count());
   each_texel(context, texels.count(), [&](std::size_t i) {
     const auto own = graph.of(i);
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::uint32_t j = own[k];
-      const float area = std::min(texels.area_m2[i], texels.area_m2[j]);
-      c[i][k] = area / (kMaxNeighbours + 1) * likeness(guide[i], guide[j], variance[i], variance[j], strength);
+      if (texels.visible[i] < 1 || texels.visible[j] < 1) continue;
+      const float beyond = std::max(0.0f, std::sqrt(raw.distance2(i, j, 1)) - kNoiseAlone);
+      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j, strength) + beyond * beyond));
+      c[i][k] = std::min(texels.area_m2[i], texels.area_m2[j]) / (kMaxNeighbours + 1) * likeness;
     }
   });
   return c;
@@ -86,6 +98,10 @@ std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums
   return pooled(graph, std::move(moments), 1, context);
 }
 
+std::vector<float> typical_errors(const TexelGraph& graph, std::vector<float> errors, Context& context) {
+  return pooled(graph, std::move(errors), kWidePasses, context);
+}
+
 std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
                                 const std::vector<Vec3>& light, Context& context) {
   DVec3 mean(0);
@@ -112,6 +128,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   });
   // The guide is itself smoothed a little, so that its noise does not choose whom to join.
   const std::vector<Vec3> guide = pooled(graph, mean, 1, context);
+  const std::vector<Vec3> raw_noise = pooled_errors(texels, graph, noise, mean, context);
   noise = pooled_errors(texels, graph, std::move(noise), guide, context);
 
   Estimate result;
@@ -123,7 +140,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   }
   std::vector<Vec3> guide_variance = noise;
   for (Vec3& v : guide_variance) v *= 0.5f / 3;
-  const Conductance c = conductances(texels, graph, guide, guide_variance, options.strength, context);
+  std::vector<Vec3> raw_variance = raw_noise;
+  for (Vec3& v : raw_variance) v *= 0.5f;
+  const Conductance c =
+      conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance}, options.strength, context);
   std::vector<Vec3> smooth[kHalves];
   for (int h = 0; h < kHalves; ++h) smooth[h] = diffuse(texels, graph, c, half[h], options.passes, context);
 

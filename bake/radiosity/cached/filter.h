@@ -24,6 +24,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
 // Where gathered light comes from, smoothed over each texel's surroundings: a few dozen rays tell it poorly.
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context);
 
+// Refinement that chose texels by their own noisy errors would stop where chance made them small, and state them too
+// small: it goes by wide surroundings (about 130 texels). `errors` of one sample.
+std::vector<float> typical_errors(const TexelGraph& graph, std::vector<float> errors, Context& context);
+
 // Squared errors pooled over each texel's surroundings (about 33 texels), relative to its light: a dark texel beside
 // bright ones has their relative error, not their absolute one. `light`: lux.
 std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,

@@ -12,14 +12,13 @@ constexpr std::size_t kGroup = 64;  // texels whose rays of one number are trace
 // One group of texels, in its thread's memory: what every ray needs of its texel is fetched once.
 class GroupGather {
  public:
-  GroupGather(const Texels& texels, const Surroundings& around, const DirectionSets& sets,
-              std::span<const std::uint32_t> list, std::span<const Vec3> irradiance, bool moments)
-      : texels_(texels), around_(around), sets_(sets), irradiance_(irradiance), moments_(moments) {
+  GroupGather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
+              const CachedLight& cached, const ShiftedNet& net, bool moments)
+      : texels_(texels), around_(around), cached_(cached), net_(net), moments_(moments) {
     for (const std::uint32_t t : list) {
       if (texels.visible[t] == 0) continue;
       members_.emplace_back();
       members_.back().texel = t;
-      members_.back().set = DirectionSets::set_of(texels.page[t], texels.x[t], texels.y[t]);
     }
   }
 
@@ -29,11 +28,11 @@ class GroupGather {
     for (int half = 0; half < kHalves; ++half) {
       for (Member& m : members_) {
         m.sum = Vec3(0), m.moments = Vec4(0);
-        m.directions = sets_.row(m.set, half);
         m.done = sums.samples[m.texel];
+        m.shift = net_.shift(std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half));
       }
       for (std::uint32_t k = first; k < per_half; ++k) {
-        if (k == first || k % kKeptSites == 0) fetch_sites(half, k - k % kKeptSites);
+        if (k == first || k % kKeptSites == 0) fetch_sites(half, k - k % kKeptSites, k == first);
         add_sample(half, k);
       }
       for (const Member& m : members_) {
@@ -46,19 +45,20 @@ class GroupGather {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  static constexpr std::uint32_t kKeptSites = 4;
+  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;  // whole texels have no others
   struct Member {
-    std::uint32_t texel = 0, set = 0;
+    std::uint32_t texel = 0;
     std::uint32_t done = 0;  // samples of each half that it has
-    const Vec3* directions = nullptr;
+    UVec2 shift{0};          // of its directions, by half
     std::array<GatherSite, kKeptSites> site;
     Vec3 sum{0};
     Vec4 moments{0};
   };
 
-  void fetch_sites(int half, std::uint32_t k) {
+  void fetch_sites(int half, std::uint32_t k, bool all) {
     for (Member& m : members_)
-      for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
+      for (std::uint32_t i = 0; i < kKeptSites && (all || texels_.visible[m.texel] < 1); ++i)
+        m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
   }
 
   void add_sample(int half, std::uint32_t k) {
@@ -68,16 +68,18 @@ class GroupGather {
       const Member& m = members_[i];
       if (m.done > k) continue;
       const GatherSite& site = m.site[k % kKeptSites];
-      batch_.push_back(site.ray(m.directions[k]));
-      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0,
-                        std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half), k});
+      const std::uint64_t stream = std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half);
+      batch_.push_back(site.ray(net_.point(k, m.shift)));
+      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0, stream, k});
       target_.push_back(i);
     }
     around_.answer(batch_, about_, answers_);
     rays_ += batch_.size() + answers_.rays;
     auto& light = answers_.light;
-    for (const Link& link : answers_.links) light[link.ray] += link.weight * irradiance_[link.texel] / kPi;
+    for (const Link& link : answers_.links) light[link.ray] += link.weight * cached_.irradiance[link.texel] / kPi;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
+      if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel)
+        light[i] += cached_.texels[texel].at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
       Member& m = members_[target_[i]];
       m.sum += kPi * light[i];
       if (moments_)
@@ -88,8 +90,8 @@ class GroupGather {
 
   const Texels& texels_;
   const Surroundings& around_;
-  const DirectionSets& sets_;
-  std::span<const Vec3> irradiance_;
+  const CachedLight& cached_;
+  const ShiftedNet& net_;
   bool moments_;
   std::vector<Member> members_;
   std::vector<Ray> batch_;
@@ -101,12 +103,13 @@ class GroupGather {
 
 }  // namespace
 
-Status gather(const Texels& texels, const Surroundings& around, const DirectionSets& sets,
-              std::span<const std::uint32_t> list, std::uint32_t per_half, std::span<const Vec3> irradiance,
-              Context& context, HalfSums& sums, std::atomic<std::uint64_t>& rays) {
+Status gather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
+              std::uint32_t per_half, const CachedLight& cached, Context& context, HalfSums& sums,
+              std::atomic<std::uint64_t>& rays) {
+  const ShiftedNet net(context.seed + 0x9a7e, per_half);
   const auto body = [&](std::size_t g) {
     const std::size_t first = g * kGroup;
-    GroupGather group(texels, around, sets, list.subspan(first, std::min(kGroup, list.size() - first)), irradiance,
+    GroupGather group(texels, around, list.subspan(first, std::min(kGroup, list.size() - first)), cached, net,
                       !sums.moments.empty());
     group.run(per_half, sums);
     rays += group.rays();

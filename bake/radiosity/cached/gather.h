@@ -1,7 +1,8 @@
 // The final gather: cosine-distributed rays from every texel into the cached light.
 #pragma once
 
-#include "bake/radiosity/cached/directions.h"
+#include "bake/radiosity/cached/cached_light.h"
+#include "bake/radiosity/cached/gather_site.h"
 #include "bake/radiosity/cached/surroundings.h"
 
 namespace oriel {
@@ -21,10 +22,10 @@ struct HalfSums {
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
 };
 
-// Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. outgoing: irradiance by
-// texel that rays find, lux. Error kStopped.
-Status gather(const Texels& texels, const Surroundings& around, const DirectionSets& sets,
-              std::span<const std::uint32_t> list, std::uint32_t per_half, std::span<const Vec3> irradiance,
-              Context& context, HalfSums& sums, std::atomic<std::uint64_t>& rays);
+// Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. Directions are
+// a net (ShiftedNet) of each texel's and half's own. Error kStopped.
+Status gather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
+              std::uint32_t per_half, const CachedLight& cached, Context& context, HalfSums& sums,
+              std::atomic<std::uint64_t>& rays);
 
 }  // namespace oriel

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "bake/jobs/parallel.h"
-#include "bake/trace/warp.h"
 
 namespace oriel {
 namespace {
@@ -107,8 +106,7 @@ class Solver {
       const std::uint32_t t = texel_for(patches_[p], k / kSites);
       GatherRay& ray = about[p - first];
       const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
-      // Directions of its own: what patches share in the final gather would tint the mean of all bounces here.
-      batch.push_back(site.ray(square_to_cosine_hemisphere(Sampler(seed, p, k).next2())));
+      batch.push_back(site.ray(Sampler(seed, p, k).next2()));
       if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
       ray.stream = ~std::uint64_t{p};
       ray.sample = k;
@@ -116,13 +114,16 @@ class Solver {
     Answers answers;
     around_.answer(batch, about, answers);
     const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
-    for (const Link& link : answers.links) {
-      Patch& patch = patches_[first + link.ray];
-      patch.source += DVec3(link.weight * direct_[link.texel] * share);
-      if (patch_of_[link.texel] != ~0u) patch.links.push_back({patch_of_[link.texel], link.weight * share});
-    }
-    for (std::size_t i = 0; i < batch.size(); ++i)
+    const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
+      Patch& patch = patches_[first + ray];
+      patch.source += DVec3(weight * direct_[texel] * share);
+      if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
+    };
+    for (std::uint32_t i = 0; i < batch.size(); ++i) {
       patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
+      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel) link_to(i, texel, texels_.albedo[texel]);
+    }
+    for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
     return batch.size() + answers.rays;
   }
 

@@ -2,7 +2,7 @@
 // texels that walls divide is a patch for each part of it.
 #pragma once
 
-#include "bake/radiosity/cached/directions.h"
+#include "bake/radiosity/cached/gather_site.h"
 #include "bake/radiosity/cached/surroundings.h"
 #include "bake/radiosity/texels/neighbours.h"
 

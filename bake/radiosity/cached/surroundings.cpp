@@ -26,6 +26,7 @@ Surroundings::Surroundings(const Transport& transport, const Texels& texels, boo
 void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> about, Answers& answers) const {
   answers.hits.resize(rays.size());
   answers.light.assign(rays.size(), Vec3(0));
+  answers.texel.assign(rays.size(), kNoTexel);
   answers.links.clear();
   answers.rays = 0;
   t_.accel.intersect(rays, answers.hits);
@@ -39,9 +40,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
       follow(rays[i], about[i], hit, i, answers);
       continue;
     }
-    if (!hit.front) continue;  // texels hold the light of fronts
-    const std::uint32_t texel = texels_.find(hit.triangle, hit.barycentric);
-    if (texel != kNoTexel) answers.links.push_back({i, texel, texels_.albedo[texel]});
+    if (hit.front) answers.texel[i] = texels_.find(hit.triangle, hit.barycentric);  // texels hold the light of fronts
   }
 }
 

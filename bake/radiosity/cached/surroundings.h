@@ -12,17 +12,19 @@ struct GatherRay {
   std::uint32_t sample = 0;
 };
 
-// The light along a ray: light + Σ weight * irradiance(texel) / π over its links.
+// A texel seen through lobes and layers.
 struct Link {
   std::uint32_t ray = 0;  // of the batch
   std::uint32_t texel = 0;
   Vec3 weight{0};
 };
+// The light along a ray: light + albedo(texel) * irradiance(texel) / π + Σ weight * irradiance / π over its links.
 struct Answers {
   std::vector<Hit> hits;
-  std::vector<Link> links;  // in order of rays
-  std::vector<Vec3> light;  // by ray: sky, emitters behind mirrors, and emitters that closed forms do not hold
-  std::uint64_t rays = 0;   // traced, beyond the batch itself
+  std::vector<std::uint32_t> texel;  // by ray: of the matt surface met; kNoTexel: none
+  std::vector<Link> links;           // in order of rays
+  std::vector<Vec3> light;           // by ray: sky, emitters behind mirrors, and emitters that closed forms do not hold
+  std::uint64_t rays = 0;            // traced, beyond the batch itself
 };
 
 class Surroundings {

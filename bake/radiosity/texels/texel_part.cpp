@@ -8,7 +8,8 @@
 namespace oriel {
 namespace {
 
-constexpr float kLift = 0.1f;          // of a texel's side
+constexpr float kLift = 0.1f;  // of a texel's side
+constexpr std::uint64_t kSeed = 0x9a27;
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
@@ -36,7 +37,7 @@ std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& a
 }  // namespace
 
 TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-                     std::uint64_t seed, std::uint64_t stream, std::uint64_t& rays)
+                     std::uint64_t stream, std::uint64_t& rays)
     : accel_(transport.accel) {
   const Scene& scene = accel_.scene();
   const auto corners = corners_of(scene, atlas, map, texel);
@@ -51,23 +52,37 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     return;
   std::vector<Vec3> left;
   for (std::uint32_t k = 0; k < kPoints; ++k) {
-    Sampler sampler(~seed, stream, k);
+    Sampler sampler(kSeed, stream, k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint p = point(Vec3(uv, sampler.next1()));
-    if (!is_buried(transport, p, seed, stream, ~k, rays)) left.push_back(lifted(p));
+    if (!is_buried(transport, p, kSeed, stream, k, rays)) left.push_back(lifted(p));
   }
-  // Points that see one another stand on one side.
   for (std::size_t most = 0; left.size() > most;) {
-    const Vec3 first = left.front();
-    const auto seen = std::partition(left.begin(), left.end(), [&](const Vec3& p) { return !is_free(first, p, rays); });
-    const auto count = static_cast<std::size_t>(left.end() - seen);
-    if (count > most) anchor_ = first, most = count;
-    left.erase(seen, left.end());
+    Side side = take_side(left, rays);
+    if (side.points > most) anchors_ = std::move(side.anchors), most = side.points;
   }
 }
 
+// Points that see one another, directly or by way of others (around a corner of the wall), stand on one side.
+TexelPart::Side TexelPart::take_side(std::vector<Vec3>& left, std::uint64_t& rays) const {
+  Side side;
+  std::vector<Vec3> reached{left.back()};
+  left.pop_back();
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Vec3 from = reached[k];
+    const auto seen = std::partition(left.begin(), left.end(), [&](const Vec3& p) { return !is_free(from, p, rays); });
+    if (k == 0 || seen != left.end()) side.anchors.push_back(from);  // between them, they see the whole side
+    reached.insert(reached.end(), seen, left.end());
+    left.erase(seen, left.end());
+  }
+  side.points = reached.size();
+  return side;
+}
+
 bool TexelPart::holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const {
-  return !anchor_ || is_free(*anchor_, lifted(point_on_side(accel_.scene(), triangle, barycentric)), rays);
+  if (whole()) return true;
+  const Vec3 point = lifted(point_on_side(accel_.scene(), triangle, barycentric));
+  return std::any_of(anchors_.begin(), anchors_.end(), [&](const Vec3& a) { return is_free(a, point, rays); });
 }
 
 Vec3 TexelPart::lifted(const SurfacePoint& point) const {

@@ -9,7 +9,7 @@ void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, s
                      TexelSums& sums, std::uint64_t& rays) const {
   const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
   const bool mixed = any_buried(map, i, stream, rays);
-  const TexelPart part(t_, atlas_, map, i, context_.seed, stream, rays);
+  const TexelPart part(t_, atlas_, map, i, stream, rays);
   for (std::uint32_t k = first; k < last; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
     Sampler sampler(context_.seed, stream, k);
@@ -32,10 +32,10 @@ SurfacePoint TexelPaths::point_of(const TexelMapPage& map, std::size_t i, const 
   return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
 }
 
-// Whether some of 16 points spread over the texel are buried: only then every path asks for its own point. Most texels
+// Whether some of 64 points spread over the texel are buried: only then every path asks for its own point. Most texels
 // answer with one ray a point.
 bool TexelPaths::any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
-  for (std::uint32_t k = 0; k < 16; ++k) {
+  for (std::uint32_t k = 0; k < 64; ++k) {
     Sampler sampler(~context_.seed, stream, k);
     const Vec2 uv = sampler.next2();
     if (is_buried(t_, point_of(map, i, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;

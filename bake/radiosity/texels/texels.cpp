@@ -10,9 +10,10 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kRun = 256;          // texels a task
-constexpr std::uint32_t kProbed = 2;       // sites of a half that are asked whether they are buried
-constexpr std::uint32_t kManyPoints = 64;  // tried where a texel is partly buried
+constexpr std::size_t kRun = 256;      // texels a task
+constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averaged
+// Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
+constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
 
 class SiteFinder {
  public:
@@ -32,13 +33,12 @@ class SiteFinder {
       const auto turn = static_cast<std::uint32_t>(k % kSitesPerHalf);
       const SurfacePoint surface = candidate(texels, i, k / kSitesPerHalf, turn);
       texels.site[i][k] = site_of(surface);
-      if (turn >= kProbed) continue;
-      albedo += albedo_at(surface);
       buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
+      if (turn < kColored) albedo += albedo_at(surface);
     }
-    texels.albedo[i] = albedo / static_cast<float>(kHalves * kProbed);
+    texels.albedo[i] = albedo / static_cast<float>(kHalves * kColored);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], seed_, stream, rays), {}};
+    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], stream, rays), {}};
     if (buried > 0 || !found.part.whole()) find_unburied(texels, i, stream, found, rays);
     return found;
   }
@@ -46,7 +46,11 @@ class SiteFinder {
   // Again, with many points: their share, and those that are left.
   void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, Found& found, std::uint64_t& rays) const {
     Vec3 albedo(0);
-    for (std::uint32_t k = 0; k < kManyPoints; ++k) {
+    std::uint32_t tried = 0, total = 0;
+    // A handful of points that escaped the probes do not make a texel visible.
+    const auto enough = [&] { return total * 16 >= tried && !found.many[0].empty() && !found.many[1].empty(); };
+    for (; tried < kManyPoints || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
+      const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
       if (is_buried(t_, surface, seed_, stream, kSites + k, rays) ||
@@ -54,15 +58,13 @@ class SiteFinder {
         continue;
       albedo += albedo_at(surface);
       found.many[half].push_back(site_of(surface));
+      ++total;
     }
-    const std::size_t total = found.many[0].size() + found.many[1].size();
-    // A handful of points that escaped the probes do not make a texel visible.
-    const bool enough = total * 16 >= kManyPoints && !found.many[0].empty() && !found.many[1].empty();
     // Never exactly whole: visible == 1 says that there are no many_sites.
-    texels.visible[i] = enough ? std::min(0.9999f, static_cast<float>(total) / kManyPoints) : 0.0f;
+    texels.visible[i] = enough() ? std::min(0.9999f, static_cast<float>(total) / static_cast<float>(tried)) : 0.0f;
     if (total > 0) texels.albedo[i] = albedo / static_cast<float>(total);
-    if (!enough) found.many = {};
-    for (std::size_t k = 0; enough && k < kSites; ++k) {
+    if (!enough()) found.many = {};
+    for (std::size_t k = 0; enough() && k < kSites; ++k) {
       const auto& many = found.many[k / kSitesPerHalf];
       texels.site[i][k] = many[k % kSitesPerHalf % many.size()];
     }
@@ -103,10 +105,15 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
 
 }  // namespace
 
-std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
+std::uint32_t Texels::number_at(std::uint32_t page_number, int px, int py) const {
   const Page& p = pages[page_number];
   if (px < 0 || py < 0 || px >= static_cast<int>(p.width) || py >= static_cast<int>(p.height)) return kNoTexel;
   return p.number[static_cast<std::size_t>(py) * p.width + static_cast<std::size_t>(px)];
+}
+
+std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
+  const std::uint32_t number = number_at(page_number, px, py);
+  return number == kNoTexel ? kNoTexel : number & ~kCut;
 }
 
 std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
@@ -115,11 +122,11 @@ std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
   const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
   const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
   const auto page_number = static_cast<std::uint32_t>(place.page);
-  if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
-    if (visible[texel] == 1) return texel;
+  if (const std::uint32_t number = number_at(page_number, px, py); number != kNoTexel) {
+    if ((number & kCut) == 0) return number;
+    const std::uint32_t texel = number & ~kCut;
     std::uint64_t rays = 0;
-    const auto part = cut.find(texel);
-    return part == cut.end() || part->second.holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
+    return cut.at(texel).holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
   }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
@@ -183,7 +190,11 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   }));
   for (auto& run : hidden)
     for (auto& [i, found] : run) {
-      if (!found.part.whole()) texels.cut.emplace(i, found.part);
+      if (!found.part.whole()) {
+        texels.cut.emplace(i, found.part);
+        Texels::Page& page = texels.pages[texels.page[i]];
+        page.number[std::size_t{texels.y[i]} * page.width + texels.x[i]] |= Texels::kCut;
+      }
       if (texels.visible[i] > 0) texels.many_sites.emplace(i, std::move(found.many));
     }
   return texels;

@@ -56,9 +56,10 @@ struct Texels {
   // The texel at a place of a page; kNoTexel where none is.
   std::uint32_t at(std::uint32_t page_number, int px, int py) const;
 
+  static constexpr std::uint32_t kCut = 1u << 31;
   struct Page {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint32_t> number;  // by y * width + x
+    std::vector<std::uint32_t> number;  // by y * width + x; kCut is set for those in Texels::cut
   };
   std::vector<Page> pages;
   struct Placement {  // of a triangle on its page, in texels
@@ -68,6 +69,7 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
+  std::uint32_t number_at(std::uint32_t page_number, int px, int py) const;
   std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
 };
 
