@@ -115,6 +115,18 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
   return squares;
 }
 
+// Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
+// much may be left. The halves' product has no noise of its own.
+std::vector<Vec3> left_by_slopes(const HalfSums& sums, Context& context) {
+  constexpr float kLeft = 0.5f;  // of the change
+  std::vector<Vec3> squares(sums.samples.size());
+  each_texel(context, squares.size(), [&](std::size_t i) {
+    const float n = static_cast<float>(std::max(1u, sums.samples[i]));
+    squares[i] = (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
+  });
+  return squares;
+}
+
 Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
                 Context& context) {
   const std::size_t n = texels.count();
@@ -130,12 +142,13 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   const std::vector<Vec3> guide = pooled(graph, mean, 1, context);
   const std::vector<Vec3> raw_noise = pooled_errors(texels, graph, noise, mean, context);
   noise = pooled_errors(texels, graph, std::move(noise), guide, context);
+  const std::vector<Vec3> left = pooled_errors(texels, graph, left_by_slopes(sums, context), guide, context);
 
   Estimate result;
   if (options.strength <= 0 || options.passes <= 0) {
     result.value = mean;
     result.variance = noise;
-    for (Vec3& v : result.variance) v *= 0.5f;
+    for (std::size_t i = 0; i < n; ++i) result.variance[i] = 0.5f * result.variance[i] + glm::max(left[i], Vec3(0));
     return result;
   }
   std::vector<Vec3> guide_variance = noise;
@@ -163,7 +176,8 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   // Relative to the light that the filter leaves, as the error asked for is.
   beyond = pooled_errors(texels, graph, std::move(beyond), result.value, context);
   of_both = pooled_errors(texels, graph, std::move(of_both), result.value, context);
-  each_texel(context, n, [&](std::size_t i) { result.variance[i] = glm::max(beyond[i], of_both[i]); });
+  each_texel(context, n,
+             [&](std::size_t i) { result.variance[i] = glm::max(beyond[i], of_both[i]) + glm::max(left[i], Vec3(0)); });
   const double before = total(texels, mean), after = total(texels, result.value);
   result.energy_drift = before > 0 ? after / before - 1 : 0;
   return result;

@@ -27,7 +27,7 @@ class GroupGather {
     for (const Member& m : members_) first = std::min(first, sums.samples[m.texel]);
     for (int half = 0; half < kHalves; ++half) {
       for (Member& m : members_) {
-        m.sum = Vec3(0), m.moments = Vec4(0);
+        m.sum = m.slope = Vec3(0), m.moments = Vec4(0);
         m.done = sums.samples[m.texel];
         m.shift = net_.shift(std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half));
       }
@@ -37,6 +37,7 @@ class GroupGather {
       }
       for (const Member& m : members_) {
         sums.sum[half][m.texel] += m.sum;
+        sums.slope[half][m.texel] += m.slope;
         if (moments_) sums.moments[m.texel] += m.moments;
       }
     }
@@ -51,7 +52,7 @@ class GroupGather {
     std::uint32_t done = 0;  // samples of each half that it has
     UVec2 shift{0};          // of its directions, by half
     std::array<GatherSite, kKeptSites> site;
-    Vec3 sum{0};
+    Vec3 sum{0}, slope{0};
     Vec4 moments{0};
   };
 
@@ -78,9 +79,13 @@ class GroupGather {
     auto& light = answers_.light;
     for (const Link& link : answers_.links) light[link.ray] += link.weight * cached_.irradiance[link.texel] / kPi;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel)
-        light[i] += cached_.texels[texel].at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
       Member& m = members_[target_[i]];
+      if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel) {
+        const CachedTexel& met = cached_.texels[texel];
+        const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
+        light[i] += there;
+        m.slope += kPi * (there - met.radiance);
+      }
       m.sum += kPi * light[i];
       if (moments_)
         m.moments +=

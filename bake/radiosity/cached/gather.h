@@ -9,14 +9,16 @@ namespace oriel {
 
 // Both halves of an estimate, by texel: sums over the samples taken so far.
 struct HalfSums {
-  std::array<std::vector<Vec3>, kHalves> sum;  // lux * samples
-  std::vector<std::uint32_t> samples;          // of each half
+  std::array<std::vector<Vec3>, kHalves> sum;    // lux * samples
+  std::array<std::vector<Vec3>, kHalves> slope;  // the part of it that CachedTexel's slopes brought
+  std::vector<std::uint32_t> samples;            // of each half
   // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
   // samples. Empty unless asked for.
   std::vector<Vec4> moments;
 
   HalfSums(std::size_t texels, bool directional) : samples(texels), moments(directional ? texels : 0) {
     for (auto& s : sum) s.resize(texels);
+    for (auto& s : slope) s.resize(texels);
   }
   Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
