@@ -83,9 +83,12 @@ Status check_output(const std::filesystem::path& output, const std::vector<std::
 
 std::string light_line(const RadiosityReport& r) {
   std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
-  if (const Certificate& c = r.certificate; c.texels > 0)
-    line += fmt::format("; {} of them beside unbiased paths: {:+.2g} % ± {:.2g} % brighter, error {:.2g} %", c.texels,
-                        100 * c.bias, 100 * c.bias_interval, 100 * c.relative_error);
+  if (const Certificate& c = r.certificate; c.texels > 0) {
+    line += fmt::format("; {} of them beside unbiased paths: {:+.2g} % ± {:.2g} % brighter, ", c.texels, 100 * c.bias,
+                        100 * c.bias_interval);
+    line +=
+        c.relative_error > 0 ? fmt::format("error {:.2g} %", 100 * c.relative_error) : "error lost in the paths' noise";
+  }
   return line;
 }
 

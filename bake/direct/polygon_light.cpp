@@ -229,6 +229,12 @@ bool shares_edge(const PolygonLight& light, const std::array<Vec3, 3>& corners) 
 
 }  // namespace
 
+bool all_emission_is_plain(const Scene& scene) {
+  return std::all_of(scene.materials.begin(), scene.materials.end(), [](const SceneMaterial& m) {
+    return m.unlit || m.emission_texture.image < 0 || !(max_component(m.emission) > 0);
+  });
+}
+
 std::vector<PolygonLight> find_polygon_lights(const Scene& scene) {
   std::vector<PolygonLight> lights;
   for (const Surface& surface : scene.surfaces) {

@@ -28,6 +28,9 @@ struct PolygonLight {
 // All emissive triangles whose emission is not textured, as polygons, in order of their first triangle.
 std::vector<PolygonLight> find_polygon_lights(const Scene& scene);
 
+// Whether find_polygon_lights finds all that surfaces emit: no emission is textured.
+bool all_emission_is_plain(const Scene& scene);
+
 // Where light is received: a point, its shading normal and the normal of the real surface there (both unit). Incidence
 // is weighted by both cosines as the path tracer does it: max(0, n·ω) + max(0, n·ω') for ω above the real surface, ω'
 // its mirror image below (docs/conventions.md); with n = g that is plain irradiance.

@@ -15,20 +15,13 @@ Vec3 unit(const DVec3& v) {
   return Vec3(glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})));
 }
 
-// Every emitting surface has a closed form.
-bool all_plain(const Scene& scene) {
-  return std::all_of(scene.materials.begin(), scene.materials.end(), [](const SceneMaterial& m) {
-    return m.unlit || m.emission_texture.image < 0 || !(max_component(m.emission) > 0);
-  });
-}
-
 }  // namespace
 
 Meter::Meter(const Transport& t, std::span<const MeasurePoint> points, const Context& context)
     : t_(t), context_(context), sums_(points.size() * kReplicates) {
   const Scene& scene = t.accel.scene();
   polygons_ = find_polygon_lights(scene);
-  one_by_one_ = all_plain(scene) && polygons_.size() + scene.lights.size() <= kMostLights &&
+  one_by_one_ = all_emission_is_plain(scene) && polygons_.size() + scene.lights.size() <= kMostLights &&
                 points.size() * polygons_.size() * kReplicates <= kMostTallies;
   for (const MeasurePoint& point : points) add_point(point);
   tallies_.resize(facing_.size() * kReplicates);

@@ -17,6 +17,7 @@ constexpr std::size_t kLeastTexels = 64, kMostTexels = 4096;
 struct Sampled {
   std::size_t page, index;
   DVec3 baked{0}, path{0}, variance{0};
+  bool compared = false;  // false: nearly all of its points are buried
 };
 
 std::vector<Sampled> choose(std::span<const TexelMapPage> map, const Radiosity& radiosity, std::size_t count,
@@ -86,11 +87,14 @@ Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std:
         paths.add(texel_map[s.page], s.page, s.index, 0, kPaths, sums, traced);
         s.path = sums.irradiance();
         s.variance = sums.variance();
-        if (sums.count < kPaths / 4) s.path = s.baked;  // nearly all buried: nothing to compare
+        s.compared = sums.count >= kPaths / 4;
         rays += traced;
       },
       &rays));
   c.rays = rays;
+  std::erase_if(samples, [](const Sampled& s) { return !s.compared; });
+  c.texels = samples.size();
+  if (samples.empty()) return c;
   state_bias(samples, c);
   state_error(samples, DVec3(radiosity.report.mean), c);
   return c;

@@ -223,11 +223,7 @@ DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::sp
     : t_(transport), atlas_(atlas), maps_(texel_map), texels_(texels), seed_(seed) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
-  for (const Surface& surface : scene.surfaces) {
-    const SceneMaterial& m = scene.materials[surface.material];
-    closed_form_ &= m.unlit || m.emission_texture.image < 0 || !(max_component(m.emission) > 0);
-  }
-  closed_form_ &= polygons_.size() <= kMaxPolygons;
+  closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
   if (!closed_form_) polygons_.clear();
 }
 

@@ -111,6 +111,8 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
   const auto scale = [&](std::size_t i) { return light[i] * light[i] + floor * floor + Vec3(1e-30f); };
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] /= scale(i); });
   squares = pooled(graph, std::move(squares), kPoolPasses, context);
+  std::vector<Vec3> wide = pooled(graph, squares, kWidePasses - kPoolPasses, context);
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = 0.5f * (squares[i] + wide[i]);
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
   return squares;
 }

@@ -28,8 +28,9 @@ std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums
 // small: it goes by wide surroundings (about 130 texels). `errors` of one sample.
 std::vector<float> typical_errors(const TexelGraph& graph, std::vector<float> errors, Context& context);
 
-// Squared errors pooled over each texel's surroundings (about 33 texels), relative to its light: a dark texel beside
-// bright ones has their relative error, not their absolute one. `light`: lux.
+// Squared errors pooled over each texel's surroundings, half of them near (about 33 texels), half wide (130): in a
+// small sample a quiet place may be luck. Relative to its light: a dark texel beside bright ones has their relative
+// error, not their absolute one. `light`: lux.
 std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
                                 const std::vector<Vec3>& light, Context& context);
 

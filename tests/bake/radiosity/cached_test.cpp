@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, CachedFurnace,
                          testing::Combine(testing::Bool(), testing::Values(0.0f, 0.5f, 0.9f, 0.99f)));
 
 // Mean of the light by surface, against unbiased paths: within 0.3 %, four standard errors of independent texels and
-// one of texels that share their directions.
+// one of texels among which the filter spread their noise.
 class CachedAgrees : public testing::TestWithParam<Feature> {};
 
 TEST_P(CachedAgrees, SurfaceMeansEqualUnbiasedPaths) {

@@ -1,0 +1,40 @@
+// Stated errors hold the truth as often as they say, and the error asked for is the error met.
+#include "tests/bake/radiosity/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/radiosity/rooms.h"
+
+namespace oriel::test {
+namespace {
+
+class Calibrated : public testing::TestWithParam<Feature> {};
+
+TEST_P(Calibrated, IntervalsHoldTheTruthAndTheErrorAskedForIsMet) {
+  CalibrationOptions settings;
+  settings.texel_m = 0.15f;
+  settings.bakes = 5;
+  settings.cached.error = 0.03;  // less than the first few rays reach by themselves
+  settings.truth_samples = 4096;
+  const Calibration c = calibrate(room(GetParam()), settings);
+  EXPECT_GE(c.covered, 0.90);
+  EXPECT_LE(c.covered, 0.99);
+  EXPECT_NEAR(c.error, settings.cached.error, 0.25 * settings.cached.error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, Calibrated,
+                         testing::Values(Feature::kMatt, Feature::kDielectric, Feature::kSky, Feature::kPoint,
+                                         Feature::kSphere));
+
+// The checker itself: intervals of half the width are found out.
+TEST(Calibration, TooNarrowIntervalsAreFoundOut) {
+  CalibrationOptions settings;
+  settings.texel_m = 0.2f;
+  settings.bakes = 4;
+  settings.truth_samples = 4096;
+  settings.claimed = 0.5;
+  EXPECT_LT(calibrate(room(Feature::kMatt), settings).covered, 0.90);
+}
+
+}  // namespace
+}  // namespace oriel::test
