@@ -19,7 +19,9 @@ TEST_P(Calibrated, IntervalsHoldTheTruthAndTheErrorAskedForIsMet) {
   const Calibration c = calibrate(room(GetParam()), settings);
   EXPECT_GE(c.covered, 0.90);
   EXPECT_LE(c.covered, 0.99);
-  EXPECT_NEAR(c.error, settings.cached.error, 0.25 * settings.cached.error);
+  // Scenes that the first few rays tell better than asked are left at that.
+  EXPECT_LE(c.error, 1.25 * settings.cached.error);
+  EXPECT_GE(c.error, 0.75 * c.stated);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, Calibrated,
