@@ -32,6 +32,9 @@ void add_light_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
 
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
   app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
+  app.add_flag("--double-sided", args.bake.import.double_sided,
+               "Every material reflects and emits on both sides, as renderers that know no single-sided ones have it: "
+               "for models with walls turned the wrong way");
   app.add_option("--threads", args.threads, "Threads; 0: all CPUs. The result does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -106,6 +106,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"seed", seed},
       {"reproducible", o.reproducible},
       {"scene_index", o.import.scene},
+      {"double_sided", o.import.double_sided},
       {"sky_cd_m2", {o.import.sky.r, o.import.sky.g, o.import.sky.b}},
       {"sky_file", o.import.sky_file.filename().string()},
       {"sky_scale", o.import.sky_scale},
