@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bake/trace/brdf/microfacet.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -13,22 +14,8 @@ constexpr int kPolar = 512, kAzimuth = 64;  // quadrature over half vectors
 constexpr int kSubsamples = 4;              // per pixel and axis
 constexpr double kBinnedBelow = 0.25;       // cosθ: beneath it the lobe is narrower across than what subsamples catch
 
-// Smith's Λ from tan²θ: G2 = 1 / (1 + Λ(wo) + Λ(wi)).
-double smith_lambda(KernelModel model, double alpha, double cos_v) {
-  const double tan2 = std::max(0.0, 1 - cos_v * cos_v) / (cos_v * cos_v);
-  if (tan2 <= 0) return 0;
-  if (model == KernelModel::kGgxDg) return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
-  // Beckmann, exact: (erf(a) - 1) / 2 + exp(-a²) / (2 a √π), a = 1 / (α tanθ).
-  const double a = 1 / (alpha * std::sqrt(tan2));
-  return std::max(0.0, std::exp(-a * a) / (2 * a * std::sqrt(kPiD)) - 0.5 * std::erfc(a));
-}
-
-// D(h) from tan² and cos of the half vector's angle: no difference of nearly equal numbers at tiny alpha.
-double facet_density(KernelModel model, double alpha, double tan2, double cos_h) {
-  const double a2 = alpha * alpha, c4 = cos_h * cos_h * cos_h * cos_h;
-  if (model == KernelModel::kBeckmannDg) return std::exp(-tan2 / a2) / (kPiD * a2 * c4);
-  const double q = 1 + tan2 / a2;
-  return 1 / (kPiD * a2 * c4 * q * q);
+Microfacet facets_of(KernelModel model, double alpha) {
+  return {model == KernelModel::kGgxDg ? FacetModel::kGgx : FacetModel::kBeckmann, alpha};
 }
 
 // The mirror direction and its tangent plane; the plane of incidence is x-z of the surface's frame.
@@ -67,7 +54,7 @@ std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_e
 // D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
 std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) {
   const MirrorFrame frame(cos_theta);
-  const double lambda_o = smith_lambda(model, alpha, cos_theta);
+  const Microfacet facets = facets_of(model, alpha);
   std::vector<Node> nodes;
   nodes.reserve(kPolar * kAzimuth);
   for (int i = 0; i < kPolar; ++i) {
@@ -80,7 +67,7 @@ std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) 
       const double cos_d = glm::dot(frame.wo, h);
       const DVec3 wi = 2 * cos_d * h - frame.wo;
       if (cos_d <= 0 || wi.z <= 0) continue;
-      const double g2 = 1 / (1 + lambda_o + smith_lambda(model, alpha, wi.z));
+      const double g2 = facets.g2(frame.wo, wi);
       const double toward = glm::dot(wi, frame.mirror);
       const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
       const double extent =
@@ -152,12 +139,9 @@ double lobe_density(KernelModel model, double alpha, double cos_theta, const DVe
   const double length2 = 1 + glm::dot(tangent, tangent);
   const DVec3 wi = (frame.mirror + tangent.x * frame.across + tangent.y * frame.along) / std::sqrt(length2);
   if (wi.z <= 0) return 0;
-  const DVec3 sum = frame.wo + wi;
-  const double tan2 = (sum.x * sum.x + sum.y * sum.y) / (sum.z * sum.z);
-  const double cos_h = 1 / std::sqrt(1 + tan2);
-  const double g2 = 1 / (1 + smith_lambda(model, alpha, cos_theta) + smith_lambda(model, alpha, wi.z));
+  const double value = facets_of(model, alpha).f_cos(frame.wo, wi, glm::normalize(frame.wo + wi));
   // dω = dA / (1 + t²)^(3/2)
-  return facet_density(model, alpha, tan2, cos_h) * g2 / (4 * cos_theta) / (length2 * std::sqrt(length2));
+  return value / (length2 * std::sqrt(length2));
 }
 
 double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
