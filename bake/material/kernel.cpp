@@ -38,7 +38,7 @@ std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_e
 // D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
 std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) {
   const MirrorFrame frame(cos_theta);
-  const double lambda_o = smith_lambda(model, alpha, cos_theta);
+  const Microfacet facets = microfacet(model, alpha);
   std::vector<Node> nodes;
   nodes.reserve(kPolar * kAzimuth);
   for (int i = 0; i < kPolar; ++i) {
@@ -51,7 +51,7 @@ std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) 
       const double cos_d = glm::dot(frame.wo, h);
       const DVec3 wi = 2 * cos_d * h - frame.wo;
       if (cos_d <= 0 || wi.z <= 0) continue;
-      const double g2 = 1 / (1 + lambda_o + smith_lambda(model, alpha, wi.z));
+      const double g2 = facets.g2(frame.wo, wi);
       const double toward = glm::dot(wi, frame.mirror);
       const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
       const double extent =

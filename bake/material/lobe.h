@@ -1,8 +1,7 @@
 // The lobes that K is sampled from: microfacet distributions with their shadowing.
 #pragma once
 
-#include <functional>
-
+#include "bake/trace/brdf/compensation.h"
 #include "formats/assets/brdf_kernel.h"
 
 namespace oriel {
@@ -14,15 +13,10 @@ enum class LobeForm {
   kLobe,  // times the height-correlated G2 of Smith (Heitz 2014): what a path tracer sees
 };
 
-// A lobe's density per solid angle at unit directions over a surface with normal +z: wo to the eye, wi to the light, h
-// between them; 0 where wi.z <= 0.
-using LobeFunction = std::function<double(const DVec3& wo, const DVec3& wi, const DVec3& h)>;
-
-// D(h) G / (4 cosθo) of a lobe of width alpha > 0. Forms that hold for alpha from 1e-5 up: D is taken from tan²θh.
+// A kernel's distribution. alpha: (0, 1].
+Microfacet microfacet(KernelModel model, double alpha);
+// D(h) G / (4 cosθo), 0 below the horizon.
 LobeFunction microfacet_lobe(KernelModel model, LobeForm form, double alpha);
-
-// Smith's Λ at cos_v > 0: G1 = 1 / (1 + Λ), G2 = 1 / (1 + Λ(wo) + Λ(wi)).
-double smith_lambda(KernelModel model, double alpha, double cos_v);
 
 // The mirror direction of an eye at cosθ in the plane y = 0, and the axes of its tangent plane.
 struct MirrorFrame {

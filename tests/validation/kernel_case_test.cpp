@@ -17,7 +17,8 @@ Json cases_named(const std::string& prefix) {
   const char* folder = std::getenv("ORIEL_VALIDATION");
   if (folder == nullptr) return found;
   std::ifstream file(std::string(folder) + "/brdf_fresnel.json");
-  for (const Json& c : Json::parse(file)["cases"])
+  const Json suite = Json::parse(file);
+  for (const Json& c : suite["cases"])
     if (c["id"].get<std::string>().rfind(prefix, 0) == 0) found.push_back(c);
   return found;
 }

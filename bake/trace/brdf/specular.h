@@ -1,0 +1,60 @@
+// R: the directional albedo of a material's specular lobe (GGX, height-correlated Smith, compensated), exact by
+// quadrature for tables that are baked and interpolated for paths.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "bake/scene/optics/fresnel.h"
+#include "bake/trace/brdf/compensation.h"
+
+namespace oriel {
+
+// Lobes narrower than this are treated as a perfect mirror.
+inline constexpr float kMirrorAlpha = 1e-4f;
+
+struct SpecularLobe {
+  Vec3 f0{0.04f};  // reflectance at normal incidence, [0,1]
+  float f90 = 1;   // at grazing incidence, [0,1]
+  float alpha = 1;
+  FresnelCurve curve;
+};
+
+// F per channel.
+Vec3 specular_fresnel(const SpecularLobe& lobe, double cos_theta);
+// What compensation multiplies the lobe with where s(θo) s(θi) = scale: the share f0 of the lost light comes back.
+inline Vec3 compensated(const Vec3& f0, float scale) {
+  return Vec3(1) + f0 * (scale - 1);
+}
+
+struct Albedo {
+  DVec3 single{0};       // single scattering alone
+  DVec3 compensated{0};  // R; above 1 by 1e-3 at most where the lobe itself is bounded
+};
+// ∫ F f cosθi dωi of a lobe f of the given width, without and with `compensation` of it, by quadrature of `order`;
+// cos_theta in (0,1]. fresnel(cosθd) per channel; f0 its value at 0°.
+Albedo lobe_albedo(const LobeFunction& f_cos, double width, const Compensation& compensation,
+                   const std::function<DVec3(double)>& fresnel, const DVec3& f0, double cos_theta, int order = 24);
+
+// R of a lobe at any cosine in [0,1], error below 1e-4: for tables. alpha is clamped to [0,1].
+class ExactReflectance {
+ public:
+  explicit ExactReflectance(const SpecularLobe& lobe);
+  Vec3 operator()(double cos_theta) const;
+
+ private:
+  SpecularLobe lobe_;
+  std::optional<Compensation> compensation_;  // none: a mirror
+  std::vector<DVec3> weights_;                // of the curve, even in √cosθ
+};
+
+// The same from tables that are made once: errors below 2e-3, but where a curve has a step at grazing angles (an index
+// within 1e-3 of 1).
+Vec3 specular_reflectance(const SpecularLobe& lobe, float cos_theta);
+// {scale, bias} of R in f0 and f90 for a curve's first channel before compensation: R = f0 scale + f90 bias.
+Vec2 split_albedo(const FresnelCurve& curve, float alpha, float cos_theta);
+// s of the GGX lobe.
+double ggx_scale(double alpha, double cos_theta);
+
+}  // namespace oriel
