@@ -13,13 +13,17 @@ namespace {
 constexpr std::uint32_t kSamples = 1024;  // per textured material
 
 bool is_textured(const Scene& scene, const SceneMaterial& m) {
-  return m.base_color_texture.image >= 0 || m.metallic_roughness_texture.image >= 0 || m.emission_texture.image >= 0 ||
-         m.specular_texture.image >= 0 || m.specular_color_texture.image >= 0 || !scene.colors.empty();
+  const auto slots = texture_slots(m);
+  return !scene.colors.empty() ||
+         std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return slot->image >= 0; });
 }
 
-float dielectric_f0(float ior) {
-  const float r = (ior - 1) / (ior + 1);
-  return r * r;
+// The lobe that shows an image is the one that reflects more at normal incidence.
+void choose_image_lobe(MaterialSummary& s, float base_roughness) {
+  s.base_alpha = base_roughness * base_roughness;
+  const bool coat = s.coat > 0 && s.coat * 0.04f >= 0.999f * max_component(s.f0);
+  s.roughness = coat ? std::sqrt(s.coat_alpha) : base_roughness;
+  s.alpha = s.roughness * s.roughness;
 }
 
 // The factors alone (docs/conventions.md, "Materials").
@@ -27,12 +31,23 @@ MaterialSummary from_factors(const SceneMaterial& m) {
   MaterialSummary s;
   s.base_color = m.base_color;
   s.metallic = m.metallic;
-  s.roughness = m.roughness;
-  s.alpha = m.roughness * m.roughness;
   s.transmission = m.transmission;
   s.diffuse = (1 - m.metallic) * (1 - m.transmission) * m.base_color;
-  s.f0 = glm::mix(glm::min(dielectric_f0(m.ior) * m.specular_color, Vec3(1)) * m.specular, m.base_color, m.metallic);
+  s.f0 = glm::mix(glm::min(static_cast<float>(dielectric_f0(m.ior)) * m.specular_color, Vec3(1)) * m.specular,
+                  m.base_color, m.metallic);
   s.f90 = glm::mix(m.specular, 1.0f, m.metallic);
+  s.curve = {.ior = m.ior, .schlick = m.metallic};
+  s.coat = m.coat;
+  s.coat_alpha = m.coat_roughness * m.coat_roughness;
+  if (m.metal != Metal::kNone) {
+    s.metallic = 1;
+    s.f0 = s.base_color = Vec3(metal_f0(m.metal));
+    s.f90 = 1;
+    s.curve = {.metal = m.metal};
+    s.diffuse = Vec3(0);
+    s.transmission = 0;
+  }
+  choose_image_lobe(s, m.roughness);
   s.coverage = m.alpha_mode == AlphaMode::kBlend ? m.alpha : 1;
   s.emission = m.emission;
   return s;
@@ -40,6 +55,7 @@ MaterialSummary from_factors(const SceneMaterial& m) {
 
 float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b) {
   const TextureSlot& slot = m.metallic_roughness_texture;
+  if (m.metal != Metal::kNone) return 1;
   if (slot.image < 0) return m.metallic;
   const auto& uvs = slot.texcoord == 1 ? scene.uv1 : scene.uv0;
   const UVec3 t = scene.triangles[triangle];
@@ -50,7 +66,7 @@ float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t tria
 // Sums of what is averaged, in double and in a fixed order.
 struct Sums {
   DVec3 base_color{0}, diffuse{0}, f0{0}, emission{0};
-  double metallic = 0, roughness = 0, f90 = 0, coverage = 0;
+  double metallic = 0, roughness = 0, f90 = 0, coverage = 0, coat = 0, coat_roughness = 0;
 };
 
 MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::vector<std::uint32_t>& triangles,
@@ -71,6 +87,8 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
     sums.f90 += p.f90;
     sums.coverage += p.coverage;
     sums.roughness += std::sqrt(p.alpha);
+    sums.coat += p.coat;
+    sums.coat_roughness += std::sqrt(p.coat_alpha);
     sums.metallic += metallic_at(scene, m, triangles[at], b);
   }
   MaterialSummary s = from_factors(m);
@@ -81,8 +99,10 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
   s.f90 = static_cast<float>(sums.f90 / kSamples);
   s.coverage = static_cast<float>(sums.coverage / kSamples);
   s.metallic = static_cast<float>(sums.metallic / kSamples);
-  s.roughness = static_cast<float>(sums.roughness / kSamples);
-  s.alpha = s.roughness * s.roughness;
+  s.coat = static_cast<float>(sums.coat / kSamples);
+  s.coat_alpha = static_cast<float>(std::pow(sums.coat_roughness / kSamples, 2));
+  if (s.curve.metal == Metal::kNone) s.curve.schlick = s.metallic;
+  choose_image_lobe(s, static_cast<float>(sums.roughness / kSamples));
   return s;
 }
 
@@ -101,7 +121,26 @@ int quantised(float x) {
   return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024));
 }
 
+// What tells Fresnel maps apart.
+std::array<int, 10> fresnel_key(const MaterialSummary& s) {
+  const int ior = s.curve.schlick < 1 ? static_cast<int>(std::lround(std::min(s.curve.ior, 1e5f) * 4096)) : 0;
+  return {quantised(s.f0.r),
+          quantised(s.f0.g),
+          quantised(s.f0.b),
+          quantised(s.f90),
+          quantised(std::sqrt(s.base_alpha)),
+          quantised(s.coat),
+          quantised(std::sqrt(s.coat_alpha)),
+          ior,
+          quantised(s.curve.schlick),
+          static_cast<int>(s.curve.metal)};
+}
+
 }  // namespace
+
+SpecularLayers layers_of(const MaterialSummary& s) {
+  return {{s.f0, s.f90, s.base_alpha, s.curve}, s.coat, s.coat_alpha};
+}
 
 MaterialSummary summarize_material(const Scene& scene, std::uint32_t material) {
   std::vector<std::uint32_t> triangles;
@@ -129,14 +168,13 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
 
   // Which maps are needed, in the order of the materials; then all at once.
   std::map<int, std::int32_t> kernel_of;
-  std::map<std::array<int, 5>, std::int32_t> fresnel_of;
+  std::map<std::array<int, 10>, std::int32_t> fresnel_of;
   std::vector<std::size_t> kernel_owner, fresnel_owner;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const MaterialSummary& s = maps.summaries[m];
-    if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0)) continue;
+    if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0)) continue;
     const int roughness = quantised(s.roughness);
-    const auto [fresnel, is_new] = fresnel_of.try_emplace(
-        {quantised(s.f0.r), quantised(s.f0.g), quantised(s.f0.b), quantised(s.f90), roughness}, fresnel_owner.size());
+    const auto [fresnel, is_new] = fresnel_of.try_emplace(fresnel_key(s), fresnel_owner.size());
     if (is_new) fresnel_owner.push_back(m);
     maps.fresnel_map[m] = fresnel->second;
     if (s.roughness > options.max_roughness) continue;
@@ -151,8 +189,7 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
       maps.kernels[i] = make_kernel(maps.summaries[kernel_owner[i]].alpha, options.model, 1, options.kernel);
     } else {
       const MaterialSummary& s = maps.summaries[fresnel_owner[i - kernel_owner.size()]];
-      maps.fresnel_maps[i - kernel_owner.size()] =
-          make_fresnel_map(s.f0, s.f90, s.alpha, options.table_size, options.sphere_size);
+      maps.fresnel_maps[i - kernel_owner.size()] = make_fresnel_map(layers_of(s), options.fresnel);
     }
   }));
   return maps;

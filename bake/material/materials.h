@@ -14,10 +14,13 @@ struct MaterialSummary {
   Vec3 base_color{1};  // linear
   Vec3 diffuse{0};     // (1 - metallic) (1 - transmission) base colour
   float metallic = 0;
-  float roughness = 1;
-  float alpha = 1;  // GGX width: the square of the mean roughness
+  float roughness = 1;   // of the lobe that shows an image: the coat's where it reflects as much as what it covers
+  float alpha = 1;       // GGX width: the square of that roughness
+  float base_alpha = 1;  // of the lobe under the coat
   Vec3 f0{0.04f};
   float f90 = 1;
+  FresnelCurve curve;
+  float coat = 0, coat_alpha = 0;  // a clear coat's share and GGX width
   float transmission = 0;
   float coverage = 1;
   Vec3 emission{0};  // cd/m²
@@ -34,8 +37,11 @@ struct MaterialOptions {
   KernelModel model = KernelModel::kGgxDg;
   KernelOptions kernel;
   float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel
-  std::uint32_t table_size = 64, sphere_size = 64;
+  FresnelMapOptions fresnel;
 };
+
+// What R is computed of.
+SpecularLayers layers_of(const MaterialSummary& summary);
 
 struct MaterialMaps {
   std::vector<MaterialSummary> summaries;  // by material, as are the two below

@@ -32,7 +32,7 @@ class Stopwatch {
 
 std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
   std::vector<ReflectorMaterial> out;
-  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90});
+  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
   return out;
 }
 
