@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bake/material/lobe.h"
+#include "bake/trace/brdf/quadrature.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -133,8 +134,11 @@ double lobe_density(KernelModel model, double alpha, double cos_theta, const DVe
 }
 
 double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
+  const Microfacet facets = microfacet(model, alpha);
   double total = 0;
-  for (const Node& node : lobe_nodes(model, alpha, cos_theta)) total += node.weight;
+  for_each_reflection(cos_theta, alpha, 24, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
+    total += facets.f_cos(direction_at(cos_theta), wi, h) * solid_angle;
+  });
   return std::min(total, 1.0);
 }
 

@@ -16,7 +16,7 @@ double fresnel_dielectric(double eta, double cos_theta) {
   if (eta == 1) return 0;
   const double c = std::clamp(cos_theta, 0.0, 1.0), difference = (eta - 1) * (eta + 1);
   const double g2 = difference + c * c;
-  if (g2 <= 0) return 1;
+  if (g2 <= 0 || c == 0) return 1;
   const double g = std::sqrt(g2);
   const double s = difference / ((c + g) * (c + g));  // (g - c) / (g + c) without the difference
   const double p = (eta * eta * c - g) / (eta * eta * c + g);

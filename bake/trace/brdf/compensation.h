@@ -22,12 +22,12 @@ class Compensation {
   Compensation(const LobeFunction& f_cos, double width, int order);
   Compensation(const Microfacet& isotropic, int order = 24);
 
-  // s and the single-scattering albedo E at a cosine in [0,1]: interpolated, to 1e-3.
+  // s and the single-scattering albedo E at a cosine in [0,1]: interpolated, to 2e-3.
   double scale(double cos_theta) const { return at(scale_, cos_theta); }
   double albedo(double cos_theta) const { return at(albedo_, cos_theta); }
 
   // Nodes of the tables are even in q = cosθ (1 + α) / (cosθ + α): where α is small, albedos depend on cosθ / α alone.
-  static constexpr int kNodes = 64;
+  static constexpr int kNodes = 96;
   static double coordinate(double width, double cos_theta) {
     return cos_theta * (1 + width) / (cos_theta + width) * (kNodes - 1);
   }

@@ -151,7 +151,6 @@ Albedo lobe_albedo(const LobeFunction& f_cos, double width, const Compensation& 
 }
 
 ExactReflectance::ExactReflectance(const SpecularLobe& lobe) : lobe_(lobe) {
-  lobe_.alpha = std::clamp(lobe.alpha, 0.0f, 1.0f);
   if (lobe_.alpha < kMirrorAlpha) return;
   compensation_.emplace(Microfacet(FacetModel::kGgx, lobe_.alpha), kGgxOrder);
   weights_ = curve_table(lobe_.curve);

@@ -18,7 +18,15 @@ struct SpecularLobe {
   Vec3 f0{0.04f};  // reflectance at normal incidence, [0,1]
   float f90 = 1;   // at grazing incidence, [0,1]
   float alpha = 1;
-  FresnelCurve curve;
+  FresnelCurve curve = {};
+};
+
+// A lobe under a clear coat of index 1.5 that covers a share of the surface. The coat takes its R of what arrives, at
+// the viewing angle; its own lower side is not followed.
+struct SpecularLayers {
+  SpecularLobe base;
+  float coat = 0, coat_alpha = 0;  // [0,1]
+  SpecularLobe coat_lobe() const { return {Vec3(0.04f), 1, coat_alpha, {.ior = 1.5f, .schlick = 0}}; }
 };
 
 // F per channel.
@@ -37,7 +45,7 @@ struct Albedo {
 Albedo lobe_albedo(const LobeFunction& f_cos, double width, const Compensation& compensation,
                    const std::function<DVec3(double)>& fresnel, const DVec3& f0, double cos_theta, int order = 24);
 
-// R of a lobe at any cosine in [0,1], error below 1e-4: for tables. alpha is clamped to [0,1].
+// R of a lobe at any cosine in [0,1], error below 2e-4: for tables.
 class ExactReflectance {
  public:
   explicit ExactReflectance(const SpecularLobe& lobe);
