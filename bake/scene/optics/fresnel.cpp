@@ -23,13 +23,18 @@ double fresnel_dielectric(double eta, double cos_theta) {
   return std::min(1.0, 0.5 * (s * s + p * p));
 }
 
-double fresnel_conductor(const ComplexIndex& index, double cos_theta) {
+PolarisedReflectance polarised_reflectance(const ComplexIndex& index, double cos_theta) {
   const auto [n, k] = index;
-  if (k == 0) return fresnel_dielectric(n, cos_theta);
+  if (n == 1 && k == 0) return {};
   const double c = std::clamp(cos_theta, 0.0, 1.0);
   const std::complex<double> eta2((n - k) * (n + k), 2 * n * k);
   const std::complex<double> g = std::sqrt(std::complex<double>((n - 1) * (n + 1) - k * k + c * c, 2 * n * k));
-  const double s = std::norm((c - g) / (c + g)), p = std::norm((eta2 * c - g) / (eta2 * c + g));
+  return {std::norm((c - g) / (c + g)), std::norm((eta2 * c - g) / (eta2 * c + g))};
+}
+
+double fresnel_conductor(const ComplexIndex& index, double cos_theta) {
+  if (index.k == 0) return fresnel_dielectric(index.n, cos_theta);
+  const auto [s, p] = polarised_reflectance(index, cos_theta);
   return std::min(1.0, 0.5 * (s + p));
 }
 

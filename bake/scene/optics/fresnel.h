@@ -15,6 +15,11 @@ double fresnel_dielectric(double eta, double cos_theta);
 // n = 1, k = 0. The root is taken of (η² - 1) + cos²θ: the usual η² - sin²θ cancels at grazing angles where η is
 // near 1.
 double fresnel_conductor(const ComplexIndex& index, double cos_theta);
+// Its parts: light polarised across (s) and in (p) the plane of incidence.
+struct PolarisedReflectance {
+  double s = 0, p = 0;
+};
+PolarisedReflectance polarised_reflectance(const ComplexIndex& index, double cos_theta);
 
 // Schlick 1994: f0 at 0°, f90 at 90°.
 double fresnel_schlick(double f0, double f90, double cos_theta);
