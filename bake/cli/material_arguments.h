@@ -13,6 +13,7 @@ struct MaterialArguments {
   bool evaluate = false;
   EvaluateOptions evaluation;
   bool json = false;
+  std::vector<double> fit_alphas;  // not empty: print Phong's lobe fitted to Ward's of these widths
 };
 
 // Values as typed, until resolve_material() turns them into options.

@@ -107,6 +107,21 @@ Vec3 sphere_lookup(const FresnelMap& map, float cos_theta) {
                   glm::mix(at(left, low + 1), at(left + 1, low + 1), fx), fy);
 }
 
+std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries) {
+  std::vector<Vec2> table;
+  const std::uint32_t n = std::max(entries, 2u);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const float root = static_cast<float>(i) / static_cast<float>(n - 1);
+    table.push_back(split_albedo(curve, unit(alpha), root * root));
+  }
+  return table;
+}
+
+Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
+  const float whole = entry.x + entry.y;
+  return unit((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)));
+}
+
 FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers) {
   const ExactLayers exact(sane(layers));
   FresnelMapErrors errors;
@@ -117,6 +132,10 @@ FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& lay
     errors.table = std::max(errors.table, double{distance(r, fresnel_lookup(map, cos_theta))});
     if (!map.sphere.empty())
       errors.sphere = std::max(errors.sphere, double{distance(r, sphere_lookup(map, cos_theta))});
+  }
+  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
+    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
+    errors.sphere_mean += distance(exact(cos_theta), sphere_lookup(map, cos_theta)) / double{kProbes};
   }
   return errors;
 }
