@@ -50,6 +50,15 @@ void add_eval(CLI::App& app, MaterialTexts& texts, MaterialArguments& args) {
   eval->add_flag("--json", args.json, "JSON instead of a table");
 }
 
+void add_fit(CLI::App& app, MaterialArguments& args) {
+  CLI::App* fit = app.add_subcommand(
+      "fit", "Fits Phong's lobe to Ward's and prints it beside the published 1.999/alpha^2 and 0.0398 exponent");
+  fit->add_option("--alpha", args.fit_alphas, "Widths of Ward's lobe, comma-separated")
+      ->check(CLI::Range(1e-3, 1.0))
+      ->delimiter(',')
+      ->required();
+}
+
 // Three values of one or three.
 Result<DVec3> per_channel(const std::vector<double>& values, double fallback, const char* option) {
   if (values.empty()) return DVec3(fallback);
@@ -62,15 +71,18 @@ Result<DVec3> per_channel(const std::vector<double>& values, double fallback, co
 
 CLI::App* add_material(CLI::App& app, MaterialTexts& texts, MaterialArguments& args) {
   CLI::App* material = app.add_subcommand("material", "Reflection models in numbers");
-  material->require_subcommand(1);
+  material->require_subcommand(0, 1);
+  add_material_plot(*material, args.plot);
   texts.material = material;
   add_eval(*material, texts, args);
+  add_fit(*material, args);
   return material;
 }
 
 Status resolve_material(const MaterialTexts& texts, MaterialArguments& args) {
   args.wanted = texts.material->parsed();
   args.evaluate = texts.eval->parsed();
+  if (args.wanted && texts.material->get_subcommands().empty()) ORIEL_TRY_VOID(check_material_plot(args.plot));
   args.evaluation.model = kModels.at(texts.model);
   args.evaluation.angles_deg = texts.angles_deg;
   if (!texts.metal.empty()) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bake/cli/material_plot.h"
 #include "bake/material/evaluate.h"
 #include "formats/core/result.h"
 
@@ -13,6 +14,8 @@ struct MaterialArguments {
   bool evaluate = false;
   EvaluateOptions evaluation;
   bool json = false;
+  MaterialPlotArguments plot;
+  std::vector<double> fit_alphas;  // not empty: print Phong's lobe fitted to Ward's of these widths
 };
 
 // Values as typed, until resolve_material() turns them into options.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/cli/material_arguments.h"
+#include "bake/trace/brdf/ward.h"
 
 namespace oriel {
 namespace {
@@ -40,6 +41,17 @@ std::string evaluation_table(const std::vector<Evaluation>& rows) {
   return text;
 }
 
+std::string fit_table(const std::vector<double>& alphas) {
+  std::string text = fmt::format("{:>8} {:>18} {:>14} {:>12} {:>16}\n", "alpha", "exponent*alpha^2", "gain/exponent",
+                                 "chi2", "chi2 published");
+  for (const double alpha : alphas) {
+    const PhongFit fit = fit_phong(alpha);
+    text += fmt::format("{:8g} {:18.5f} {:14.6f} {:12.3g} {:16.3g}\n", alpha, fit.phong.exponent * alpha * alpha,
+                        fit.phong.gain / fit.phong.exponent, fit.chi2, fit.published_chi2);
+  }
+  return text;
+}
+
 Status print(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
@@ -49,6 +61,8 @@ Status print(const std::string& text) {
 }  // namespace
 
 Status run_material(const MaterialArguments& args) {
+  if (args.plot.wanted()) return run_material_plot(args.plot);
+  if (!args.evaluate) return print(fit_table(args.fit_alphas));
   const std::vector<Evaluation> rows = evaluate(args.evaluation);
   return print(args.json ? evaluation_json(rows) : evaluation_table(rows));
 }

@@ -56,9 +56,10 @@ Status draw(const std::filesystem::path& folder, const std::string& script) {
 
 void add_material_plot(CLI::App& material, MaterialPlotArguments& args) {
   material.add_flag("--list", args.list, "Prints the materials that --plot knows, with their Fresnel reflectance");
-  auto* plot = material.add_option("--plot", args.plot,
-                                   "Writes K and R of a material as CSV, and pictures of them where gnuplot is "
-                                   "installed")
+  auto* plot = material
+                   .add_option("--plot", args.plot,
+                               "Writes K and R of a material as CSV, and pictures of them where gnuplot is "
+                               "installed")
                    ->type_name("NAME");
   material.add_option("-o,--output", args.folder, "Folder of --plot's files; made where it is missing")
       ->type_name("DIR")
@@ -75,6 +76,8 @@ void add_material_plot(CLI::App& material, MaterialPlotArguments& args) {
 }
 
 Status check_material_plot(const MaterialPlotArguments& args) {
+  if (!args.wanted())
+    return fail(ErrorCode::kUsage, "material", "found nothing to do, expected --list, --plot, eval or fit");
   if (!args.plot.empty() && args.folder.empty())
     return fail(ErrorCode::kUsage, "--plot", "writes files: -o DIR is missing");
   return {};

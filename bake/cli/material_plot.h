@@ -17,6 +17,7 @@ struct MaterialPlotArguments {
   float alpha = 0.1f;
   KernelModel model = KernelModel::kGgxDg;
   bool pictures = true;
+  bool wanted() const { return list || !plot.empty(); }
 };
 
 void add_material_plot(CLI::App& material, MaterialPlotArguments& args);

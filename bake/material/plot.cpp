@@ -45,7 +45,8 @@ std::string sphere_csv(const FresnelMap& map) {
   return text;
 }
 
-// Half angle of the cone around the mirror direction that holds a share of the lobe; linear between the table's entries.
+// Half angle of the cone around the mirror direction that holds a share of the lobe; linear between the table's
+// entries.
 double cone_deg(const KernelSlice& slice, double share) {
   const double last = static_cast<double>(slice.radial.size() - 1);
   std::size_t i = 1;
@@ -134,7 +135,7 @@ set autoscale fix
 set datafile separator ','
 set grid
 set key bottom right
-set title 'share within a cone around the mirror direction'
+set title 'share within a cone'
 set xlabel 'half angle, degrees'
 plot [0:*] [0:1] for [a in '0 60 80'] '{0}_radial.csv' skip 1 \
   using (strcol(1) eq 'lobe' && strcol(2) eq a ? $3 : 1/0):4 with lines lw 2 title a.' degrees'
@@ -155,15 +156,16 @@ std::vector<NamedMaterial> named_materials() {
     out.push_back({constants.name, index, {Vec3(metal_f0(metal)), 1, 0, {.schlick = 0, .metal = metal}}});
   }
   for (const auto& [name, ior] : {std::pair("water", 1.333f), std::pair("glass", 1.5f), std::pair("diamond", 2.417f)})
-    out.push_back({name, index_text({ior, 0}),
-                   {Vec3(static_cast<float>(dielectric_f0(ior))), 1, 0, {.ior = ior, .schlick = 0}}});
+    out.push_back(
+        {name, index_text({ior, 0}), {Vec3(static_cast<float>(dielectric_f0(ior))), 1, 0, {.ior = ior, .schlick = 0}}});
   return out;
 }
 
 std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel model) {
   const FresnelMap map = make_fresnel_map({.base = material.lobe});
   const double alpha = material.lobe.alpha;
-  std::string incidence = "form,angle_deg,cos_theta,albedo,tilt_deg,cone50_deg,cone90_deg,shift,width_across,width_along\n";
+  std::string incidence =
+      "form,angle_deg,cos_theta,albedo,tilt_deg,cone50_deg,cone90_deg,shift,width_across,width_along\n";
   std::string radial = "form,angle_deg,half_angle_deg,share\n";
   add_incidences(model, alpha, incidence, radial);
   std::vector<PlotFile> files{{material.name + "_reflectance.csv", reflectance_csv(map)},

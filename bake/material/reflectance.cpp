@@ -107,15 +107,28 @@ Vec3 sphere_lookup(const FresnelMap& map, float cos_theta) {
                   glm::mix(at(left, low + 1), at(left + 1, low + 1), fx), fy);
 }
 
+std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries) {
+  std::vector<Vec2> table;
+  const std::uint32_t n = std::max(entries, 2u);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const float root = static_cast<float>(i) / static_cast<float>(n - 1);
+    table.push_back(split_albedo(curve, unit(alpha), root * root));
+  }
+  return table;
+}
+
+Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
+  const float whole = entry.x + entry.y;
+  return unit((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)));
+}
+
 SplitReflectance make_split_reflectance(std::uint32_t angles, std::uint32_t roughnesses) {
   SplitReflectance split{std::max(angles, 2u), std::max(roughnesses, 2u), {}};
-  for (std::uint32_t j = 0; j < split.roughnesses; ++j)
-    for (std::uint32_t i = 0; i < split.angles; ++i) {
-      const float root = static_cast<float>(i) / static_cast<float>(split.angles - 1);
-      const float roughness = static_cast<float>(j) / static_cast<float>(split.roughnesses - 1);
-      const Vec2 entry = split_albedo({}, roughness * roughness, root * root);
+  for (std::uint32_t j = 0; j < split.roughnesses; ++j) {
+    const float roughness = static_cast<float>(j) / static_cast<float>(split.roughnesses - 1);
+    for (const Vec2& entry : make_split_table({}, roughness * roughness, split.angles))
       split.table.push_back(glm::clamp(entry, Vec2(0), Vec2(1, 1 - entry.x)));
-    }
+  }
   return split;
 }
 
@@ -129,6 +142,10 @@ FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& lay
     errors.table = std::max(errors.table, double{distance(r, fresnel_lookup(map, cos_theta))});
     if (!map.sphere.empty())
       errors.sphere = std::max(errors.sphere, double{distance(r, sphere_lookup(map, cos_theta))});
+  }
+  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
+    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
+    errors.sphere_mean += distance(exact(cos_theta), sphere_lookup(map, cos_theta)) / double{kProbes};
   }
   return errors;
 }

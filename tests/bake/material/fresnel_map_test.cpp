@@ -1,4 +1,5 @@
 // Fresnel maps against the exact reflectance that they approximate.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,6 +40,11 @@ TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
   }
 }
 
+void print(const std::string& name, float alpha, const FresnelMapErrors& errors) {
+  std::printf("%-12s alpha %-4g  1-D table %.1e  sphere map %.1e (mean %.1e)\n", name.c_str(),
+              static_cast<double>(alpha), errors.table, errors.sphere, errors.sphere_mean);
+}
+
 // The table that the player reads keeps its error for all metals and from an index that hardly reflects to diamond.
 TEST(FresnelMap, TableIsWithinAThousandthOfExact) {
   double worst_sphere = 0;
@@ -46,12 +52,14 @@ TEST(FresnelMap, TableIsWithinAThousandthOfExact) {
     for (int m = 0; m < kMetalCount; ++m) {
       const SpecularLayers layers = metal(static_cast<Metal>(m), alpha);
       const FresnelMapErrors errors = measure_errors(make_fresnel_map(layers), layers);
+      print(constants_of(static_cast<Metal>(m)).name, alpha, errors);
       EXPECT_LT(errors.table, 1e-3) << constants_of(static_cast<Metal>(m)).name << " " << alpha;
       worst_sphere = std::max(worst_sphere, errors.sphere);
     }
     for (const double eta : {1.0001, 1.33, 1.5, 2.5}) {
       const SpecularLayers layers = dielectric(eta, alpha);
       const FresnelMapErrors errors = measure_errors(make_fresnel_map(layers), layers);
+      print(fmt::format("index {}", eta), alpha, errors);
       EXPECT_LT(errors.table, 1e-3) << eta << " " << alpha;
       if (eta > 1.1) worst_sphere = std::max(worst_sphere, errors.sphere);
     }
@@ -71,6 +79,22 @@ TEST(FresnelMap, MirrorFollowsTheExactEquationsTo90Degrees) {
     const double cosine = i / 100.0;
     EXPECT_NEAR(fresnel_lookup(map, static_cast<float>(cosine)).r, fresnel_dielectric(1.5, cosine), 1e-3);
   }
+}
+
+// One table for every colour: the split form with compensation beside the exact R.
+TEST(FresnelMap, SplitTableServesAnyF0) {
+  const FresnelCurve curves[] = {{}, {.ior = 1.5f, .schlick = 0}};
+  for (const FresnelCurve& curve : curves)
+    for (const float alpha : {0.0f, 0.01f, 0.2f, 1.0f}) {
+      const std::vector<Vec2> table = make_split_table(curve, alpha);
+      const Vec3 f0(0.04f, 0.5f, 1);
+      const ExactReflectance exact({f0, 1, alpha, curve});
+      for (std::size_t i = 0; i < table.size(); i += 8) {
+        const double root = static_cast<double>(i) / static_cast<double>(table.size() - 1);
+        EXPECT_LT(max_component(glm::abs(split_reflectance(table[i], f0, 1) - exact(root * root))), 5e-3)
+            << alpha << " " << root * root;
+      }
+    }
 }
 
 // Figure 6 of Bastos et al.: gold is red-yellow from above and white at the rim.

@@ -44,6 +44,24 @@ class BakeCli : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(BakeCli, MaterialsAreListedAndPlotted) {
+  ASSERT_EQ(run("oriel-bake material --list"), 0) << log();
+  EXPECT_NE(log().find("chromium"), std::string::npos);
+  ASSERT_EQ(run("oriel-bake material --plot gold -o plots --no-pictures"), 0) << log();
+  EXPECT_TRUE(fs::exists(folder_ / "plots/gold_reflectance.csv"));
+  EXPECT_TRUE(fs::exists(folder_ / "plots/gold.gp"));
+  EXPECT_EQ(run("oriel-bake material --plot tin -o plots"), 1);
+  EXPECT_NE(log().find("gold, silver"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake material --plot gold"), 1) << "no folder";
+  EXPECT_EQ(run("oriel-bake material"), 1);
+  EXPECT_EQ(run("oriel-bake material --plot gold -o cornell.glb"), 2) << "a file is in the way";
+  const std::string without = "PATH=/nowhere '" + std::string(ORIEL_BIN_DIR) +
+                              "/oriel-bake' material --plot water -o '" + (folder_ / "plots").string() +
+                              "' 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(without.c_str())), 4) << "no gnuplot";
+  EXPECT_TRUE(fs::exists(folder_ / "plots/water_radial.csv")) << "the tables are there all the same";
+}
+
 TEST_F(BakeCli, MaterialEvalPrintsNumbers) {
   ASSERT_EQ(run("oriel-bake material eval --model ggx --alpha 1 --angles 0,60 --json"), 0) << log();
   const auto rows = nlohmann::json::parse(log());
