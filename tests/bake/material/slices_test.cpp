@@ -152,14 +152,18 @@ double l1(const std::vector<double>& a, const std::vector<float>& b) {
 }
 
 TEST(Slices, WeightsAreTheIntegratedLobe) {
+  double worst = 0;
   for (const KernelModel model : kModels)
     for (const LobeForm form : {LobeForm::kD, LobeForm::kDg, LobeForm::kLobe})
       for (const double alpha : {1e-3, 0.2, 1.0})
         for (const double c : {1.0, 0.5, 0.1}) {
           const LobeFunction lobe = microfacet_lobe(model, form, alpha);
           const KernelSlice s = make_slice(lobe, alpha, c);
-          EXPECT_LE(l1(integrated(lobe, c, s), s.weights), 0.01) << alpha << " at " << c;
+          const double off = l1(integrated(lobe, c, s), s.weights);
+          worst = std::max(worst, off);
+          EXPECT_LE(off, 0.01) << alpha << " at " << c;
         }
+  std::printf("weights of K are off by at most %.2f %% (L1)\n", 100 * worst);
 }
 
 TEST(Slices, AnotherLobeIsSeen) {
