@@ -14,7 +14,7 @@ struct ShadePoint {
   Vec3 diffuse{0};                 // (1 - metallic) * (1 - transmission) * base colour
   Vec3 f0{0.04f};                  // specular reflectance at normal incidence
   float f90 = 1;                   // at grazing incidence
-  FresnelCurve curve = {};              // how the reflectance goes from f0 to f90
+  FresnelCurve curve = {};         // how the reflectance goes from f0 to f90
   float alpha = 1;                 // GGX width: roughness²; 0 is a mirror
   float anisotropy = 0;            // strength, [0,1]: the lobe is mix(alpha, 1, strength²) wide along wide_direction
   Vec2 wide_direction{1, 0};       // unit, in the tangent frame (tangent_at)
