@@ -165,14 +165,15 @@ Status resolve(const Texts& texts, Arguments& args) {
   return {};
 }
 
-// With `lux` no option of the bake means anything; without it SCENE and -o must be there.
-void require_bake_arguments(const CLI::App& app, bool lux) {
-  if (!lux)
+// With a subcommand no option of the bake means anything; without one SCENE and -o must be there.
+void require_bake_arguments(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  if (commands.empty())
     for (const char* name : {"SCENE", "--output"})
       if (app.get_option(name)->count() == 0) throw CLI::RequiredError(name);
-  if (lux)
+  if (!commands.empty())
     for (const CLI::Option* option : app.get_options())
-      if (option->count() > 0) throw CLI::ExcludesError("lux", option->get_name());
+      if (option->count() > 0) throw CLI::ExcludesError(commands[0]->get_name(), option->get_name());
 }
 
 }  // namespace
@@ -182,6 +183,7 @@ Arguments parse_arguments(int argc, char** argv) {
   Texts texts;
   SharedTexts shared;
   LuxTexts lux_texts;
+  MaterialTexts material_texts;
   CLI::App app(
       "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
       "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with "
@@ -199,16 +201,20 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
+  add_material(app, material_texts, args.material);
+  app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     args.wants_lux = lux->parsed();
-    require_bake_arguments(app, args.wants_lux);
+    require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
     return args;
   }
   Status resolved = resolve_shared(shared, args);
-  if (resolved) resolved = args.wants_lux ? resolve_lux(lux_texts, args) : resolve(texts, args);
+  if (resolved) resolved = resolve_material(material_texts, args.material);
+  if (resolved && !args.material.wanted)
+    resolved = args.wants_lux ? resolve_lux(lux_texts, args) : resolve(texts, args);
   if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
     args.exit_code = 1;

@@ -1,6 +1,7 @@
 // The command line of oriel-bake.
 #pragma once
 
+#include "bake/cli/material_arguments.h"
 #include "bake/cli/progress.h"
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
@@ -12,6 +13,7 @@ struct Arguments {
   bool wants_lux = false;  // the subcommand: measure `lux` instead of baking `bake`
   MeasureJob lux;
   std::filesystem::path lux_output;  // empty: stdout
+  MaterialArguments material;        // the subcommand `material` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;

@@ -142,6 +142,7 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
 // Our code throws nothing, but the libraries and the allocator may.
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   try {
+    if (args.material.wanted) return run_material(args.material);
     return args.wants_lux ? run_lux(args, context) : run_bake(args, context, printer);
   } catch (const std::bad_alloc&) {
     if (args.wants_lux) return fail(ErrorCode::kRuntime, "", "not enough memory: try a larger spacing of --grid");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "bake/material/lobe.h"
+#include "bake/trace/brdf/quadrature.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -12,36 +14,6 @@ constexpr double kMirrorBelow = 1e-5;       // narrower lobes than any image can
 constexpr int kPolar = 512, kAzimuth = 64;  // quadrature over half vectors
 constexpr int kSubsamples = 4;              // per pixel and axis
 constexpr double kBinnedBelow = 0.25;       // cosθ: beneath it the lobe is narrower across than what subsamples catch
-
-// Smith's Λ from tan²θ: G2 = 1 / (1 + Λ(wo) + Λ(wi)).
-double smith_lambda(KernelModel model, double alpha, double cos_v) {
-  const double tan2 = std::max(0.0, 1 - cos_v * cos_v) / (cos_v * cos_v);
-  if (tan2 <= 0) return 0;
-  if (model == KernelModel::kGgxDg) return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
-  // Beckmann, exact: (erf(a) - 1) / 2 + exp(-a²) / (2 a √π), a = 1 / (α tanθ).
-  const double a = 1 / (alpha * std::sqrt(tan2));
-  return std::max(0.0, std::exp(-a * a) / (2 * a * std::sqrt(kPiD)) - 0.5 * std::erfc(a));
-}
-
-// D(h) from tan² and cos of the half vector's angle: no difference of nearly equal numbers at tiny alpha.
-double facet_density(KernelModel model, double alpha, double tan2, double cos_h) {
-  const double a2 = alpha * alpha, c4 = cos_h * cos_h * cos_h * cos_h;
-  if (model == KernelModel::kBeckmannDg) return std::exp(-tan2 / a2) / (kPiD * a2 * c4);
-  const double q = 1 + tan2 / a2;
-  return 1 / (kPiD * a2 * c4 * q * q);
-}
-
-// The mirror direction and its tangent plane; the plane of incidence is x-z of the surface's frame.
-struct MirrorFrame {
-  DVec3 wo, mirror, across, along;
-  explicit MirrorFrame(double cos_theta) {
-    const double sin_theta = std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta));
-    wo = {sin_theta, 0, cos_theta};
-    mirror = {-sin_theta, 0, cos_theta};
-    across = {0, 1, 0};
-    along = {cos_theta, 0, sin_theta};  // towards the normal as the mirror direction tilts away from it
-  }
-};
 
 struct Node {
   double extent;  // max of |tangents| of the reflected direction; infinite behind the tangent plane
@@ -67,7 +39,7 @@ std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_e
 // D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
 std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) {
   const MirrorFrame frame(cos_theta);
-  const double lambda_o = smith_lambda(model, alpha, cos_theta);
+  const Microfacet facets = microfacet(model, alpha);
   std::vector<Node> nodes;
   nodes.reserve(kPolar * kAzimuth);
   for (int i = 0; i < kPolar; ++i) {
@@ -80,7 +52,7 @@ std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) 
       const double cos_d = glm::dot(frame.wo, h);
       const DVec3 wi = 2 * cos_d * h - frame.wo;
       if (cos_d <= 0 || wi.z <= 0) continue;
-      const double g2 = 1 / (1 + lambda_o + smith_lambda(model, alpha, wi.z));
+      const double g2 = facets.g2(frame.wo, wi);
       const double toward = glm::dot(wi, frame.mirror);
       const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
       const double extent =
@@ -124,12 +96,22 @@ std::uint32_t choose_size(double half_extent, double alpha, std::uint32_t max_si
   return std::max(3u, odd > limit ? odd - 2 : odd);
 }
 
+// The lobe per unit area of the tangent plane of the mirror direction.
+double tangent_density(const LobeFunction& lobe, const MirrorFrame& frame, const DVec2& tangent) {
+  const double length2 = 1 + glm::dot(tangent, tangent);
+  const DVec3 wi = (frame.mirror + tangent.x * frame.across + tangent.y * frame.along) / std::sqrt(length2);
+  // dω = dA / (1 + t²)^(3/2)
+  return lobe(frame.wo, wi, glm::normalize(frame.wo + wi)) / (length2 * std::sqrt(length2));
+}
+
 // Weights by subsamples of the density in every pixel: smooth, and symmetric where the lobe is. At oblique incidence
 // more of them across.
 std::vector<double> sampled_weights(KernelModel model, double alpha, double cos_theta, double half_extent,
                                     std::uint32_t size) {
   const int across = static_cast<int>(std::ceil(kSubsamples / cos_theta)), along = kSubsamples;
   const double width = 2 * half_extent / size;
+  const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, alpha);
+  const MirrorFrame frame(cos_theta);
   std::vector<double> weights;
   weights.reserve(std::size_t{size} * size);
   for (std::uint32_t py = 0; py < size; ++py)
@@ -138,7 +120,7 @@ std::vector<double> sampled_weights(KernelModel model, double alpha, double cos_
       for (int y = 0; y < along; ++y)
         for (int x = 0; x < across; ++x) {
           const DVec2 t((px + (x + 0.5) / across) * width, (py + (y + 0.5) / along) * width);
-          sum += lobe_density(model, alpha, cos_theta, t - half_extent);
+          sum += tangent_density(lobe, frame, t - half_extent);
         }
       weights.push_back(sum);
     }
@@ -148,29 +130,26 @@ std::vector<double> sampled_weights(KernelModel model, double alpha, double cos_
 }  // namespace
 
 double lobe_density(KernelModel model, double alpha, double cos_theta, const DVec2& tangent) {
-  const MirrorFrame frame(cos_theta);
-  const double length2 = 1 + glm::dot(tangent, tangent);
-  const DVec3 wi = (frame.mirror + tangent.x * frame.across + tangent.y * frame.along) / std::sqrt(length2);
-  if (wi.z <= 0) return 0;
-  const DVec3 sum = frame.wo + wi;
-  const double tan2 = (sum.x * sum.x + sum.y * sum.y) / (sum.z * sum.z);
-  const double cos_h = 1 / std::sqrt(1 + tan2);
-  const double g2 = 1 / (1 + smith_lambda(model, alpha, cos_theta) + smith_lambda(model, alpha, wi.z));
-  // dω = dA / (1 + t²)^(3/2)
-  return facet_density(model, alpha, tan2, cos_h) * g2 / (4 * cos_theta) / (length2 * std::sqrt(length2));
+  return tangent_density(microfacet_lobe(model, LobeForm::kLobe, alpha), MirrorFrame(cos_theta), tangent);
 }
 
 double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
+  const Microfacet facets = microfacet(model, alpha);
   double total = 0;
-  for (const Node& node : lobe_nodes(model, alpha, cos_theta)) total += node.weight;
+  for_each_reflection(cos_theta, alpha, 24, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
+    total += facets.f_cos(direction_at(cos_theta), wi, h) * solid_angle;
+  });
   return std::min(total, 1.0);
 }
 
 BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const KernelOptions& options) {
   const double a = alpha <= 1 ? std::max(alpha, 0.0f) : 1;  // NaN: 1
   const double c = cos_theta <= 1 ? std::max(cos_theta, 1e-4f) : 1;
-  BrdfKernel kernel{
-      .model = model, .alpha = static_cast<float>(a), .cos_theta = static_cast<float>(c), .weights = {1.0f}};
+  BrdfKernel kernel;
+  kernel.model = model;
+  kernel.alpha = static_cast<float>(a);
+  kernel.cos_theta = static_cast<float>(c);
+  kernel.weights = {1.0f};
   if (a < kMirrorBelow) return kernel;
 
   const std::vector<Node> nodes = lobe_nodes(model, a, c);

@@ -27,7 +27,7 @@ BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta = 1, cons
 double lobe_density(KernelModel model, double alpha, double cos_theta, const DVec2& tangent);
 
 // The lobe's directional albedo without Fresnel, [0, 1]: what single scattering keeps. Quadrature over half vectors,
-// absolute error below 1e-3.
+// absolute error below 1e-5.
 double lobe_albedo(KernelModel model, double alpha, double cos_theta);
 
 }  // namespace oriel

@@ -5,21 +5,28 @@
 #include <map>
 
 #include "bake/jobs/parallel.h"
+#include "bake/material/share.h"
 #include "bake/scene/shade.h"
 
 namespace oriel {
 namespace {
 
+// A sphere map's texels lie 4e-3 from what it interpolates: 3e-5 more halves its bytes in a pack.
+constexpr float kSphereSteps = 16384;
 constexpr std::uint32_t kSamples = 1024;  // per textured material
 
 bool is_textured(const Scene& scene, const SceneMaterial& m) {
-  return m.base_color_texture.image >= 0 || m.metallic_roughness_texture.image >= 0 || m.emission_texture.image >= 0 ||
-         m.specular_texture.image >= 0 || m.specular_color_texture.image >= 0 || !scene.colors.empty();
+  const auto slots = texture_slots(m);
+  return !scene.colors.empty() ||
+         std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return slot->image >= 0; });
 }
 
-float dielectric_f0(float ior) {
-  const float r = (ior - 1) / (ior + 1);
-  return r * r;
+// The lobe that shows an image is the one that reflects more at normal incidence.
+void choose_image_lobe(MaterialSummary& s, float base_roughness) {
+  s.base_alpha = base_roughness * base_roughness;
+  const bool coat = s.coat > 0 && s.coat * 0.04f >= 0.999f * max_component(s.f0);
+  s.roughness = coat ? std::sqrt(s.coat_alpha) : base_roughness;
+  s.alpha = s.roughness * s.roughness;
 }
 
 // The factors alone (docs/conventions.md, "Materials").
@@ -27,12 +34,23 @@ MaterialSummary from_factors(const SceneMaterial& m) {
   MaterialSummary s;
   s.base_color = m.base_color;
   s.metallic = m.metallic;
-  s.roughness = m.roughness;
-  s.alpha = m.roughness * m.roughness;
   s.transmission = m.transmission;
   s.diffuse = (1 - m.metallic) * (1 - m.transmission) * m.base_color;
-  s.f0 = glm::mix(glm::min(dielectric_f0(m.ior) * m.specular_color, Vec3(1)) * m.specular, m.base_color, m.metallic);
+  s.f0 = glm::mix(glm::min(static_cast<float>(dielectric_f0(m.ior)) * m.specular_color, Vec3(1)) * m.specular,
+                  m.base_color, m.metallic);
   s.f90 = glm::mix(m.specular, 1.0f, m.metallic);
+  s.curve = {.ior = m.ior, .schlick = m.metallic};
+  s.coat = m.coat;
+  s.coat_alpha = m.coat_roughness * m.coat_roughness;
+  if (m.metal != Metal::kNone) {
+    s.metallic = 1;
+    s.f0 = s.base_color = Vec3(metal_f0(m.metal));
+    s.f90 = 1;
+    s.curve = {.metal = m.metal};
+    s.diffuse = Vec3(0);
+    s.transmission = 0;
+  }
+  choose_image_lobe(s, m.roughness);
   s.coverage = m.alpha_mode == AlphaMode::kBlend ? m.alpha : 1;
   s.emission = m.emission;
   return s;
@@ -40,6 +58,7 @@ MaterialSummary from_factors(const SceneMaterial& m) {
 
 float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b) {
   const TextureSlot& slot = m.metallic_roughness_texture;
+  if (m.metal != Metal::kNone) return 1;
   if (slot.image < 0) return m.metallic;
   const auto& uvs = slot.texcoord == 1 ? scene.uv1 : scene.uv0;
   const UVec3 t = scene.triangles[triangle];
@@ -50,7 +69,7 @@ float metallic_at(const Scene& scene, const SceneMaterial& m, std::uint32_t tria
 // Sums of what is averaged, in double and in a fixed order.
 struct Sums {
   DVec3 base_color{0}, diffuse{0}, f0{0}, emission{0};
-  double metallic = 0, roughness = 0, f90 = 0, coverage = 0;
+  double metallic = 0, roughness = 0, f90 = 0, coverage = 0, coat = 0, coat_roughness = 0;
 };
 
 MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::vector<std::uint32_t>& triangles,
@@ -71,6 +90,8 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
     sums.f90 += p.f90;
     sums.coverage += p.coverage;
     sums.roughness += std::sqrt(p.alpha);
+    sums.coat += p.coat;
+    sums.coat_roughness += std::sqrt(p.coat_alpha);
     sums.metallic += metallic_at(scene, m, triangles[at], b);
   }
   MaterialSummary s = from_factors(m);
@@ -81,8 +102,10 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
   s.f90 = static_cast<float>(sums.f90 / kSamples);
   s.coverage = static_cast<float>(sums.coverage / kSamples);
   s.metallic = static_cast<float>(sums.metallic / kSamples);
-  s.roughness = static_cast<float>(sums.roughness / kSamples);
-  s.alpha = s.roughness * s.roughness;
+  s.coat = static_cast<float>(sums.coat / kSamples);
+  s.coat_alpha = static_cast<float>(std::pow(sums.coat_roughness / kSamples, 2));
+  if (s.curve.metal == Metal::kNone) s.curve.schlick = s.metallic;
+  choose_image_lobe(s, static_cast<float>(sums.roughness / kSamples));
   return s;
 }
 
@@ -101,7 +124,66 @@ int quantised(float x) {
   return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024));
 }
 
+// What tells Fresnel maps apart.
+std::array<int, 10> fresnel_key(const MaterialSummary& s) {
+  const int ior = s.curve.schlick < 1 ? static_cast<int>(std::lround(std::min(s.curve.ior, 1e5f) * 4096)) : 0;
+  return {quantised(s.f0.r),
+          quantised(s.f0.g),
+          quantised(s.f0.b),
+          quantised(s.f90),
+          quantised(std::sqrt(s.base_alpha)),
+          quantised(s.coat),
+          quantised(std::sqrt(s.coat_alpha)),
+          ior,
+          quantised(s.curve.schlick),
+          static_cast<int>(s.curve.metal)};
+}
+
+// The widths of lobes that show an image, and who needs a Fresnel map of its own; maps.kernel and maps.fresnel_map are
+// indices into these.
+struct Needs {
+  std::vector<float> alphas;
+  std::vector<std::size_t> fresnel_owner;  // the first material of each need
+  bool f0_varies = false;
+};
+
+Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& options) {
+  Needs needs;
+  maps.kernel.assign(scene.materials.size(), -1);
+  maps.fresnel_map.assign(scene.materials.size(), -1);
+  std::map<std::array<int, 10>, std::int32_t> fresnel_of;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const MaterialSummary& s = maps.summaries[m];
+    if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0)) continue;
+    const auto [fresnel, is_new] = fresnel_of.try_emplace(fresnel_key(s), needs.fresnel_owner.size());
+    if (is_new) needs.fresnel_owner.push_back(m);
+    maps.fresnel_map[m] = fresnel->second;
+    needs.f0_varies |= is_textured(scene, scene.materials[m]);
+    if (s.roughness > options.max_roughness) continue;
+    maps.kernel[m] = static_cast<std::int32_t>(needs.alphas.size());
+    needs.alphas.push_back(s.alpha);
+  }
+  return needs;
+}
+
+// The first map of each group into maps.fresnel_maps; indices follow.
+void keep_shared(std::vector<FresnelMap> all, double error, MaterialMaps& maps) {
+  const Groups groups = group_reflectances(all, error);
+  std::vector<std::int32_t> kept(all.size(), -1);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (groups.of[i] == i) {
+      kept[i] = static_cast<std::int32_t>(maps.fresnel_maps.size());
+      maps.fresnel_maps.push_back(std::move(all[i]));
+    }
+  for (std::int32_t& map : maps.fresnel_map)
+    if (map >= 0) map = kept[groups.of[static_cast<std::size_t>(map)]];
+}
+
 }  // namespace
+
+SpecularLayers layers_of(const MaterialSummary& s) {
+  return {{s.f0, s.f90, s.base_alpha, s.curve}, s.coat, s.coat_alpha};
+}
 
 MaterialSummary summarize_material(const Scene& scene, std::uint32_t material) {
   std::vector<std::uint32_t> triangles;
@@ -124,37 +206,24 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
 Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context) {
   MaterialMaps maps;
   maps.summaries = summarize_materials(scene);
-  maps.kernel.assign(scene.materials.size(), -1);
-  maps.fresnel_map.assign(scene.materials.size(), -1);
-
-  // Which maps are needed, in the order of the materials; then all at once.
-  std::map<int, std::int32_t> kernel_of;
-  std::map<std::array<int, 5>, std::int32_t> fresnel_of;
-  std::vector<std::size_t> kernel_owner, fresnel_owner;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const MaterialSummary& s = maps.summaries[m];
-    if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0)) continue;
-    const int roughness = quantised(s.roughness);
-    const auto [fresnel, is_new] = fresnel_of.try_emplace(
-        {quantised(s.f0.r), quantised(s.f0.g), quantised(s.f0.b), quantised(s.f90), roughness}, fresnel_owner.size());
-    if (is_new) fresnel_owner.push_back(m);
-    maps.fresnel_map[m] = fresnel->second;
-    if (s.roughness > options.max_roughness) continue;
-    const auto [kernel, is_new_kernel] = kernel_of.try_emplace(roughness, kernel_owner.size());
-    if (is_new_kernel) kernel_owner.push_back(m);
-    maps.kernel[m] = kernel->second;
-  }
-  maps.kernels.resize(kernel_owner.size());
-  maps.fresnel_maps.resize(fresnel_owner.size());
-  ORIEL_TRY_VOID(parallel_for(context, "material", kernel_owner.size() + fresnel_owner.size(), [&](std::size_t i) {
-    if (i < kernel_owner.size()) {
-      maps.kernels[i] = make_kernel(maps.summaries[kernel_owner[i]].alpha, options.model, 1, options.kernel);
+  const Needs needs = find_needs(scene, maps, options);
+  const Groups widths = group_widths(needs.alphas, options.error);
+  maps.kernels.resize(widths.values.size());
+  std::vector<FresnelMap> fresnel_maps(needs.fresnel_owner.size());
+  ORIEL_TRY_VOID(parallel_for(context, "material", maps.kernels.size() + fresnel_maps.size(), [&](std::size_t i) {
+    if (i < maps.kernels.size()) {
+      maps.kernels[i] = make_kernel(widths.values[i], options.model, 1, options.kernel);
+      add_slices(maps.kernels[i], options.slices);
     } else {
-      const MaterialSummary& s = maps.summaries[fresnel_owner[i - kernel_owner.size()]];
-      maps.fresnel_maps[i - kernel_owner.size()] =
-          make_fresnel_map(s.f0, s.f90, s.alpha, options.table_size, options.sphere_size);
+      const MaterialSummary& s = maps.summaries[needs.fresnel_owner[i - maps.kernels.size()]];
+      FresnelMap& map = fresnel_maps[i - maps.kernels.size()] = make_fresnel_map(layers_of(s), options.fresnel);
+      for (Vec3& texel : map.sphere) texel = glm::round(texel * kSphereSteps) / kSphereSteps;
     }
   }));
+  for (std::int32_t& kernel : maps.kernel)
+    if (kernel >= 0) kernel = static_cast<std::int32_t>(widths.of[static_cast<std::size_t>(kernel)]);
+  keep_shared(std::move(fresnel_maps), options.error, maps);
+  if (needs.f0_varies) maps.split = make_split_reflectance();
   return maps;
 }
 

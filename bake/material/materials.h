@@ -4,6 +4,7 @@
 #include "bake/jobs/context.h"
 #include "bake/material/kernel.h"
 #include "bake/material/reflectance.h"
+#include "bake/material/slices.h"
 #include "bake/scene/scene.h"
 
 namespace oriel {
@@ -14,10 +15,13 @@ struct MaterialSummary {
   Vec3 base_color{1};  // linear
   Vec3 diffuse{0};     // (1 - metallic) (1 - transmission) base colour
   float metallic = 0;
-  float roughness = 1;
-  float alpha = 1;  // GGX width: the square of the mean roughness
+  float roughness = 1;   // of the lobe that shows an image: the coat's where it reflects as much as what it covers
+  float alpha = 1;       // GGX width: the square of that roughness
+  float base_alpha = 1;  // of the lobe under the coat
   Vec3 f0{0.04f};
   float f90 = 1;
+  FresnelCurve curve;
+  float coat = 0, coat_alpha = 0;  // a clear coat's share and GGX width
   float transmission = 0;
   float coverage = 1;
   Vec3 emission{0};  // cd/m²
@@ -33,9 +37,14 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 struct MaterialOptions {
   KernelModel model = KernelModel::kGgxDg;
   KernelOptions kernel;
+  SliceOptions slices;
   float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel
-  std::uint32_t table_size = 64, sphere_size = 64;
+  FresnelMapOptions fresnel;
+  double error = 0.02;  // by which a map may differ from a material's own for the material to share it, see share.h
 };
+
+// What R is computed of.
+SpecularLayers layers_of(const MaterialSummary& summary);
 
 struct MaterialMaps {
   std::vector<MaterialSummary> summaries;  // by material, as are the two below
@@ -43,10 +52,10 @@ struct MaterialMaps {
   std::vector<std::int32_t> fresnel_map;   // into fresnel_maps; -1: no specular lobe (f0 = f90 = 0), or unlit
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
+  SplitReflectance split;  // where the f0 of some reflecting material varies over its surface
 };
 
-// Materials whose roughness agrees to 1/1024 share a kernel; those whose f0 and f90 do too share a Fresnel map. Shared
-// maps are those of the first such material. Error kStopped only.
+// Materials whose needs agree to within options.error share a kernel and a Fresnel map (share.h). Error kStopped only.
 Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& options, Context& context);
 
 }  // namespace oriel

@@ -2,45 +2,85 @@
 
 #include <algorithm>
 
-#include "bake/trace/albedo.h"
-
 namespace oriel {
 namespace {
+
+constexpr int kProbes = 400;  // of measure_errors()
 
 float unit(float x) {
   return x > 0 ? std::min(x, 1.0f) : 0.0f;
 }  // NaN: 0
 
-Vec3 albedo(const Vec3& f0, float f90, float alpha, float cos_theta) {
-  const Vec2 split = specular_albedo(cos_theta, alpha);
-  const Vec3 r = f0 * split.x + Vec3(f90 * split.y);
-  return {unit(r.r), unit(r.g), unit(r.b)};
+Vec3 unit(const Vec3& v) {
+  return {unit(v.r), unit(v.g), unit(v.b)};
+}
+
+SpecularLayers sane(const SpecularLayers& in) {
+  SpecularLayers out = in;
+  out.base.f0 = unit(in.base.f0);
+  out.base.f90 = unit(in.base.f90);
+  out.base.alpha = unit(in.base.alpha);
+  out.coat = unit(in.coat);
+  out.coat_alpha = unit(in.coat_alpha);
+  return out;
+}
+
+// Entry i of n.
+Vec3 entry(const ExactLayers& exact, std::size_t i, std::size_t n) {
+  const double root = static_cast<double>(i) / static_cast<double>(n - 1);
+  return exact(root * root);
+}
+
+float distance(const Vec3& a, const Vec3& b) {
+  return max_component(glm::abs(a - b));
+}
+
+// Entries doubled until those between them are where interpolation puts them.
+std::vector<Vec3> make_table(const ExactLayers& exact, const FresnelMapOptions& options) {
+  std::vector<Vec3> table;
+  const std::size_t least = std::max(options.min_entries, 2u);
+  for (std::size_t i = 0; i < least; ++i) table.push_back(entry(exact, i, least));
+  while (2 * table.size() - 1 <= options.max_entries) {
+    std::vector<Vec3> finer;
+    double error = 0;
+    for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+      finer.push_back(table[i]);
+      finer.push_back(entry(exact, 2 * i + 1, 2 * table.size() - 1));
+      error = std::max(error, double{distance(finer.back(), 0.5f * (table[i] + table[i + 1]))});
+    }
+    if (error <= options.error) break;
+    finer.push_back(table.back());
+    table = std::move(finer);
+  }
+  return table;
 }
 
 }  // namespace
+
+ExactLayers::ExactLayers(const SpecularLayers& layers) : coat_(layers.coat), base_(layers.base) {
+  if (coat_ > 0) coat_lobe_.emplace(layers.coat_lobe());
+}
+
+Vec3 ExactLayers::operator()(double cos_theta) const {
+  const float coat = coat_lobe_ ? coat_ * (*coat_lobe_)(cos_theta).g : 0.0f;
+  return Vec3(coat) + (1 - coat) * base_(cos_theta);
+}
 
 float sphere_map_cos_theta(float r) {
   return 1 - unit(r) * unit(r);
 }
 
-FresnelMap make_fresnel_map(const Vec3& f0, float f90, float alpha, std::uint32_t table_size,
-                            std::uint32_t sphere_size) {
-  const Vec3 low(unit(f0.r), unit(f0.g), unit(f0.b));
-  const float high = unit(f90);
+FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOptions& options) {
+  const SpecularLayers checked = sane(layers);
   FresnelMap map;
-  map.alpha = unit(alpha);
-  map.sphere_size = sphere_size;
-  const std::uint32_t n = std::max(table_size, 2u);
-  map.table.reserve(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const float root = static_cast<float>(i) / static_cast<float>(n - 1);
-    map.table.push_back(albedo(low, high, map.alpha, root * root));
-  }
-  map.sphere.reserve(std::size_t{sphere_size} * sphere_size);
-  for (std::uint32_t y = 0; y < sphere_size; ++y)
-    for (std::uint32_t x = 0; x < sphere_size; ++x) {
-      const Vec2 p = (Vec2(x, y) + 0.5f) / static_cast<float>(sphere_size) * 2.0f - 1.0f;
-      map.sphere.push_back(albedo(low, high, map.alpha, sphere_map_cos_theta(glm::length(p))));
+  map.alpha = checked.base.alpha;
+  map.table = make_table(ExactLayers(checked), options);
+  map.sphere_size = options.sphere_size;
+  map.sphere.reserve(std::size_t{map.sphere_size} * map.sphere_size);
+  for (std::uint32_t y = 0; y < map.sphere_size; ++y)
+    for (std::uint32_t x = 0; x < map.sphere_size; ++x) {
+      const Vec2 p = (Vec2(x, y) + 0.5f) / static_cast<float>(map.sphere_size) * 2.0f - 1.0f;
+      map.sphere.push_back(fresnel_lookup(map, sphere_map_cos_theta(glm::length(p))));
     }
   return map;
 }
@@ -51,6 +91,63 @@ Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta) {
   const float x = std::sqrt(unit(cos_theta)) * static_cast<float>(last);
   const auto i = std::min(static_cast<std::size_t>(x), last);
   return glm::mix(map.table[i], map.table[std::min(i + 1, last)], x - static_cast<float>(i));
+}
+
+Vec3 sphere_lookup(const FresnelMap& map, float cos_theta) {
+  if (map.sphere.empty()) return Vec3(0);
+  const auto last = static_cast<float>(map.sphere_size - 1);
+  const float r = std::sqrt(1 - unit(cos_theta)), x = (r + 1) * 0.5f * static_cast<float>(map.sphere_size) - 0.5f;
+  const float y = 0.5f * last, left = std::clamp(std::floor(x), 0.0f, last), low = std::floor(y);
+  const auto at = [&](float i, float j) {
+    return map.sphere[static_cast<std::size_t>(std::min(j, last)) * map.sphere_size +
+                      static_cast<std::size_t>(std::min(i, last))];
+  };
+  const float fx = std::clamp(x - left, 0.0f, 1.0f), fy = y - low;
+  return glm::mix(glm::mix(at(left, low), at(left + 1, low), fx),
+                  glm::mix(at(left, low + 1), at(left + 1, low + 1), fx), fy);
+}
+
+std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries) {
+  std::vector<Vec2> table;
+  const std::uint32_t n = std::max(entries, 2u);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const float root = static_cast<float>(i) / static_cast<float>(n - 1);
+    table.push_back(split_albedo(curve, unit(alpha), root * root));
+  }
+  return table;
+}
+
+Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
+  const float whole = entry.x + entry.y;
+  return unit((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)));
+}
+
+SplitReflectance make_split_reflectance(std::uint32_t angles, std::uint32_t roughnesses) {
+  SplitReflectance split{std::max(angles, 2u), std::max(roughnesses, 2u), {}};
+  for (std::uint32_t j = 0; j < split.roughnesses; ++j) {
+    const float roughness = static_cast<float>(j) / static_cast<float>(split.roughnesses - 1);
+    for (const Vec2& entry : make_split_table({}, roughness * roughness, split.angles))
+      split.table.push_back(glm::clamp(entry, Vec2(0), Vec2(1, 1 - entry.x)));
+  }
+  return split;
+}
+
+FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers) {
+  const ExactLayers exact(sane(layers));
+  FresnelMapErrors errors;
+  for (int i = 0; i <= kProbes; ++i) {
+    const double root = static_cast<double>(i) / kProbes;
+    const auto cos_theta = static_cast<float>(root * root * root);
+    const Vec3 r = exact(cos_theta);
+    errors.table = std::max(errors.table, double{distance(r, fresnel_lookup(map, cos_theta))});
+    if (!map.sphere.empty())
+      errors.sphere = std::max(errors.sphere, double{distance(r, sphere_lookup(map, cos_theta))});
+  }
+  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
+    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
+    errors.sphere_mean += distance(exact(cos_theta), sphere_lookup(map, cos_theta)) / double{kProbes};
+  }
+  return errors;
 }
 
 }  // namespace oriel

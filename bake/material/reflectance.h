@@ -1,21 +1,55 @@
 // R: directional reflectance as the tables that modulate a reflected image (Bastos et al. 1999, section 8.2.2).
 #pragma once
 
+#include "bake/trace/brdf/specular.h"
 #include "formats/assets/fresnel_map.h"
 
 namespace oriel {
 
-// The directional albedo of the GGX lobe of width alpha with Schlick's Fresnel from f0 (per channel) to f90, [0, 1].
-// table_size entries, at least 2, at cosθ = (i / (n-1))²; sphere_size² texels (0: no sphere map). Arguments are clamped
-// to [0, 1], NaN to 0.
-FresnelMap make_fresnel_map(const Vec3& f0, float f90, float alpha, std::uint32_t table_size = 64,
-                            std::uint32_t sphere_size = 64);
+struct FresnelMapOptions {
+  double error = 7e-4;             // of the 1-D table between its entries, absolute, where max_entries allow
+  std::uint32_t min_entries = 65;  // at least 2; doubled (2 n - 1) until the error is kept
+  std::uint32_t max_entries = 1025;
+  std::uint32_t sphere_size = 64;  // 0: no sphere map
+};
 
-// How a sphere map is addressed: the incidence cosθ held at distance r in [0, 1] from its centre, equal area:
-// r = √2 sin(θ/2), so cosθ = 1 - r². r > 1 counts as 1.
+// Both maps of R. Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is
+// Fresnel's factor itself.
+FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOptions& options = {});
+
+// R at a direction, from the table: linear between entries; cos_theta is clamped to [0,1], NaN counts as 0. 0 for an
+// empty table.
+Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta);
+// The same from the sphere map, bilinear as the player reads it, along the x axis of the map. 0 where there is none.
+Vec3 sphere_lookup(const FresnelMap& map, float cos_theta);
+// cosθ of the sphere map at distance r from its centre (fresnel_map.h); r beyond the rim counts as 1.
 float sphere_map_cos_theta(float r);
 
-// R at cosθ from a map's table, linear in √cosθ, as the player reads it.
-Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta);
+// The split form as a table, entries as FresnelMap's: {scale, bias}, see split_albedo(). For materials whose f0 is a
+// texture; error below 5e-3 beside the exact R.
+std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries = 129);
+// R of one texel's f0 and f90 out of an entry.
+Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90);
+// The split form with Schlick's curve for every roughness.
+SplitReflectance make_split_reflectance(std::uint32_t angles = 33, std::uint32_t roughnesses = 33);
+
+// R per channel of the layers, exact: what the maps approximate.
+class ExactLayers {
+ public:
+  explicit ExactLayers(const SpecularLayers& layers);
+  Vec3 operator()(double cos_theta) const;
+
+ private:
+  float coat_;
+  ExactReflectance base_;
+  std::optional<ExactReflectance> coat_lobe_;
+};
+
+// The largest difference of any channel from the exact R over angles that are dense at grazing; and the mean one over
+// the sphere map's disk.
+struct FresnelMapErrors {
+  double table = 0, sphere = 0, sphere_mean = 0;
+};
+FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers);
 
 }  // namespace oriel

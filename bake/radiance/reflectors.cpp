@@ -16,8 +16,7 @@ constexpr std::uint32_t kOpenRays = 128;  // per side of a patch
 constexpr float kMaxFlatness = 1e-3f;     // of a reflector's own size
 
 float reflectance_at_60_deg(const ReflectorMaterial& m) {
-  const float schlick = 1.0f / 32.0f;  // (1 - cos 60°)^5
-  return max_component(m.f0) * (1 - schlick) + m.f90 * schlick;
+  return max_component(glm::mix(m.f0, Vec3(m.f90), Vec3(fresnel_weight(m.curve, 0.5))));
 }
 
 // Triangles that may reflect, by node name and material: parts of one node that were split by the exporter join again.

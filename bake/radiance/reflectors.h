@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene/optics/fresnel.h"
 #include "bake/trace/accel.h"
 #include "formats/assets/radiance_map.h"
 
@@ -16,11 +17,12 @@ struct ReflectorMaterial {
   float roughness = 1;
   Vec3 f0{0.04f};
   float f90 = 1;
+  FresnelCurve curve = {};
 };
 
 struct ReflectorOptions {
   float max_roughness = 0.4f;         // wider lobes show no image
-  float min_reflectance = 0.03f;      // Schlick's reflectance at 60°, largest channel: weaker ones are not seen
+  float min_reflectance = 0.03f;      // at 60°, largest channel: weaker ones are not seen
   float min_area_m2 = 0.25f;          // of one reflector
   std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
   float max_angle_deg = 0.5f;         // of a triangle's normal from its reflector's

@@ -32,7 +32,7 @@ class Stopwatch {
 
 std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
   std::vector<ReflectorMaterial> out;
-  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90});
+  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
   return out;
 }
 
@@ -78,6 +78,12 @@ PathOptions path_options(const BakeOptions& options) {
   PathOptions paths;
   if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
   return paths;
+}
+
+MaterialOptions material_options(const BakeOptions& options) {
+  MaterialOptions material = options.material;
+  if (options.radiosity.error > 0) material.error = options.radiosity.error;
+  return material;
 }
 
 // Whether the lightmap is to hold directions; why not is noted.
@@ -153,7 +159,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
   ORIEL_TRY(MaterialMaps materials,
-            timed("material", [&](auto&) { return bake_materials(scene, options.material, context); }));
+            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   if (options.with_radiance) {
     ORIEL_TRY_VOID(timed("radiance", [&](std::uint64_t& rays) {
@@ -171,6 +177,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.mesh = std::move(mesh.mesh);
   pack.kernels = std::move(materials.kernels);
   pack.fresnel_maps = std::move(materials.fresnel_maps);
+  pack.split_reflectance = std::move(materials.split);
   pack.cameras = scene.cameras;
   pack.paths = scene.paths;
   pack.sky = scene.sky;

@@ -30,11 +30,6 @@ Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, in
   return roots;
 }
 
-std::array<TextureSlot*, 7> slots_of(SceneMaterial& m) {
-  return {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.transmission_texture,
-          &m.specular_texture,   &m.specular_color_texture,     &m.normal_texture};
-}
-
 // Loads the images that the placed surfaces' materials use, in the order of the document.
 class ImageLoader {
  public:
@@ -62,7 +57,7 @@ class ImageLoader {
       out_.scene.images.push_back(std::move(*decoded[i]));
     }
     for (SceneMaterial& material : out_.scene.materials)
-      for (TextureSlot* slot : slots_of(material))
+      for (TextureSlot* slot : texture_slots(material))
         if (slot->image >= 0) slot->image = scene_image[static_cast<std::size_t>(slot->image)];
     return {};
   }
@@ -77,7 +72,7 @@ class ImageLoader {
   void find_used() {
     used_.assign(document_.images.size(), false);
     for (const Surface& surface : out_.scene.surfaces)
-      for (const TextureSlot* slot : slots_of(out_.scene.materials[surface.material]))
+      for (const TextureSlot* slot : texture_slots(out_.scene.materials[surface.material]))
         if (slot->image >= 0) used_[static_cast<std::size_t>(slot->image)] = true;
   }
 

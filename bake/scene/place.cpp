@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "bake/scene/warning_group.h"
@@ -195,10 +196,7 @@ class Placer {
           fmt::format("surface \"{}\": {} triangles are too small or thin for where they stand and were dropped",
                       surface.name, collapsed));
     const SceneMaterial& material = scene_.materials[surface.material];
-    for (const TextureSlot* slot :
-         {&material.base_color_texture, &material.metallic_roughness_texture, &material.emission_texture,
-          &material.transmission_texture, &material.specular_texture, &material.specular_color_texture,
-          &material.normal_texture})
+    for (const TextureSlot* slot : texture_slots(material))
       if (slot->image >= 0 && (slot->texcoord == 0 ? mesh.uv0 : mesh.uv1).empty() &&
           warned_.insert("t" + mesh.path).second)
         texcoords_missing_.add(
@@ -268,6 +266,21 @@ std::uint32_t material_of(const TriangleMesh& mesh, std::optional<std::uint32_t>
   return *default_material;
 }
 
+// The material with another metal (extras.oriel_metal of the node): a copy of its own, shared between nodes that ask
+// for the same.
+std::uint32_t of_metal(std::uint32_t material, Metal metal,
+                       std::map<std::pair<std::uint32_t, Metal>, std::uint32_t>& copies, Scene& scene) {
+  if (metal == Metal::kNone || scene.materials[material].metal == metal) return material;
+  const auto [found, is_new] = copies.try_emplace({material, metal}, scene.materials.size());
+  if (is_new) {
+    SceneMaterial copy = scene.materials[material];
+    copy.name += fmt::format(" ({})", constants_of(metal).name);
+    copy.metal = metal;
+    scene.materials.push_back(std::move(copy));
+  }
+  return found->second;
+}
+
 }  // namespace
 
 Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
@@ -298,6 +311,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
   Placer placer(scene, context, with_colors, with_tangents);
   std::optional<std::uint32_t> default_material;
+  std::map<std::pair<std::uint32_t, Metal>, std::uint32_t> metal_copies;
   for (const Instance& instance : instances) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const gltf::NodeDesc& node = document.nodes[instance.node];
@@ -306,7 +320,8 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
       surface.mesh_name = mesh.name;
-      surface.material = material_of(mesh.primitives[i], default_material, scene);
+      surface.material =
+          of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
       placer.place(mesh.primitives[i], instance.world_from_mesh, std::move(surface));
     }
   }

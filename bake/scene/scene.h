@@ -1,9 +1,11 @@
 // A scene as the baker sees it: plain structs, everything checked (docs/conventions.md).
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "bake/scene/optics/metals.h"
 #include "formats/assets/camera.h"
 #include "formats/assets/material.h"
 #include "formats/core/vec.h"
@@ -44,11 +46,27 @@ struct SceneMaterial {
   TextureSlot transmission_texture;    // R: multiplies transmission
   TextureSlot normal_texture;          // RGB: 2 v - 1 in the tangent frame
   float normal_scale = 1;              // of its x and y
+  float coat = 0, coat_roughness = 0;  // KHR_materials_clearcoat
+  TextureSlot coat_texture;            // R: multiplies coat
+  TextureSlot coat_roughness_texture;  // G: multiplies coat_roughness
+  float anisotropy = 0;                // KHR_materials_anisotropy: strength, [0,1]
+  float anisotropy_rotation_rad = 0;   // of the wide direction from the tangent, counter-clockwise
+  TextureSlot anisotropy_texture;      // RG: 2 v - 1 the wide direction in the tangent frame, B: multiplies anisotropy
+  Metal metal = Metal::kNone;          // extras.oriel_metal: all metal, with measured constants instead of base_color
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;
 };
+
+// All texture slots of a material (const or not).
+template <class M>
+auto texture_slots(M& m) {
+  return std::array{
+      &m.base_color_texture,     &m.metallic_roughness_texture, &m.emission_texture, &m.transmission_texture,
+      &m.specular_texture,       &m.specular_color_texture,     &m.normal_texture,   &m.coat_texture,
+      &m.coat_roughness_texture, &m.anisotropy_texture};
+}
 
 // A primitive of a node, placed in the world.
 struct Surface {

@@ -74,6 +74,35 @@ Vec4 texel(const Image& image, double x, double y, const TextureSlot& slot, bool
           alpha};
 }
 
+// Measured constants in place of base colour and Schlick's curve.
+void make_metal(ShadePoint& p, Metal metal) {
+  p.f0 = p.base_color = Vec3(metal_f0(metal));
+  p.f90 = 1;
+  p.curve = {.metal = metal};
+  p.diffuse = p.transmission = Vec3(0);
+}
+
+void add_coat(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, ShadePoint& p) {
+  if (m.coat <= 0) return;
+  p.coat = m.coat * texture_at(scene, m.coat_texture, triangle, b, false).r;
+  const float roughness = m.coat_roughness * texture_at(scene, m.coat_roughness_texture, triangle, b, false).g;
+  p.coat_alpha = roughness * roughness;
+}
+
+void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, ShadePoint& p) {
+  if (m.anisotropy <= 0) return;
+  Vec2 direction(1, 0);
+  p.anisotropy = m.anisotropy;
+  if (m.anisotropy_texture.image >= 0) {
+    const Vec4 texel = texture_at(scene, m.anisotropy_texture, triangle, b, false);
+    const Vec2 d = 2.0f * Vec2(texel) - 1.0f;
+    if (glm::dot(d, d) > 1e-6f) direction = glm::normalize(d);
+    p.anisotropy *= texel.b;
+  }
+  const float c = std::cos(m.anisotropy_rotation_rad), s = std::sin(m.anisotropy_rotation_rad);
+  p.wide_direction = {c * direction.x - s * direction.y, s * direction.x + c * direction.y};
+}
+
 }  // namespace
 
 ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
@@ -94,23 +123,24 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   const float transmission =
       m.transmission > 0 ? m.transmission * texture_at(scene, m.transmission_texture, triangle, b, false).r : 0.0f;
   const float specular = m.specular * texture_at(scene, m.specular_texture, triangle, b, false).a;
-  const float index = (m.ior - 1) / (m.ior + 1);
   const Vec3 tint = m.specular_color * Vec3(texture_at(scene, m.specular_color_texture, triangle, b, true));
-  const Vec3 dielectric = glm::min(index * index * tint, Vec3(1)) * specular;
+  const Vec3 dielectric = glm::min(static_cast<float>(dielectric_f0(m.ior)) * tint, Vec3(1)) * specular;
   p.f0 = glm::mix(dielectric, p.base_color, metallic);
   p.f90 = glm::mix(specular, 1.0f, metallic);
+  p.curve = {.ior = m.ior, .schlick = metallic};
   p.alpha = roughness * roughness;
   p.diffuse = (1 - metallic) * (1 - transmission) * p.base_color;
   p.transmission = (1 - metallic) * transmission * p.base_color;
+  if (m.metal != Metal::kNone) make_metal(p, m.metal);
+  add_coat(scene, m, triangle, b, p);
+  add_anisotropy(scene, m, triangle, b, p);
   p.emission = m.emission;
   if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true));
   return p;
 }
 
-Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal) {
-  const SceneMaterial& m = material_of(scene, triangle);
-  const TextureSlot& slot = m.normal_texture;
-  if (slot.image < 0 || m.unlit) return normal;
+Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal,
+                const TextureSlot& slot) {
   const UVec3& t = scene.triangles[triangle];
   Vec4 tangent = scene.tangents.empty() ? Vec4(0) : interpolate(scene.tangents, t, b);
   if (std::abs(tangent.w) < 0.5f) {
@@ -124,6 +154,14 @@ Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, co
   } else {
     tangent.w = std::copysign(1.0f, tangent.w);
   }
+  return tangent;
+}
+
+Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal) {
+  const SceneMaterial& m = material_of(scene, triangle);
+  const TextureSlot& slot = m.normal_texture;
+  if (slot.image < 0 || m.unlit) return normal;
+  const Vec4 tangent = tangent_at(scene, triangle, b, normal, slot);
   return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false)), m.normal_scale);
 }
 

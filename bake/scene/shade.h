@@ -1,6 +1,7 @@
 // What the surface is at a point: textures, vertex colours and factors resolved into the parameters of light transport.
 #pragma once
 
+#include "bake/scene/optics/fresnel.h"
 #include "bake/scene/scene.h"
 
 namespace oriel {
@@ -9,14 +10,18 @@ namespace oriel {
 // coverage is 0. Diffuse albedo kd and specular lobe are those of glTF 2.0 appendix B (metallic-roughness), see
 // docs/conventions.md.
 struct ShadePoint {
-  Vec3 base_color{1};    // linear
-  Vec3 diffuse{0};       // (1 - metallic) * (1 - transmission) * base colour
-  Vec3 f0{0.04f};        // specular reflectance at normal incidence
-  float f90 = 1;         // at grazing incidence
-  float alpha = 1;       // GGX width: roughness²; 0 is a mirror
-  Vec3 transmission{0};  // colour of thin, straight transmission; times what the specular lobe leaves
-  Vec3 emission{0};      // cd/m², front side only unless double-sided
-  float coverage = 1;    // alpha test or blend: 0 lets light pass as if nothing were there
+  Vec3 base_color{1};              // linear
+  Vec3 diffuse{0};                 // (1 - metallic) * (1 - transmission) * base colour
+  Vec3 f0{0.04f};                  // specular reflectance at normal incidence
+  float f90 = 1;                   // at grazing incidence
+  FresnelCurve curve = {};         // how the reflectance goes from f0 to f90
+  float alpha = 1;                 // GGX width: roughness²; 0 is a mirror
+  float anisotropy = 0;            // strength, [0,1]: the lobe is mix(alpha, 1, strength²) wide along wide_direction
+  Vec2 wide_direction{1, 0};       // unit, in the tangent frame (tangent_at)
+  float coat = 0, coat_alpha = 0;  // a clear coat over all the above: its share of the surface, its GGX width
+  Vec3 transmission{0};            // colour of thin, straight transmission; times what the specular lobe leaves
+  Vec3 emission{0};                // cd/m², front side only unless double-sided
+  float coverage = 1;              // alpha test or blend: 0 lets light pass as if nothing were there
 };
 
 // barycentric: weights of the triangle's second and third vertex.
@@ -25,6 +30,12 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
 // The unit normal on the front side that the material's normal map makes of `normal` (unit, front side); the same where
 // it has none. docs/conventions.md, "Normal maps".
 Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal);
+
+// The tangent of a slot's texture coordinates at a point with that normal: the mesh's TANGENT, or out of the
+// coordinates. xyz of any length, 0 where the coordinates do not span a plane; w = ±1, the side of the bitangent w ·
+// cross(normal, xyz).
+Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal,
+                const TextureSlot& slot);
 
 // Coverage alone (cheap): 1 for opaque materials.
 float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);

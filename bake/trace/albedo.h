@@ -1,15 +1,27 @@
-// Directional albedo of the specular lobe, the split-sum form (Karis 2013): R(θ) = f0 * scale + f90 * bias.
+// What a shading point's specular layers reflect and let through (brdf/specular.h).
 #pragma once
 
 #include "bake/scene/shade.h"
+#include "bake/trace/brdf/specular.h"
 
 namespace oriel {
 
-// {scale, bias} of a GGX lobe of width alpha with height-correlated Smith and Schlick's Fresnel, single scattering.
-// cos_theta and alpha in [0,1]. From a table computed once by quadrature; absolute error below 2e-3. scale + bias <= 1.
-Vec2 specular_albedo(float cos_theta, float alpha);
+// The widths of an anisotropic lobe along and across its wide direction.
+inline float wide_alpha(const ShadePoint& point) {
+  return point.alpha + (1 - point.alpha) * point.anisotropy * point.anisotropy;
+}
+// An anisotropic lobe has the albedo of the isotropic one of the same area in slopes, nearly.
+inline SpecularLobe specular_lobe(const ShadePoint& point) {
+  const float alpha = point.anisotropy > 0 ? std::sqrt(point.alpha * wide_alpha(point)) : point.alpha;
+  return {point.f0, point.f90, alpha, point.curve};
+}
+inline SpecularLayers specular_layers(const ShadePoint& point) {
+  return {specular_lobe(point), point.coat, point.coat_alpha};
+}
 
-// R of a shading point per channel, [0,1].
+// R of the coat alone times its share, [0,1].
+float coat_reflectance(const ShadePoint& point, float cos_theta);
+// R of all specular layers per channel, [0,1].
 Vec3 reflectance(const ShadePoint& point, float cos_theta);
 
 // Share of light that passes straight through a surface at that incidence: what coverage leaves open, and thin

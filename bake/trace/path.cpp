@@ -14,6 +14,15 @@ float balance(float pdf, float other) {
   return pdf / (pdf + other);
 }
 
+// z along the normal, x along the tangent where there is one.
+Mat3 frame_of(const SurfacePoint& surface) {
+  const Vec3 across = surface.tangent - glm::dot(surface.tangent, surface.normal) * surface.normal;
+  const float size2 = length2(across);
+  if (!(size2 > 1e-12f)) return frame_from_normal(surface.normal);
+  const Vec3 x = across / std::sqrt(size2);
+  return {x, glm::cross(surface.normal, x), surface.normal};
+}
+
 // The scattering of a surface in world space. A shading normal tilts the lobe, and a part of it falls below the
 // geometric surface; that part is mirrored back above it, in evaluation, pdf and sampling alike. So no energy is lost
 // at smooth normals (a closed sphere of triangles stays an exact furnace), and light never leaks through.
@@ -21,7 +30,7 @@ class Shading {
  public:
   Shading(const SurfacePoint& surface, const Vec3& wo_world)
       : surface_(surface),
-        frame_(frame_from_normal(surface.normal)),
+        frame_(frame_of(surface)),
         wo_(glm::transpose(frame_) * wo_world),
         tilted_(glm::dot(surface.normal, surface.geometric_normal) < 1 - 1e-6f) {}
 
@@ -201,6 +210,15 @@ Vec3 facing(const Vec3& n, const Vec3& wo) {
   return missing > 0 ? glm::normalize(n + missing * wo) : n;
 }
 
+// The unit direction in the surface along which an anisotropic lobe is wide; 0 where texture coordinates give none.
+Vec3 wide_direction(const Scene& scene, const Hit& hit, const SceneMaterial& material, const Vec3& normal,
+                    const Vec2& in_tangent_frame) {
+  const Vec4 tangent = tangent_at(scene, hit.triangle, hit.barycentric, normal, material.anisotropy_texture);
+  const Vec3 across = Vec3(tangent) - glm::dot(Vec3(tangent), normal) * normal;
+  const Vec3 t = normalize_or(across, Vec3(0));
+  return in_tangent_frame.x * t + in_tangent_frame.y * tangent.w * glm::cross(normal, t);
+}
+
 }  // namespace
 
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
@@ -231,6 +249,8 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
     s.normal = facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal), -direction);
   }
   s.shade = shade_point(scene, hit.triangle, hit.barycentric);
+  if (s.shade.anisotropy > 0)
+    s.tangent = wide_direction(scene, hit, material, (hit.front ? 1.0f : -1.0f) * s.normal, s.shade.wide_direction);
   s.emits = s.reflects && max_component(s.shade.emission) > 0;
   return s;
 }

@@ -29,6 +29,7 @@ struct SurfacePoint {
   float magnitude = 0;  // largest |coordinate| of the triangle: what position's rounding error is relative to
   Vec3 geometric_normal{0, 0, 1};  // unit, on the side of wo
   Vec3 normal{0, 0, 1};            // unit shading normal, on the side of wo
+  Vec3 tangent{0};                 // along the wide direction of an anisotropic lobe; 0: any
   ShadePoint shade;
   bool front = true;      // wo is on the triangle's front side
   bool emits = false;     // towards wo

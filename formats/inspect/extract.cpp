@@ -4,59 +4,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "formats/core/file.h"
-#include "formats/image/exr.h"
-#include "formats/image/png.h"
 #include "formats/inspect/commands.h"
+#include "formats/inspect/extraction.h"
 #include "formats/inspect/mesh_obj.h"
 #include "formats/pack/reader.h"
 
 namespace oriel::inspect {
-namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-Bytes bytes_of(const std::string& text) {
-  const auto* p = reinterpret_cast<const std::byte*>(text.data());
-  return Bytes(p, p + text.size());
-}
-
-FloatImage rgb_image(std::uint32_t width, std::uint32_t height, std::span<const Vec3> values) {
-  FloatImage image{width, height, 3, {}};
-  image.pixels.reserve(values.size() * 3);
-  for (const Vec3& v : values) image.pixels.insert(image.pixels.end(), {v.r, v.g, v.b});
-  return image;
-}
-
-// One file after another into the folder; index.json lists those that were written.
-class Extraction {
- public:
-  Extraction(const Pack& pack, fs::path folder) : pack_(pack), folder_(std::move(folder)) { index_ = Json::array(); }
-
-  Status lightmaps();
-  Status radiance_maps();
-  Status kernels();
-  Status fresnel_maps();
-  Status textures();
-  Status mesh();
-  Status finish(const fs::path& source);
-
- private:
-  Status exr(Json& entry, const char* role, const std::string& name, const FloatImage& image, const char* unit) {
-    entry["files"][role] = name;
-    return write_exr(folder_ / name, image, {{"oriel:role", role}, {"oriel:unit", unit}});
-  }
-  Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
-  Status png(Json& entry, const char* role, const std::string& name, const ByteImage& image) {
-    entry["files"][role] = name;
-    return write_png(folder_ / name, image);
-  }
-
-  const Pack& pack_;
-  fs::path folder_;
-  Json index_;
-};
 
 Status Extraction::lightmaps() {
   for (std::size_t i = 0; i < pack_.lightmaps.size(); ++i) {
@@ -101,45 +54,6 @@ Status Extraction::radiance_maps() {
   return {};
 }
 
-Status Extraction::kernels() {
-  for (std::size_t i = 0; i < pack_.kernels.size(); ++i) {
-    const auto& kernel = pack_.kernels[i];
-    Json entry{{"kind", "brdf_kernel"},
-               {"number", i},
-               {"size", kernel.size},
-               {"model", kernel.model == KernelModel::kGgxDg ? "ggx_dg" : "beckmann_dg"},
-               {"alpha", kernel.alpha},
-               {"cos_theta", kernel.cos_theta},
-               {"half_extent", kernel.half_extent},
-               {"energy_kept", kernel.energy_kept}};
-    ORIEL_TRY_VOID(exr(entry, "weights", fmt::format("brdf_kernel_{:02}.exr", i),
-                       {kernel.size, kernel.size, 1, kernel.weights}, "1"));
-    index_.push_back(std::move(entry));
-  }
-  return {};
-}
-
-Status Extraction::fresnel_maps() {
-  for (std::size_t i = 0; i < pack_.fresnel_maps.size(); ++i) {
-    const auto& map = pack_.fresnel_maps[i];
-    const std::string name = fmt::format("fresnel_map_{:02}", i);
-    Json entry{{"kind", "fresnel_map"}, {"number", i}, {"alpha", map.alpha}, {"sphere_size", map.sphere_size}};
-    if (map.sphere_size > 0)
-      ORIEL_TRY_VOID(exr(entry, "sphere", name + ".exr", rgb_image(map.sphere_size, map.sphere_size, map.sphere), "1"));
-    const auto entries = static_cast<std::uint32_t>(map.table.size());
-    ORIEL_TRY_VOID(exr(entry, "table", name + "_table.exr", rgb_image(entries, 1, map.table), "1"));
-    std::string csv = "cos_theta,r,g,b\n";
-    for (std::size_t k = 0; k < map.table.size(); ++k) {
-      const double root = static_cast<double>(k) / static_cast<double>(map.table.size() - 1);
-      csv += fmt::format("{},{},{},{}\n", root * root, map.table[k].r, map.table[k].g, map.table[k].b);
-    }
-    entry["files"]["table_csv"] = name + "_table.csv";
-    ORIEL_TRY_VOID(write_file_atomically(folder_ / (name + "_table.csv"), bytes_of(csv)));
-    index_.push_back(std::move(entry));
-  }
-  return {};
-}
-
 Status Extraction::textures() {
   ORIEL_TRY_VOID(images("texture", "color", pack_.textures));
   return images("normal_texture", "normal", pack_.normal_textures);
@@ -168,13 +82,15 @@ Status Extraction::mesh() {
   return {};
 }
 
-Status Extraction::finish(const fs::path& source) {
+Status Extraction::finish(const std::filesystem::path& source) {
   const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
   ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json",
                                        bytes_of(out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")));
   fmt::print("{}\n", (folder_ / "index.json").string());
   return {};
 }
+
+namespace {
 
 struct Kind {
   const char* name;
@@ -195,7 +111,7 @@ const std::string& extract_kinds() {
   return names;
 }
 
-int extract(const fs::path& path, const ExtractOptions& options) {
+int extract(const std::filesystem::path& path, const ExtractOptions& options) {
   bool known = options.kind == "all";
   for (const auto& kind : kKinds) known = known || options.kind == kind.name;
   if (!known)
@@ -204,7 +120,7 @@ int extract(const fs::path& path, const ExtractOptions& options) {
   const auto pack = read_pack(path);
   if (!pack) return report(pack.error());
   std::error_code ec;
-  fs::create_directories(options.folder, ec);
+  std::filesystem::create_directories(options.folder, ec);
   if (ec) return report({ErrorCode::kIo, "cannot be made: " + ec.message(), options.folder.string()});
   Extraction extraction(*pack, options.folder);
   for (const auto& kind : kKinds) {

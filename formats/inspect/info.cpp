@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -122,11 +123,14 @@ Json small_maps_json(const Pack& pack, Json out) {
                               {"alpha", k.alpha},
                               {"cos_theta", k.cos_theta},
                               {"half_extent", k.half_extent},
-                              {"energy_kept", k.energy_kept}});
+                              {"energy_kept", k.energy_kept},
+                              {"incidences", k.slices.size()}});
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
     out["fresnel_maps"].push_back(
         {{"alpha", f.alpha}, {"table_entries", f.table.size()}, {"sphere_size", f.sphere_size}});
+  out["split_reflectance"] = {{"angles", pack.split_reflectance.angles},
+                              {"roughnesses", pack.split_reflectance.roughnesses}};
   out["cameras"] = Json::array();
   for (const auto& c : pack.cameras) out["cameras"].push_back(c.name);
   out["paths"] = Json::array();
@@ -170,6 +174,36 @@ void print_sections(const PackIndex& index) {
   }
 }
 
+// A line a kind, and one a kernel: there may be many.
+void print_material_maps(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.kernels.size(); ++i) {
+    const BrdfKernel& k = pack.kernels[i];
+    fmt::print("kernel {}: alpha {:.4g}, {} x {}, keeps {:.4g} of the lobe", i, k.alpha, k.size, k.size, k.energy_kept);
+    if (!k.slices.empty()) {
+      const auto& widest = std::max_element(k.slices.begin(), k.slices.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.tilt_rad) < std::abs(b.tilt_rad);
+      });
+      fmt::print("; {} incidences of {} x {}, up to {:.3g} degrees off the mirror direction", k.slices.size(),
+                 k.slice_size, k.slice_size, widest->tilt_rad * 180 / kPi);
+    }
+    fmt::print("\n");
+  }
+  if (pack.fresnel_maps.empty()) return;
+  std::size_t least = pack.fresnel_maps[0].table.size(), most = 0;
+  float low = 1, high = 0;
+  for (const FresnelMap& map : pack.fresnel_maps) {
+    least = std::min(least, map.table.size());
+    most = std::max(most, map.table.size());
+    low = std::min(low, map.alpha);
+    high = std::max(high, map.alpha);
+  }
+  fmt::print("{} Fresnel maps: alpha {:.4g} to {:.4g}, tables of {} to {} entries, sphere maps up to {} x {}\n",
+             pack.fresnel_maps.size(), low, high, least, most, pack.fresnel_maps[0].sphere_size,
+             pack.fresnel_maps[0].sphere_size);
+  if (const SplitReflectance& split = pack.split_reflectance; !split.table.empty())
+    fmt::print("split reflectance: {} angles x {} roughnesses\n", split.angles, split.roughnesses);
+}
+
 void print_maps(const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
@@ -190,13 +224,7 @@ void print_maps(const Pack& pack) {
                map.width, map.height, map.reflector,
                100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
   }
-  for (std::size_t i = 0; i < pack.kernels.size(); ++i)
-    fmt::print("kernel {}: {} x {}, alpha {:.4g}, at cosine {:.4g}, keeps {:.4g} of the lobe\n", i,
-               pack.kernels[i].size, pack.kernels[i].size, pack.kernels[i].alpha, pack.kernels[i].cos_theta,
-               pack.kernels[i].energy_kept);
-  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i)
-    fmt::print("Fresnel map {}: alpha {:.4g}, {} entries, sphere map {} x {}\n", i, pack.fresnel_maps[i].alpha,
-               pack.fresnel_maps[i].table.size(), pack.fresnel_maps[i].sphere_size, pack.fresnel_maps[i].sphere_size);
+  print_material_maps(pack);
 }
 
 void print_text(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {

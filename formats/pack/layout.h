@@ -85,12 +85,14 @@ inline constexpr std::uint32_t kNormalMappingSection = fourcc("NMAP");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
+inline constexpr std::uint32_t kKernelSliceSection = fourcc("KINC");
 inline constexpr std::uint32_t kFresnelSection = fourcc("FRES");
+inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 16> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 18> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -104,7 +106,9 @@ inline constexpr std::array<SectionKind, 16> kSectionKinds = {{
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
     {kKernelSection, "kernels", false, false, false},
+    {kKernelSliceSection, "kernels by incidence", true, false, false},
     {kFresnelSection, "Fresnel maps", false, false, false},
+    {kSplitSection, "split reflectance", true, false, false},
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},
 }};

@@ -40,6 +40,7 @@ struct Pack {
   std::vector<RadianceMap> radiance_maps;
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
+  SplitReflectance split_reflectance;
   std::vector<Camera> cameras;
   std::vector<CameraPath> paths;
   std::vector<UnknownSection> unknown;

@@ -49,6 +49,7 @@ struct Parts {
   Pack pack;
   std::vector<DirectionPage> directions;
   std::vector<NormalMapping> normal_mapping;
+  std::vector<KernelSlices> kernel_slices;
 };
 
 Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Parts& parts) {
@@ -89,6 +90,13 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, pack.radiance_maps);
     case kKernelSection:
       return decode_list(in, section, pack.kernels);
+    case kKernelSliceSection:
+      return decode_list(in, section, parts.kernel_slices);
+    case kSplitSection:
+      ORIEL_TRY_VOID(one_element_only(section));
+      if (auto status = decode(in, pack.split_reflectance); !status && in.ok())
+        return invalid(section.label, "{}", status.error().message);
+      return check_end(in, section);
     case kFresnelSection:
       return decode_list(in, section, pack.fresnel_maps);
     case kCameraSection:
@@ -129,6 +137,17 @@ Status attach(NormalMapping& from, Pack& pack) {
   return {};
 }
 
+Status attach(KernelSlices& from, Pack& pack) {
+  const std::string label = section_label(kKernelSliceSection, 0);
+  if (from.kernel >= pack.kernels.size())
+    return invalid(label, "found kernel {}, expected less than {}", from.kernel, pack.kernels.size());
+  BrdfKernel& kernel = pack.kernels[from.kernel];
+  if (!kernel.slices.empty()) return invalid(label, "kernel {} is there twice, expected once", from.kernel);
+  kernel.slice_size = from.size;
+  kernel.slices = std::move(from.slices);
+  return {};
+}
+
 Result<Pack> decode_all(std::span<const std::byte> file) {
   ORIEL_TRY(const PackIndex index, read_index(file));
   Parts parts;
@@ -144,6 +163,7 @@ Result<Pack> decode_all(std::span<const std::byte> file) {
         {section.kind, section.codec, section.raw_bytes, section.count, Bytes(stored.begin(), stored.end())});
   }
   for (std::size_t i = 0; i < parts.directions.size(); ++i) ORIEL_TRY_VOID(attach(parts.directions[i], i, pack));
+  for (KernelSlices& slices : parts.kernel_slices) ORIEL_TRY_VOID(attach(slices, pack));
   for (NormalMapping& mapping : parts.normal_mapping) ORIEL_TRY_VOID(attach(mapping, pack));
   return std::move(parts.pack);
 }

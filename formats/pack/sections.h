@@ -13,6 +13,12 @@ struct DirectionPage {
   std::uint32_t width = 0, height = 0;
   std::vector<Vec3> direction;
 };
+// Of one kernel.
+struct KernelSlices {
+  std::uint32_t kernel = 0;  // into Pack::kernels
+  std::uint32_t size = 0;
+  std::vector<KernelSlice> slices;
+};
 struct NormalMapping {
   struct Use {
     std::uint32_t material = 0;       // into Pack::materials
@@ -36,7 +42,9 @@ void encode(ByteWriter& out, const DirectionPage& page);
 void encode(ByteWriter& out, const NormalMapping& mapping);
 void encode(ByteWriter& out, const RadianceMap& map);
 void encode(ByteWriter& out, const BrdfKernel& kernel);
+void encode(ByteWriter& out, const KernelSlices& slices);
 void encode(ByteWriter& out, const FresnelMap& map);
+void encode(ByteWriter& out, const SplitReflectance& split);
 
 // Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
 // the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes
@@ -52,6 +60,8 @@ Status decode(ByteReader& in, DirectionPage& page);
 Status decode(ByteReader& in, NormalMapping& mapping);
 Status decode(ByteReader& in, RadianceMap& map);
 Status decode(ByteReader& in, BrdfKernel& kernel);
+Status decode(ByteReader& in, KernelSlices& slices);
 Status decode(ByteReader& in, FresnelMap& map);
+Status decode(ByteReader& in, SplitReflectance& split);
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// Textures, lightmaps with their directions, radiance maps, kernels and Fresnel maps.
+// Textures, lightmaps with their directions, radiance maps.
 #include <algorithm>
 
 #include "formats/core/half.h"
@@ -179,47 +179,6 @@ Status decode(ByteReader& in, RadianceMap& map) {
   map.disparity.resize(disparities.size());
   for (std::size_t i = 0; i < disparities.size(); ++i) map.disparity[i] = disparity_from_code(disparities[i], shift);
   map.valid = get_planes<std::uint8_t>(in, pixels);
-  return {};
-}
-
-void encode(ByteWriter& out, const BrdfKernel& kernel) {
-  out.put(static_cast<std::uint8_t>(kernel.model));
-  for (int i = 0; i < 3; ++i) out.put(std::uint8_t{0});
-  out.put(kernel.alpha);
-  out.put(kernel.cos_theta);
-  out.put(kernel.half_extent);
-  out.put(kernel.energy_kept);
-  out.put(kernel.size);
-  put_planes(out, std::span<const float>(kernel.weights));
-}
-
-Status decode(ByteReader& in, BrdfKernel& kernel) {
-  ORIEL_TRY_VOID(get_choice(in, "kernel model", 1, kernel.model));
-  std::uint8_t reserved = 0;
-  for (int i = 0; i < 3; ++i) ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
-  kernel.alpha = in.get<float>();
-  kernel.cos_theta = in.get<float>();
-  kernel.half_extent = in.get<float>();
-  kernel.energy_kept = in.get<float>();
-  kernel.size = in.get<std::uint32_t>();
-  kernel.weights = get_planes<float>(in, std::uint64_t{kernel.size} * kernel.size);
-  return {};
-}
-
-void encode(ByteWriter& out, const FresnelMap& map) {
-  out.put(map.alpha);
-  out.put(static_cast<std::uint32_t>(map.table.size()));
-  out.put(map.sphere_size);
-  put_planes(out, std::span<const Vec3>(map.table));
-  put_planes(out, std::span<const Vec3>(map.sphere));
-}
-
-Status decode(ByteReader& in, FresnelMap& map) {
-  map.alpha = in.get<float>();
-  const auto entries = in.get<std::uint32_t>();
-  map.sphere_size = in.get<std::uint32_t>();
-  map.table = get_planes<Vec3>(in, entries);
-  map.sphere = get_planes<Vec3>(in, std::uint64_t{map.sphere_size} * map.sphere_size);
   return {};
 }
 

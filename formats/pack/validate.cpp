@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "formats/pack/issues.h"
+#include "formats/pack/rules/issues.h"
 
 namespace oriel {
 namespace {
@@ -202,6 +202,7 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_radiance_maps(pack, list);
   validate_kernels(pack, list);
   validate_fresnel_maps(pack, list);
+  validate_split_reflectance(pack, list);
   validate_cameras(pack, list);
   validate_unknown(pack, list);
   return std::move(list.issues);

@@ -105,6 +105,13 @@ std::vector<NormalMapping> normal_mapping(const Pack& pack) {
   return {std::move(mapping)};
 }
 
+std::vector<KernelSlices> kernel_slices(const Pack& pack) {
+  std::vector<KernelSlices> all;
+  for (std::uint32_t i = 0; i < pack.kernels.size(); ++i)
+    if (const BrdfKernel& k = pack.kernels[i]; !k.slices.empty()) all.push_back({i, k.slice_size, k.slices});
+  return all;
+}
+
 SectionList encode_sections(const Pack& pack) {
   SectionList list;
   list.add_text(kProvenanceSection, pack.provenance);
@@ -130,7 +137,13 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kReflectorSection, pack.reflectors);
   list.add_each(kRadianceMapSection, pack.radiance_maps);
   list.add_list(kKernelSection, pack.kernels);
+  list.add_list(kKernelSliceSection, kernel_slices(pack));
   list.add_list(kFresnelSection, pack.fresnel_maps);
+  if (pack.split_reflectance.angles > 0) {
+    ByteWriter split;
+    encode(split, pack.split_reflectance);
+    list.add(kSplitSection, 1, split.take());
+  }
   list.add_list(kCameraSection, pack.cameras);
   list.add_list(kPathSection, pack.paths);
   for (const auto& unknown : pack.unknown) list.add_unknown(unknown);

@@ -80,6 +80,13 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(selections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
+  const std::map<std::string, KernelPlace> places{{"lobe", KernelPlace::kLobe}, {"centred", KernelPlace::kCentred}};
+  app.add_option("--kernel", out.frame.kernel,
+                 "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as "
+                 "Bastos et al. published it")
+      ->transform(CLI::CheckedTransformer(places).description(""))
+      ->type_name("lobe|centred")
+      ->default_str("lobe");
   const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable},
                                                         {"sphere", Reflectance::kSphereMap}};
   app.add_option("--reflectance", out.frame.reflectance,

@@ -13,12 +13,12 @@ float pixels_per_tangent(const View& view) {
 
 }  // namespace
 
-ImageRect choose_image(const NdcRect& screen, const KernelTaps& taps, const View& view, int texture_limit) {
+ImageRect choose_image(const NdcRect& screen, const GpuKernel& kernel, const View& view, int texture_limit) {
   ImageRect rect;
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before
   // it.
-  const float blur = view.orthographic ? 0.0f : 0.5f * taps.median * pixels_per_tangent(view);
+  const float blur = view.orthographic ? 0.0f : 0.5f * kernel.median * pixels_per_tangent(view);
   if (blur >= 6) rect.scale = 0.5f;
   if (blur >= 16) rect.scale = 0.25f;
   float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
@@ -41,11 +41,8 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ConvolvePass::draw(const GpuReflector& reflector, const KernelTaps& taps, const View& view, const ImageRect& rect,
+void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
                         const ImageTarget& target, float scene_radius, FrameStats& stats) const {
-  std::array<Vec4, kMaxKernelTaps> packed{};
-  const int count = std::min(static_cast<int>(taps.taps.size()), kMaxKernelTaps);
-  for (int i = 0; i < count; ++i) packed[i] = Vec4(taps.taps[i].tangent, taps.taps[i].width, 0);
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
   const float to_image = pixels_per_tangent(view) * rect.scale;
@@ -56,6 +53,7 @@ void ConvolvePass::draw(const GpuReflector& reflector, const KernelTaps& taps, c
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   target.filled.bind(0);
+  kernel.taps.bind(1);
   program_.use();
   program_.set("u_image", 0);
   program_.set("u_image_size", IVec2(rect.width, rect.height));
@@ -67,10 +65,11 @@ void ConvolvePass::draw(const GpuReflector& reflector, const KernelTaps& taps, c
   program_.set("u_plane_normal", normal);
   program_.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
   program_.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
-  program_.set("u_blur_level", std::log2(std::max(0.25f * taps.median * to_image, 1.0f)));
+  program_.set("u_blur_level", std::log2(std::max(0.25f * kernel.median * to_image, 1.0f)));
   program_.set("u_pixels_per_tangent", to_image);
-  program_.set("u_taps[0]", std::span<const Vec4>(packed));
-  program_.set("u_tap_count", count);
+  program_.set("u_taps", 1);
+  program_.set("u_tap_count", kernel.count);
+  program_.set("u_tap_rows", kernel.rows);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ++stats.draws;
 }

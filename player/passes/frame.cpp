@@ -93,13 +93,13 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
-  const KernelTaps& taps = scene.kernel_taps(scene.pack().materials[reflector.material].kernel);
-  const ImageRect rect = choose_image(candidate.screen, taps, view, device_.texture_size);
+  const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
+  const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
   reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-  const bool blurs = taps.taps.size() > 1 && options.show != Show::kM;
+  const bool blurs = kernel.blurs() && options.show != Show::kM;
   fill_pass_.draw(rect, *image_, blurs, stats);
-  if (blurs) convolve_pass_.draw(reflector, taps, view, rect, *image_, scene.bounds().radius(), stats);
+  if (blurs) convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats);
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
   reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "player/scene/kernel_taps.h"
 #include "player/scene/map_point.h"
 
 namespace oriel {
@@ -16,6 +17,7 @@ struct FrameOptions {
   Show show = Show::kAll;
   int maps_per_element = 2;  // radiance maps drawn for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
+  KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds

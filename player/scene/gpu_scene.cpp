@@ -128,8 +128,6 @@ void GpuScene::upload_images() {
   for (const Texture& texture : pack_.normal_textures) normal_maps_.push_back(upload_texture(texture, gpu::kRgba8));
   for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
-  for (const BrdfKernel& kernel : pack_.kernels) kernel_taps_.push_back(make_kernel_taps(kernel, kKernelTaps));
-  mirror_ = make_kernel_taps(BrdfKernel{}, 1);
   radiance_maps_.resize(pack_.radiance_maps.size());
   sphere_maps_.resize(pack_.fresnel_maps.size());
 }
@@ -168,8 +166,15 @@ const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   return texture;
 }
 
-const KernelTaps& GpuScene::kernel_taps(std::int32_t kernel) const {
-  return kernel < 0 ? mirror_ : kernel_taps_[static_cast<std::size_t>(kernel)];
+const GpuKernel& GpuScene::kernel(std::int32_t index, KernelPlace place) {
+  const auto [at, added] = kernels_.try_emplace({index, place});
+  if (added) {
+    const BrdfKernel mirror;
+    const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
+    const KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
+    at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median};
+  }
+  return at->second;
 }
 
 }  // namespace oriel

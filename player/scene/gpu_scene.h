@@ -1,6 +1,7 @@
 // A pack as the passes draw it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -34,6 +35,14 @@ struct GpuReflector {
   Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
 };
 
+// K as a shader reads it.
+struct GpuKernel {
+  gpu::Texture taps;
+  int count = 1, rows = 1;  // as KernelTaps
+  float median = 0;
+  bool blurs() const { return count > 1; }
+};
+
 class GpuScene {
  public:
   // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
@@ -61,8 +70,8 @@ class GpuScene {
   // Uploaded on first use and kept.
   const gpu::Texture& radiance_map(std::uint32_t index);
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
-  // Taps of Pack::kernels; one at the centre for index -1.
-  const KernelTaps& kernel_taps(std::int32_t kernel) const;
+  // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
+  const GpuKernel& kernel(std::int32_t index, KernelPlace place);
 
  private:
   GpuScene() = default;
@@ -79,8 +88,7 @@ class GpuScene {
   std::vector<LightmapTexture> lightmaps_;
   gpu::Texture white_, flat_, reflectance_tables_;
   LightmapTexture no_lightmap_;
-  std::vector<KernelTaps> kernel_taps_;
-  KernelTaps mirror_;
+  std::map<std::pair<std::int32_t, KernelPlace>, GpuKernel> kernels_;
   bool mipmaps_ = true;
 };
 

@@ -1,10 +1,13 @@
 #include "player/scene/kernel_taps.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace oriel {
 namespace {
+
+constexpr int kCentredRows = 9;
 
 // Position in [0, n] where the running sum of weights reaches u * total; linear inside a cell.
 double invert(std::span<const double> weights, double u) {
@@ -24,36 +27,87 @@ double radical_inverse_2(std::uint32_t i) {
   return value;
 }
 
-}  // namespace
-
-KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count) {
-  KernelTaps out;
-  const std::size_t n = kernel.size;
-  if (n <= 1 || !(kernel.half_extent > 0) || count <= 1) {
-    out.taps.push_back({});
-    return out;
-  }
+// Taps of a texture of n² weights. place: from [0, 1]² to mirror coordinates.
+std::vector<KernelTap> taps_of(const std::vector<float>& weights, std::size_t n, int count,
+                               const std::function<DVec2(const DVec2&)>& place) {
   std::vector<double> rows(n, 0.0), row(n);
-  for (std::size_t y = 0; y < n; ++y) {
-    for (std::size_t x = 0; x < n; ++x) rows[y] += kernel.weights[y * n + x];
-  }
-  const double cell = 2.0 * kernel.half_extent / static_cast<double>(n);
-  std::vector<double> radii;
+  for (std::size_t y = 0; y < n; ++y)
+    for (std::size_t x = 0; x < n; ++x) rows[y] += weights[y * n + x];
+  const double side = 1.0 / static_cast<double>(n);
+  std::vector<KernelTap> taps;
   for (int i = 0; i < count; ++i) {
     const double v = invert(rows, (i + 0.5) / count);
     const std::size_t y = std::min(static_cast<std::size_t>(v), n - 1);
-    for (std::size_t x = 0; x < n; ++x) row[x] = kernel.weights[y * n + x];
+    for (std::size_t x = 0; x < n; ++x) row[x] = weights[y * n + x];
     const double u = invert(row, radical_inverse_2(static_cast<std::uint32_t>(i)) + 0.5 / count);
     const std::size_t x = std::min(static_cast<std::size_t>(u), n - 1);
-    const double weight = std::max(static_cast<double>(kernel.weights[y * n + x]), 1e-12);
+    // The cell around it, and how many taps share it.
+    const DVec2 corner = DVec2(x, y) * side;
+    const DVec2 cell = place(corner + side) - place(corner), all = place({1, 1}) - place({0, 0});
+    const double sharing = std::max(static_cast<double>(weights[y * n + x]), 1e-12) * count;
     KernelTap tap;
-    tap.tangent = Vec2(DVec2(u, v) * cell - DVec2(kernel.half_extent));
-    tap.width = static_cast<float>(std::min(cell / std::sqrt(weight * count), 2.0 * kernel.half_extent));
-    out.taps.push_back(tap);
-    radii.push_back(glm::length(DVec2(tap.tangent)));
+    tap.at = place(DVec2(u, v) * side);
+    tap.width = static_cast<float>(std::sqrt(std::min(cell.x * cell.y / sharing, all.x * all.y)));
+    taps.push_back(tap);
   }
+  return taps;
+}
+
+// The published kernel at an incidence.
+std::vector<KernelTap> centred_taps(const BrdfKernel& kernel, int count, double cos_theta) {
+  auto taps = taps_of(kernel.weights, kernel.size, count, [&](const DVec2& at) {
+    const DVec2 tangent = (2.0 * at - 1.0) * double{kernel.half_extent} * DVec2(cos_theta, 1);
+    return tangent * 2.0 / (1 + std::sqrt(1 + glm::dot(tangent, tangent)));
+  });
+  return taps;
+}
+
+// The lobe's between two slices: points of the same share of the energy, on the line between them.
+std::vector<KernelTap> lobe_taps(const std::vector<std::vector<KernelTap>>& slices, const BrdfKernel& kernel,
+                                 double root) {
+  const auto root_of = [&](std::size_t i) { return std::sqrt(double{kernel.slices[i].cos_theta}); };
+  std::size_t above = 1;
+  while (above + 1 < slices.size() && root_of(above) < root) ++above;
+  if (slices.size() == 1) return slices[0];
+  const double low = root_of(above - 1), share = std::clamp((root - low) / (root_of(above) - low), 0.0, 1.0);
+  std::vector<KernelTap> taps = slices[above - 1];
+  for (std::size_t k = 0; k < taps.size(); ++k) {
+    const KernelTap& next = slices[above][k];
+    taps[k].at = glm::mix(taps[k].at, next.at, static_cast<float>(share));
+    taps[k].width = glm::mix(taps[k].width, next.width, static_cast<float>(share));
+  }
+  return taps;
+}
+
+float median_radius(std::span<const KernelTap> taps) {
+  std::vector<float> radii;
+  for (const KernelTap& tap : taps) radii.push_back(glm::length(tap.at));
   std::sort(radii.begin(), radii.end());
-  out.median = static_cast<float>(radii[radii.size() / 2]);
+  return radii[radii.size() / 2];
+}
+
+}  // namespace
+
+KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place) {
+  KernelTaps out;
+  if (kernel.size <= 1 || !(kernel.half_extent > 0) || count <= 1) {
+    out.taps.push_back({});
+    return out;
+  }
+  std::vector<std::vector<KernelTap>> slices;
+  if (place == KernelPlace::kLobe)
+    for (const KernelSlice& slice : kernel.slices)
+      slices.push_back(
+          taps_of(slice.weights, kernel.slice_size, count, [&](const DVec2& at) { return slice_point(slice, at); }));
+  out.count = count;
+  out.rows = slices.empty() ? kCentredRows : std::max(static_cast<int>(slices.size()), 2);
+  for (int i = 0; i < out.rows; ++i) {
+    const double root = i / (out.rows - 1.0);
+    const auto row =
+        slices.empty() ? centred_taps(kernel, count, std::max(root * root, 1e-3)) : lobe_taps(slices, kernel, root);
+    out.taps.insert(out.taps.end(), row.begin(), row.end());
+  }
+  out.median = median_radius(std::span(out.taps).last(static_cast<std::size_t>(count)));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// K as a few samples of equal energy, for a shader.
+// K as a few samples of equal energy by incidence, for a shader: the same maths as shaders/lib/kernel.glsl.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,41 @@
 
 namespace oriel {
 
-inline constexpr int kMaxKernelTaps = 64;
-
 struct KernelTap {
-  Vec2 tangent{0};  // offset from the mirror direction, as in BrdfKernel
-  float width = 0;  // side of the square of the tangent plane that this tap stands for
+  Vec2 at{0};       // mirror coordinates of its direction, as in KernelSlice
+  float width = 0;  // side of the square of them that this tap stands for
 };
 
 struct KernelTaps {
-  std::vector<KernelTap> taps;  // one at 0 for a mirror
-  float median = 0;             // tangent within which half of the energy lies
+  int count = 1;                // taps a row; 1: a mirror
+  int rows = 1;                 // row i is at cosθ = (i / (rows-1))²
+  std::vector<KernelTap> taps;  // row by row; tap k of all rows stands for the same part of the lobe
+  float median = 0;             // radius that holds half of the energy at normal incidence
 };
 
-// `count` samples of the kernel's weights, by inverting their cumulative distribution (rows, then columns) on a
-// Hammersley set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at
-// the centre.
-KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count);
+// kLobe: as the lobe turns from the mirror direction with incidence, where the kernel says how. kCentred: as published
+// (Bastos et al. 1999, section 8.2.1), one kernel centred on the mirror ray; it shrinks across by the cosine.
+enum class KernelPlace { kLobe, kCentred };
+
+// `count` samples a row by inverting the cumulative distribution of the weights (rows, then columns) on a Hammersley
+// set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at the centre.
+KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place);
+
+// Where a cosine lies among the rows: the row below, and the share of the next.
+struct RowPosition {
+  int row;
+  float next;
+};
+inline RowPosition kernel_row(float cos_theta, int rows) {
+  const float at = std::sqrt(std::fmin(std::fmax(cos_theta, 0.0f), 1.0f)) * static_cast<float>(rows - 1);
+  const int row = std::min(static_cast<int>(at), std::max(rows - 2, 0));
+  return {row, at - static_cast<float>(row)};
+}
+
+// The direction at mirror coordinates u; mirror, across and along are an orthonormal frame, along the side of u.y > 0.
+inline Vec3 lobe_direction(const Vec3& mirror, const Vec3& across, const Vec3& along, const Vec2& u) {
+  const float q = 0.25f * glm::dot(u, u);
+  return ((1 - q) * mirror + u.x * across + u.y * along) / (1 + q);
+}
 
 }  // namespace oriel

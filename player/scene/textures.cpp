@@ -82,6 +82,12 @@ gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
   return {gpu::kRgba32f, static_cast<int>(width), static_cast<int>(height), texels.data()};
 }
 
+gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
+  std::vector<Vec4> texels;
+  for (const KernelTap& tap : taps.taps) texels.emplace_back(tap.at, tap.width, 0);
+  return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
+}
+
 gpu::Texture upload_sphere_map(const FresnelMap& map) {
   std::vector<Vec4> texels;
   for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);

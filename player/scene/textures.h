@@ -3,6 +3,7 @@
 
 #include "formats/pack/pack.h"
 #include "player/gpu/texture.h"
+#include "player/scene/kernel_taps.h"
 
 namespace oriel {
 
@@ -23,6 +24,8 @@ gpu::Texture upload_radiance_map(const RadianceMap& map);
 
 // One row a map, as wide as the longest table; not filtered.
 gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps);
+// A row an incidence, a texel a tap: mirror coordinates and width. Not filtered.
+gpu::Texture upload_kernel_taps(const KernelTaps& taps);
 gpu::Texture upload_sphere_map(const FresnelMap& map);
 
 }  // namespace oriel

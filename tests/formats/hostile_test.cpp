@@ -224,6 +224,22 @@ TEST(Hostile, DirectionsAndNormalMapping) {
   expect_refusal(with_record(kNormalMappingSection, [](SectionRecord& r) { r.count = 2; }), mapping + "found 2");
 }
 
+TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
+  const std::string slices = "section KINC (kernels by incidence): ", split = "section SPLT (split reflectance): ";
+  expect_refusal(with_raw(kKernelSliceSection, 0, 2u), slices + "found kernel 2, expected less than 2");
+  expect_refusal(with_raw(kKernelSliceSection, 4, 4u), slices + "element 0: found size 4, expected an odd one");
+  expect_refusal(with_raw(kKernelSliceSection, 4, ~0u), slices + "element 0: found size 4294967295");
+  expect_refusal(with_raw(kKernelSliceSection, 4, 32767u), slices + "its counts need more");
+  expect_refusal(with_raw(kKernelSliceSection, 8, ~0u), slices + "its counts need more");
+  expect_refusal(with_raw(kKernelSliceSection, 60, ~0u), slices + "its counts need more");
+  expect_refusal(with_raw(kKernelSliceSection, 67, std::uint8_t{0x7c}), slices + "element 0: found radial share half");
+  expect_refusal(with_raw(kKernelSliceSection, 76, std::uint8_t{0xbc}), slices + "element 0: found weight half");
+  expect_refusal(with_raw(kSplitSection, 0, 0u), split + "found 0 x 3 texels");
+  expect_refusal(with_raw(kSplitSection, 4, 32768u), split + "its counts need more");
+  expect_refusal(with_raw(kSplitSection, 14, std::uint8_t{0x80}), split + "found scale half");
+  expect_refusal(with_record(kSplitSection, [](SectionRecord& r) { r.count = 2; }), split + "found 2 elements");
+}
+
 // Sections may come in any order: what a section adds to others does not depend on theirs.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
@@ -234,6 +250,7 @@ TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   ASSERT_TRUE(pack) << pack.error().text();
   EXPECT_EQ(pack->lightmaps[0].direction.size(), 32u);
   EXPECT_EQ(pack->materials[1].normal_texture, 0);
+  EXPECT_EQ(pack->kernels[1].slices.size(), 2u);
   EXPECT_TRUE(validate(*pack).empty());
 }
 
@@ -247,6 +264,10 @@ bool all_finite(const Pack& pack) {
     if (!finite(page.irradiance) || !finite(page.standard_error) || !finite(page.direction)) return false;
   for (const auto& map : pack.radiance_maps)
     if (!finite(map.radiance)) return false;
+  for (const auto& kernel : pack.kernels)
+    for (const auto& slice : kernel.slices)
+      for (const double v : {0.0, 1.0})
+        if (const DVec2 u = slice_point(slice, {v, v}); !std::isfinite(u.x) || !std::isfinite(u.y)) return false;
   return finite(pack.mesh.positions) && finite(pack.mesh.normals);
 }
 

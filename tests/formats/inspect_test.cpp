@@ -103,7 +103,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);
   EXPECT_NEAR(json["lightmaps"][0]["lux"]["max"].get<double>(), 155.9, 0.2);
   EXPECT_EQ(json["radiance_maps"].size(), 2u);
-  EXPECT_EQ(json["sections"].size(), 18u);
+  EXPECT_EQ(json["sections"].size(), 20u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 
@@ -154,11 +154,17 @@ TEST_F(Inspect, ExtractsEveryMap) {
   ASSERT_TRUE(pack);
   const auto index = nlohmann::json::parse(slurp(to / "index.json"));
   std::size_t files = 0;
-  for (const auto& entry : index["entries"])
+  const auto count = [&](const auto& entry) {
     for (const auto& [role, name] : entry["files"].items()) {
-      EXPECT_TRUE(std::filesystem::exists(to / name.get<std::string>())) << role << " " << name;
+      EXPECT_TRUE(std::filesystem::exists(to / name.template get<std::string>())) << role << " " << name;
       ++files;
     }
+  };
+  for (const auto& entry : index["entries"]) {
+    count(entry);
+    if (entry.contains("incidences"))
+      for (const auto& incidence : entry["incidences"]) count(incidence);
+  }
   std::size_t in_folder = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(to)) ++in_folder;
   EXPECT_EQ(in_folder, files + 1) << "index.json names every file";
@@ -181,6 +187,10 @@ TEST_F(Inspect, ExtractsEveryMap) {
   EXPECT_EQ(read_png(to / "normal_texture_000.png")->pixels, pack->normal_textures[0].texels);
   EXPECT_EQ(read_exr(to / "radiance_map_0001_disparity.exr")->channels, 1u);
   EXPECT_EQ(read_exr(to / "brdf_kernel_01.exr")->width, 5u);
+  EXPECT_EQ(read_exr(to / "brdf_kernel_01_incidence_1.exr")->width, 3u);
+  EXPECT_TRUE(std::filesystem::exists(to / "brdf_kernel_01_radial.csv"));
+  EXPECT_FALSE(std::filesystem::exists(to / "brdf_kernel_00_radial.csv")) << "a mirror has no lobe";
+  EXPECT_EQ(read_exr(to / "split_reflectance.exr")->height, 3u);
   EXPECT_EQ(read_exr(to / "fresnel_map_00.exr")->width, 3u);
   EXPECT_EQ(read_png(to / "texture_000.png")->pixels, pack->textures[0].texels);
   EXPECT_NE(slurp(to / "mesh.obj").find("f 5/5/5 6/6/6 7/7/7"), std::string::npos);

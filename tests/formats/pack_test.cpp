@@ -141,6 +141,24 @@ TEST(Pack, DirectionsAndNormalMapsComeBack) {
   EXPECT_EQ(*first, *second);
 }
 
+TEST(Pack, KernelsByIncidenceAndSplitReflectanceComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  EXPECT_TRUE(out.kernels[0].slices.empty());
+  EXPECT_EQ(out.kernels[1].slice_size, 3u);
+  ASSERT_EQ(out.kernels[1].slices.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const KernelSlice &a = in.kernels[1].slices[i], &b = out.kernels[1].slices[i];
+    EXPECT_EQ(std::tie(a.cos_theta, a.albedo, a.energy_kept, a.tilt_rad, a.shift, a.radial_extent),
+              std::tie(b.cos_theta, b.albedo, b.energy_kept, b.tilt_rad, b.shift, b.radial_extent));
+    EXPECT_EQ(std::tie(a.width, a.lower, a.upper), std::tie(b.width, b.lower, b.upper));
+    EXPECT_EQ(a.weights, b.weights);  // halves hold these
+    for (std::size_t k = 0; k < a.radial.size(); ++k) EXPECT_NEAR(a.radial[k], b.radial[k], 0x1p-12f);
+  }
+  EXPECT_EQ(out.split_reflectance.angles, 2u);
+  EXPECT_EQ(out.split_reflectance.roughnesses, 3u);
+  EXPECT_EQ(out.split_reflectance.table, in.split_reflectance.table);
+}
+
 // What halves do to the light shown under lamps anywhere above, with any share of even light, on normals
 // tilted up to 60 degrees: the figures of docs/format.md.
 TEST(Pack, DirectionsKeepWhatIsShown) {

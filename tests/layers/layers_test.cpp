@@ -27,17 +27,23 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/core"] = {};
   m["formats/image"] = core;
   m["formats/assets"] = core;
-  m["formats/pack/encoding"] = core;  // bytes and numbers apart from what they mean
-  m["formats/pack"] = plus(assets, {"formats/pack/encoding"});
+  m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
+  m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
+  m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
   m["formats/inspect"] = plus(assets, {"formats/pack", "formats/image"});
   m["bake/jobs"] = core;
   m["bake/scene"] = plus(assets, {"bake/jobs"});
-  m["bake/scene/gltf"] = plus(assets, {"bake/jobs", "bake/scene"});  // the file format apart from the scene
+  m["bake/scene/optics"] = core;  // physics of surfaces: no scene
+  m["bake/scene/gltf"] =
+      plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
-  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light"});
-  m["bake/trace"] = m["bake/atlas"] = plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light"});
+  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/optics"});
+  m["bake/trace"] = m["bake/atlas"] =
+      plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
+  m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
   m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
   m["bake/atlas"].insert("bake/atlas/chart");
+  m["bake/trace"].insert("bake/trace/brdf");
   m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
   m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});        // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});

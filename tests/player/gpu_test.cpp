@@ -251,6 +251,32 @@ TEST_F(SharedMaths, NormalMaps) {
   }
 }
 
+TEST_F(SharedMaths, LobeDirections) {
+  std::vector<Vec4> views, places;
+  for (int i = 0; i < 500; ++i) {
+    views.emplace_back(normalize_or(Vec3(random(-1, 1), random(-1, 1), random(-1, 1)), Vec3(0, 0, 1)), random(0, 1));
+    const float scale = std::exp2(random(-20, 4));
+    places.emplace_back(random(-1, 1) * scale, random(-1, 1) * scale, i % 17 == 0 ? 1.0f : random(0, 1), 9);
+  }
+  // The frame of the shader: a helper axis makes it from the direction.
+  const auto found = run_shader("lib/kernel.glsl",
+                                "vec3 across = normalize(cross(a.xyz, vec3(0.31, 0.64, 0.7)));\n"
+                                "o_value = vec4(lobe_direction(a.xyz, across, cross(across, a.xyz), b.xy), 1.0);\n",
+                                views, places);
+  const auto rows =
+      run_shader("lib/kernel.glsl", "o_value = vec4(kernel_row(b.z, int(b.w)), 0.0, 0.0);\n", views, places);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec3 mirror(views[i]), across = glm::normalize(glm::cross(mirror, Vec3(0.31f, 0.64f, 0.7f)));
+    const Vec3 direction = lobe_direction(mirror, across, glm::cross(across, mirror), Vec2(places[i]));
+    expect_same(found[i], Vec4(direction, 1), 2);
+    EXPECT_NEAR(glm::length(direction), 1, 1e-5f);
+    const RowPosition row = kernel_row(places[i].z, 9);
+    EXPECT_NEAR(rows[i].x + rows[i].y, static_cast<float>(row.row) + row.next, 1e-5f);
+    EXPECT_LE(rows[i].x, 7);
+    EXPECT_LE(row.row, 7);
+  }
+}
+
 // R at random angles, against the definition of the table.
 TEST_F(SharedMaths, ReflectanceTable) {
   FresnelMap map, other;

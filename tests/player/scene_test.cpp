@@ -150,12 +150,13 @@ TEST(KernelTaps, HaveTheKernelsMoments) {
     }
   }
   for (float& w : kernel.weights) w = static_cast<float>(w / sum);
-  const KernelTaps taps = make_kernel_taps(kernel, 48);
-  ASSERT_EQ(taps.taps.size(), 48u);
+  const KernelTaps taps = make_kernel_taps(kernel, 48, KernelPlace::kCentred);
+  ASSERT_EQ(taps.taps.size(), std::size_t{48} * static_cast<std::size_t>(taps.rows));
   Vec2 mean(0), variance(0);
-  for (const KernelTap& tap : taps.taps) {
-    mean += tap.tangent / 48.0f;
-    variance += tap.tangent * tap.tangent / 48.0f;
+  for (const KernelTap& tap : std::span(taps.taps).last(48)) {  // normal incidence
+    const Vec2 tangent = tap.at / (1 - 0.25f * glm::dot(tap.at, tap.at));
+    mean += tangent / 48.0f;
+    variance += tangent * tangent / 48.0f;
     EXPECT_GT(tap.width, 0);
   }
   EXPECT_NEAR(mean.x, 0, 0.005f);
@@ -165,10 +166,60 @@ TEST(KernelTaps, HaveTheKernelsMoments) {
   EXPECT_NEAR(taps.median, 0.1f * 1.177f, 0.02f);
 }
 
+// A lobe of two slices: as wide as a pixel, at the mirror direction when seen from above and off it at grazing angles.
+BrdfKernel leaning_kernel() {
+  BrdfKernel kernel;
+  kernel.alpha = 0.1f;
+  kernel.size = 3;
+  kernel.half_extent = 0.1f;
+  kernel.weights.assign(9, 1.0f / 9);
+  kernel.slice_size = 1;
+  for (const float cos_theta : {0.0f, 1.0f}) {
+    KernelSlice slice;
+    slice.cos_theta = cos_theta;
+    slice.shift = 0.4f * (1 - cos_theta);
+    slice.width = {0.1f, 0.2f};
+    slice.lower = {-1, -1};
+    slice.upper = {1, 1};
+    slice.radial = {0, 1};
+    slice.weights = {1};
+    kernel.slices.push_back(slice);
+  }
+  return kernel;
+}
+
+TEST(KernelTaps, FollowTheLobeBetweenIncidences) {
+  const BrdfKernel kernel = leaning_kernel();
+  const KernelTaps taps = make_kernel_taps(kernel, 48, KernelPlace::kLobe);
+  EXPECT_EQ(taps.rows, 2);
+  ASSERT_EQ(taps.taps.size(), 96u);
+  for (std::size_t row = 0; row < 2; ++row) {
+    Vec2 mean(0), low(1e9f), high(-1e9f);
+    for (const KernelTap& tap : std::span(taps.taps).subspan(48 * row, 48)) {
+      mean += tap.at / 48.0f;
+      low = glm::min(low, tap.at);
+      high = glm::max(high, tap.at);
+    }
+    EXPECT_NEAR(mean.x, 0, 2e-3f);
+    EXPECT_NEAR(mean.y, row == 0 ? 0.4f : 0.0f, 2e-3f);
+    EXPECT_NEAR(high.x - low.x, 2 * std::sinh(1.0f) * 0.1f, 0.03f);
+    EXPECT_NEAR(high.y - low.y, 2 * std::sinh(1.0f) * 0.2f, 0.04f);
+  }
+  const RowPosition half = kernel_row(0.25f, 2);
+  EXPECT_EQ(half.row, 0);
+  EXPECT_FLOAT_EQ(half.next, 0.5f);
+  EXPECT_EQ(kernel_row(1, 9).row, 7);
+  EXPECT_EQ(kernel_row(1, 9).next, 1);
+  EXPECT_EQ(kernel_row(-1, 9).row, 0);
+  EXPECT_EQ(kernel_row(0.3f, 1).row, 0);
+  for (const KernelTap& tap : make_kernel_taps(kernel, 48, KernelPlace::kCentred).taps)
+    EXPECT_LE(std::abs(tap.at.y), 0.1f) << "the published kernel stays at the mirror ray";
+}
+
 TEST(KernelTaps, AMirrorIsOneTap) {
-  const KernelTaps taps = make_kernel_taps(BrdfKernel{}, 48);
+  const KernelTaps taps = make_kernel_taps(BrdfKernel{}, 48, KernelPlace::kLobe);
   ASSERT_EQ(taps.taps.size(), 1u);
-  EXPECT_EQ(taps.taps[0].tangent, Vec2(0));
+  EXPECT_EQ(taps.taps[0].at, Vec2(0));
   EXPECT_EQ(taps.median, 0);
 }
 

@@ -102,6 +102,22 @@ BrdfKernel tiny_kernel(std::uint32_t size) {
   return kernel;
 }
 
+KernelSlice tiny_slice(float cos_theta) {
+  KernelSlice slice;
+  slice.cos_theta = cos_theta;
+  slice.albedo = 0.9f;
+  slice.energy_kept = 0.99f;
+  slice.tilt_rad = 0.1f;
+  slice.shift = 0.05f;
+  slice.width = {0.1f, 0.2f};
+  slice.upper = {1.5f, 2};
+  slice.lower = {-1.5f, -1};
+  slice.radial_extent = 0.7f;
+  slice.radial = {0, 0.5f, 0.99f};
+  slice.weights = {0.0625f, 0.125f, 0.0625f, 0.125f, 0.25f, 0.125f, 0.0625f, 0.125f, 0.0625f};
+  return slice;
+}
+
 FresnelMap tiny_fresnel_map() {
   FresnelMap map;
   map.alpha = 0.0625f;
@@ -174,6 +190,9 @@ Pack tiny_mapped_pack() {
     // The floor's tangents follow from the coordinates.
     pack.mesh.tangents.push_back(i < 4 ? Vec4(0) : Vec4(0.6f, 0.8f, 0, i % 2 == 0 ? 1 : -1));
   }
+  pack.kernels[1].slice_size = 3;
+  pack.kernels[1].slices = {tiny_slice(0.25f), tiny_slice(1)};
+  pack.split_reflectance = {2, 3, {{0, 1}, {1, 0}, {0.25f, 0.5f}, {0.75f, 0.125f}, {0, 0.5f}, {0.5f, 0}}};
   return pack;
 }
 

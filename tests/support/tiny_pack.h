@@ -11,7 +11,8 @@ namespace oriel::testing {
 // validate() finds neither errors nor warnings in it. The same on every call; a few kilobytes as a file.
 Pack tiny_pack();
 
-// The same with a directional lightmap, and a normal texture of 2 x 2 texels on the wall's material.
+// The same with what optional sections add: a directional lightmap, a normal texture of 2 x 2 texels on the wall's
+// material, 2 incidences of kernel 1, a split reflectance of 2 x 3 entries.
 Pack tiny_mapped_pack();
 
 }  // namespace oriel::testing

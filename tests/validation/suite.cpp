@@ -13,7 +13,7 @@ std::optional<Suite> Suite::open() {
   if (!folder) return std::nullopt;
   Suite suite;
   suite.folder_ = folder;
-  for (const char* name : {"radiosity.json", "cie171.json", "peer_scenes.json"}) {
+  for (const char* name : {"radiosity.json", "cie171.json", "peer_scenes.json", "brdf_fresnel.json"}) {
     std::ifstream in(suite.folder_ / name);
     suite.files_.push_back(Json::parse(in, nullptr, false));
     if (suite.files_.back().is_discarded()) return std::nullopt;

@@ -19,7 +19,7 @@ class Suite {
   // Nothing where ORIEL_VALIDATION is unset or names no folder with the suite.
   static std::optional<Suite> open();
 
-  // A case of radiosity.json, cie171.json or peer_scenes.json; it must be there.
+  // A case of radiosity.json, cie171.json, peer_scenes.json or brdf_fresnel.json; it must be there.
   const Json& find(const std::string& id) const;
   // scenes/NAME.gltf, imported; nothing where there is no such file.
   std::optional<Scene> scene(const std::string& name) const;

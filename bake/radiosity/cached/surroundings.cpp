@@ -7,7 +7,8 @@ namespace {
 
 // Reflects diffusely and nothing else, lets no light through.
 bool is_matt(const SceneMaterial& m) {
-  return !m.unlit && m.alpha_mode == AlphaMode::kOpaque && m.transmission == 0 && m.metallic == 0 && m.specular == 0;
+  return !m.unlit && m.alpha_mode == AlphaMode::kOpaque && m.transmission == 0 && m.metallic == 0 && m.specular == 0 &&
+         m.coat == 0 && m.metal == Metal::kNone;
 }
 
 }  // namespace

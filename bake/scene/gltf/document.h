@@ -87,6 +87,7 @@ struct MeshDesc {
 struct NodeDesc {
   std::string name;
   int mesh = -1, camera = -1, light = -1, parent = -1;
+  Metal metal = Metal::kNone;     // extras.oriel_metal: of all that its mesh shows
   float angular_radius_rad = -1;  // for its directional light; < 0: the light's own
   std::vector<std::uint32_t> children;
   bool has_matrix = false;
@@ -145,6 +146,9 @@ struct Document {
 
 // Error kInvalid for whatever breaks glTF 2.0, and for a required extension that Oriel does not know.
 Result<Document> parse_document(JsonDocument& json);
+
+// extras.oriel_metal of a material or a node; a name that is unknown is an error of the document.
+Metal parse_metal(const Json& value);
 
 // Its parts, in the order in which they need each other.
 void parse_materials(const Json& root, Document& document);

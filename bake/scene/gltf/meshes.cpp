@@ -91,9 +91,7 @@ class PrimitiveLoader {
     gather(position, used, mesh.positions);
     ORIEL_TRY(const Attribute normal, attribute("NORMAL"));
     gather(normal, used, mesh.normals);
-    const bool mapped =
-        desc_.material >= 0 && document_.materials[static_cast<std::size_t>(desc_.material)].normal_texture.image >= 0;
-    if (mapped && normal.components > 0) {  // tangents without normals are to be ignored
+    if (wants_tangents() && normal.components > 0) {  // tangents without normals are to be ignored
       ORIEL_TRY_VOID(budget_.take(used.size() * sizeof(Vec4), where_));
       ORIEL_TRY(const Attribute tangent, attribute("TANGENT"));
       gather(tangent, used, mesh.tangents);
@@ -108,6 +106,11 @@ class PrimitiveLoader {
   }
 
  private:
+  bool wants_tangents() const {
+    if (desc_.material < 0) return false;
+    const SceneMaterial& material = document_.materials[static_cast<std::size_t>(desc_.material)];
+    return material.normal_texture.image >= 0 || material.anisotropy > 0;
+  }
   Status decompress() {
     std::map<std::string, DracoRequest> requests;
     for (const char* name : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {

@@ -9,10 +9,11 @@ namespace {
 
 const std::set<std::string>& known_extensions() {
   static const std::set<std::string> names{
-      "KHR_mesh_quantization",      "KHR_draco_mesh_compression",     "EXT_meshopt_compression",
-      "EXT_mesh_gpu_instancing",    "KHR_texture_transform",          "KHR_lights_punctual",
-      "KHR_materials_ior",          "KHR_materials_specular",         "KHR_materials_unlit",
-      "KHR_materials_transmission", "KHR_materials_emissive_strength"};
+      "KHR_mesh_quantization",      "KHR_draco_mesh_compression",      "EXT_meshopt_compression",
+      "EXT_mesh_gpu_instancing",    "KHR_texture_transform",           "KHR_lights_punctual",
+      "KHR_materials_ior",          "KHR_materials_specular",          "KHR_materials_unlit",
+      "KHR_materials_transmission", "KHR_materials_emissive_strength", "KHR_materials_clearcoat",
+      "KHR_materials_anisotropy"};
   return names;
 }
 

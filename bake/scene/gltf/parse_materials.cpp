@@ -67,6 +67,9 @@ class MaterialParser {
     parse_emission(value, m);
     parse_alpha(value, m);
     parse_dielectric(value, m);
+    parse_coat(value, m);
+    parse_anisotropy(value, m);
+    m.metal = parse_metal(value);
     m.double_sided = value["doubleSided"].boolean(false);
     m.unlit = value.extension("KHR_materials_unlit").present();
     const Json normal = value["normalTexture"];
@@ -200,6 +203,23 @@ class MaterialParser {
     m.transmission_texture = slot(transmission["transmissionTexture"]);
   }
 
+  void parse_coat(const Json& value, SceneMaterial& m) {
+    const Json coat = value.extension("KHR_materials_clearcoat");
+    m.coat = unit(coat["clearcoatFactor"], coat["clearcoatFactor"].number(0));
+    m.coat_roughness = unit(coat["clearcoatRoughnessFactor"], coat["clearcoatRoughnessFactor"].number(0));
+    m.coat_texture = slot(coat["clearcoatTexture"]);
+    m.coat_roughness_texture = slot(coat["clearcoatRoughnessTexture"]);
+    if (slot(coat["clearcoatNormalTexture"]).image >= 0)
+      warn(coat, "clearcoatNormalTexture is left out: the coat follows the normals of what it covers");
+  }
+
+  void parse_anisotropy(const Json& value, SceneMaterial& m) {
+    const Json anisotropy = value.extension("KHR_materials_anisotropy");
+    m.anisotropy = unit(anisotropy["anisotropyStrength"], anisotropy["anisotropyStrength"].number(0));
+    m.anisotropy_rotation_rad = static_cast<float>(anisotropy["anisotropyRotation"].number(0, -1e6, 1e6));
+    m.anisotropy_texture = slot(anisotropy["anisotropyTexture"]);
+  }
+
   Document& document_;
   std::vector<SamplerDesc> samplers_;
   std::vector<TextureDesc> textures_;
@@ -207,6 +227,14 @@ class MaterialParser {
 };
 
 }  // namespace
+
+Metal parse_metal(const Json& value) {
+  const Json name = value.extra("oriel_metal");
+  if (!name.present()) return Metal::kNone;
+  const auto metal = metal_by_name(name.text());
+  if (!metal) name.expected(metal_names());
+  return metal.value_or(Metal::kNone);
+}
 
 void parse_materials(const Json& root, Document& document) {
   MaterialParser parser(root, document);

@@ -7,9 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "bake/material/reflectance.h"
-#include "bake/trace/albedo.h"
-
 namespace oriel {
 namespace {
 
@@ -135,83 +132,6 @@ TEST(Kernel, TinyAlphasScaleExactly) {
   ASSERT_EQ(a.size, b.size);
   EXPECT_NEAR(b.half_extent / a.half_extent, 10, 0.02);
   for (std::size_t i = 0; i < a.weights.size(); ++i) EXPECT_NEAR(a.weights[i], b.weights[i], 2e-5);
-}
-
-// A white furnace: the lobe alone, f0 = f90 = 1, against the table that the path tracer uses.
-TEST(Kernel, AlbedoAgreesWithTheSplitSumTable) {
-  for (const float alpha : {0.01f, 0.0625f, 0.25f, 0.5625f, 1.0f})
-    for (const float cos_theta : {1.0f, 0.7f, 0.3f, 0.1f}) {
-      const Vec2 split = specular_albedo(cos_theta, alpha);
-      EXPECT_NEAR(split.x + split.y, lobe_albedo(KernelModel::kGgxDg, alpha, cos_theta), 6e-3)
-          << alpha << " " << cos_theta;
-    }
-}
-
-TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
-  for (const float alpha : {0.0f, 0.01f, 0.25f, 1.0f}) {
-    const FresnelMap black = make_fresnel_map(Vec3(0), 0, alpha), glass = make_fresnel_map(Vec3(0.04f), 1, alpha);
-    const FresnelMap gold = make_fresnel_map({1.0f, 0.78f, 0.34f}, 1, alpha),
-                     white = make_fresnel_map(Vec3(1), 1, alpha);
-    for (std::size_t i = 0; i < glass.table.size(); ++i) {
-      EXPECT_EQ(black.table[i], Vec3(0));
-      EXPECT_LE(glass.table[i].g, gold.table[i].g + 1e-6f);
-      EXPECT_LE(max_component(gold.table[i]), 1.0f);
-      EXPECT_LE(gold.table[i].b, gold.table[i].r + 1e-6f);
-      EXPECT_LE(gold.table[i].r, white.table[i].r + 1e-6f);
-    }
-  }
-}
-
-TEST(FresnelMap, MirrorFollowsSchlickAndGrowsTowardsGrazing) {
-  const FresnelMap map = make_fresnel_map(Vec3(0.04f), 1, 0);
-  EXPECT_NEAR(map.table.back().r, 0.04f, 1e-3);
-  EXPECT_NEAR(map.table.front().r, 1, 1e-3);
-  for (std::size_t i = 0; i < map.table.size(); ++i) {
-    const float root = static_cast<float>(i) / 63, cosine = root * root;
-    EXPECT_NEAR(map.table[i].r, 0.04f + 0.96f * std::pow(1 - cosine, 5.0f), 3e-3);
-    if (i > 0) {
-      EXPECT_LE(map.table[i].r, map.table[i - 1].r + 1e-6f);
-    }
-  }
-}
-
-TEST(FresnelMap, LookupInterpolatesTheTable) {
-  const FresnelMap map = make_fresnel_map(Vec3(0.04f, 0.2f, 0.6f), 1, 0.01f);
-  for (const float cosine : {0.0f, 0.01f, 0.3f, 0.77f, 1.0f}) {
-    const Vec2 split = specular_albedo(cosine, 0.01f);
-    EXPECT_NEAR(fresnel_lookup(map, cosine).g, 0.2f * split.x + split.y, 2e-3);
-  }
-  EXPECT_EQ(fresnel_lookup(map, 2), map.table.back());
-  EXPECT_EQ(fresnel_lookup(map, std::numeric_limits<float>::quiet_NaN()), map.table.front());
-  EXPECT_EQ(fresnel_lookup(FresnelMap{}, 0.5f), Vec3(0));
-}
-
-// Centre = normal, rim = grazing, and equal area: cosθ = 1 - r².
-TEST(FresnelMap, SphereMapHoldsTheSameReflectanceAsTheTable) {
-  const FresnelMap map = make_fresnel_map(Vec3(0.04f), 1, 0.04f);
-  ASSERT_EQ(map.sphere.size(), 64u * 64u);
-  for (std::uint32_t y = 0; y < 64; ++y)
-    for (std::uint32_t x = 0; x < 64; ++x) {
-      const double px = (x + 0.5) / 32 - 1, py = (y + 0.5) / 32 - 1, r = std::min(1.0, std::hypot(px, py));
-      const double theta = 2 * std::asin(r / std::sqrt(2.0));
-      EXPECT_NEAR(map.sphere[y * 64 + x].r, fresnel_lookup(map, static_cast<float>(std::cos(theta))).r, 4e-3);
-    }
-  EXPECT_NEAR(map.sphere[32 * 64 + 32].r, 0.04f, 2e-3);
-  EXPECT_EQ(map.sphere[0], map.sphere[64 * 64 - 1]);  // corners: the rim's value
-  EXPECT_EQ(sphere_map_cos_theta(0), 1);
-  EXPECT_EQ(sphere_map_cos_theta(1.3f), 0);
-}
-
-TEST(FresnelMap, BadNumbersAreClamped) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const FresnelMap map = make_fresnel_map({nan, inf, -1}, nan, nan, 0, 3);
-  EXPECT_EQ(map.table.size(), 2u);
-  EXPECT_EQ(map.sphere.size(), 9u);
-  for (const Vec3& r : map.table) {
-    EXPECT_TRUE(is_finite(r));
-    EXPECT_LE(max_component(r), 1);
-  }
-  EXPECT_TRUE(make_fresnel_map(Vec3(0.5f), 1, 0.1f, 8, 0).sphere.empty());
 }
 
 }  // namespace

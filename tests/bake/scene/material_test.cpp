@@ -232,6 +232,67 @@ TEST(Shade, IorSpecularAndTransmission) {
   EXPECT_FLOAT_EQ(coverage_at(s, 0, Vec2(0.2f)), 1);
 }
 
+TEST(Shade, FresnelFollowsTheIndexAndSchlickTheMetal) {
+  Gltf g =
+      textured(R"({"pbrMetallicRoughness":{"metallicFactor":0.25},"extensions":{"KHR_materials_ior":{"ior":1.33}}})");
+  const ShadePoint p = shade_point(scene_of(g), 0, Vec2(0.2f));
+  EXPECT_FLOAT_EQ(p.curve.ior, 1.33f);
+  EXPECT_FLOAT_EQ(p.curve.schlick, 0.25f);
+  EXPECT_EQ(p.curve.metal, Metal::kNone);
+}
+
+TEST(Shade, NamedMetalsReplaceTheColour) {
+  Gltf g = textured(R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1],"metallicFactor":0,"roughnessFactor":0.5},
+      "extras":{"oriel_metal":"gold"}})");
+  const ShadePoint p = shade_point(scene_of(g), 0, Vec2(0.2f));
+  EXPECT_EQ(p.curve.metal, Metal::kGold);
+  expect_near(p.f0, Vec3(0.942f, 0.704f, 0.404f), 1e-3f);
+  expect_near(p.diffuse, Vec3(0));
+  EXPECT_FLOAT_EQ(p.alpha, 0.25f);
+}
+
+// A node's metal is that of its instance of the mesh alone.
+TEST(Shade, NodesMayNameTheirMetal) {
+  Gltf g = textured("{}");
+  g.doc["nodes"].push_back(g.doc["nodes"][0]);
+  g.doc["nodes"].push_back(g.doc["nodes"][0]);
+  g.doc["nodes"][1]["extras"] = {{"oriel_metal", "Cu"}};
+  g.doc["nodes"][2]["extras"] = {{"oriel_metal", "copper"}};
+  g.doc["scenes"][0]["nodes"] = {0, 1, 2};
+  const Scene s = scene_of(g);
+  ASSERT_EQ(s.surfaces.size(), 3u);
+  EXPECT_EQ(s.materials.size(), 2u) << "both coppers share a material";
+  EXPECT_EQ(s.materials[s.surfaces[0].material].metal, Metal::kNone);
+  EXPECT_EQ(s.materials[s.surfaces[1].material].metal, Metal::kCopper);
+  EXPECT_EQ(s.surfaces[1].material, s.surfaces[2].material);
+}
+
+TEST(Materials, UnknownMetalsAreNamed) {
+  for (const char* where : {"materials", "nodes"}) {
+    Gltf g = textured("{}");
+    g.doc[where][0]["extras"] = {{"oriel_metal", "unobtainium"}};
+    const Imported r = import(g);
+    ASSERT_FALSE(r.ok());
+    EXPECT_NE(r.error().find("unobtainium"), std::string::npos) << r.error();
+    EXPECT_NE(r.error().find("gold, silver"), std::string::npos) << r.error();
+    g.doc[where][0]["extras"] = "anybody's text";
+    EXPECT_TRUE(import(g).ok());
+  }
+}
+
+TEST(Shade, CoatAndAnisotropy) {
+  Gltf g = textured(R"({"extensions":{
+      "KHR_materials_clearcoat":{"clearcoatFactor":0.5,"clearcoatRoughnessFactor":0.2},
+      "KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":1.5707963}}})");
+  const Scene s = scene_of(g);
+  const ShadePoint p = shade_point(s, 0, Vec2(0.2f));
+  EXPECT_FLOAT_EQ(p.coat, 0.5f);
+  EXPECT_FLOAT_EQ(p.coat_alpha, 0.04f);
+  EXPECT_FLOAT_EQ(p.anisotropy, 0.6f);
+  EXPECT_NEAR(p.wide_direction.x, 0, 1e-6);
+  EXPECT_NEAR(p.wide_direction.y, 1, 1e-6);
+}
+
 TEST(Shade, TexturesMultiply) {
   // Nearest; uv (0.25, 0.25): red, (0.75, 0.25): green with alpha 128.
   Gltf g = textured(

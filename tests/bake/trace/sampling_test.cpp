@@ -103,36 +103,9 @@ TEST(Bsdf, FurnaceNeverExceedsOne) {
         const double albedo = sum / kSamples;
         const double diffuse_part = 1 - reflectance(point, cos_o).g;
         EXPECT_LE(albedo, 1.005) << roughness << " " << cos_o << " " << f0;
-        EXPECT_NEAR(albedo, diffuse_part + reflectance(point, cos_o).g, 0.02) << roughness << " " << cos_o << " " << f0;
+        EXPECT_NEAR(albedo, diffuse_part + reflectance(point, cos_o).g, 0.015)
+            << roughness << " " << cos_o << " " << f0;
       }
-}
-
-TEST(Albedo, ClosedForms) {
-  // GGX, α = 1, normal incidence: 1 - ln 2 for a perfect conductor.
-  const Vec2 rough = specular_albedo(1, 1);
-  EXPECT_NEAR(rough.x + rough.y, 1 - std::log(2.0), 2e-3);
-  for (const float cosine : {0.0f, 0.3f, 1.0f}) {
-    const Vec2 mirror = specular_albedo(cosine, 0);
-    EXPECT_NEAR(mirror.x + mirror.y, 1, 1e-6);
-    EXPECT_NEAR(mirror.y, std::pow(1 - cosine, 5.0f), 2e-3);
-  }
-}
-
-TEST(Ggx, IsFiniteAndNormalised) {
-  EXPECT_TRUE(std::isfinite(ggx_d(1, kMirrorAlpha)));
-  for (const float alpha : {0.001f, 0.05f, 0.5f, 1.0f}) {
-    // ∫ D cosθ dω = 1, in the slope variable t = tan²θ / α²: the integrand becomes (1 + t)^-2.
-    double sum = 0;
-    constexpr int kSteps = 20000;
-    for (int i = 0; i < kSteps; ++i) {
-      const double x = (i + 0.5) / kSteps, t = x / (1 - x);
-      const double tan2 = t * alpha * alpha, cosine = 1 / std::sqrt(1 + tan2);
-      // dω cosθ = π dtan² cos⁴
-      sum += ggx_d(static_cast<float>(cosine), alpha) * kPiD * std::pow(cosine, 4) * alpha * alpha /
-             ((1 - x) * (1 - x)) / kSteps;
-    }
-    EXPECT_NEAR(sum, 1, alpha < 0.01f ? 2e-2 : 2e-3) << alpha;
-  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// The maps: textures, lightmaps, reflectors with their radiance maps, kernels, Fresnel maps.
+// The maps: textures, lightmaps, reflectors with their radiance maps.
 #include <algorithm>
 
-#include "formats/pack/issues.h"
+#include "formats/pack/rules/issues.h"
 
 namespace oriel {
 namespace {
@@ -87,27 +87,6 @@ void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
                text_of(map.upper), text_of(r.lower), text_of(r.upper));
 }
 
-void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
-  if (!within(kernel.alpha, 0, 1) || !within(kernel.cos_theta, 0, 1) || !not_negative(kernel.half_extent) ||
-      !within(kernel.energy_kept, 0, 1.001f))
-    list.error(501,
-               "kernel {}: found alpha {}, cosine {}, half extent {}, energy {}, expected 0 to 1 (extent: from 0 up)",
-               i, kernel.alpha, kernel.cos_theta, kernel.half_extent, kernel.energy_kept);
-  if (kernel.size % 2 == 0 || kernel.size > kMaxSide ||
-      kernel.weights.size() != std::size_t{kernel.size} * kernel.size) {
-    list.error(502, "kernel {}: found size {} with {} weights, expected an odd size and its square", i, kernel.size,
-               kernel.weights.size());
-    return;
-  }
-  const std::size_t before = list.issues.size();
-  list.each(
-      503, "kernel weights", kernel.weights, [](float w) { return not_negative(w); }, text1, kLight);
-  double sum = 0;
-  for (const float w : kernel.weights) sum += w;
-  if (list.issues.size() == before && !(std::abs(sum - 1) <= 1e-4))
-    list.error(504, "kernel {}: found weights with sum {}, expected 1 within 1e-4", i, sum);
-}
-
 }  // namespace
 
 void validate_textures(const Pack& pack, IssueList& list) {
@@ -159,28 +138,6 @@ void validate_radiance_maps(const Pack& pack, IssueList& list) {
     list.each(
         417, "pixels of validity", map.valid, [](std::uint8_t v) { return v <= 2; },
         [](std::uint8_t v) { return fmt::format("{}", v); }, "0, 1 or 2");
-  }
-}
-
-void validate_kernels(const Pack& pack, IssueList& list) {
-  list.in_section(kKernelSection);
-  for (std::size_t i = 0; i < pack.kernels.size(); ++i) validate_kernel(i, pack.kernels[i], list);
-}
-
-void validate_fresnel_maps(const Pack& pack, IssueList& list) {
-  list.in_section(kFresnelSection);
-  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
-    const FresnelMap& map = pack.fresnel_maps[i];
-    if (!within(map.alpha, 0, 1)) list.error(601, "Fresnel map {}: found alpha {}, expected 0 to 1", i, map.alpha);
-    if (map.table.size() < 2 || map.table.size() > kMaxSide || map.sphere_size > kMaxSide ||
-        map.sphere.size() != std::size_t{map.sphere_size} * map.sphere_size)
-      list.error(602,
-                 "Fresnel map {}: found {} table entries and {} texels of a sphere map of side {}, expected at least "
-                 "2, and a square",
-                 i, map.table.size(), map.sphere.size(), map.sphere_size);
-    const auto share = [](const Vec3& v) { return within(v, 0, 1); };
-    list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");
-    list.each(603, "Fresnel sphere texels", map.sphere, share, text3, "0 to 1");
   }
 }
 

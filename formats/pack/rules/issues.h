@@ -80,6 +80,7 @@ void validate_reflectors(const Pack& pack, IssueList& list);
 void validate_radiance_maps(const Pack& pack, IssueList& list);
 void validate_kernels(const Pack& pack, IssueList& list);
 void validate_fresnel_maps(const Pack& pack, IssueList& list);
+void validate_split_reflectance(const Pack& pack, IssueList& list);
 void validate_cameras(const Pack& pack, IssueList& list);
 void validate_texts(const Pack& pack, IssueList& list);
 void validate_unknown(const Pack& pack, IssueList& list);

@@ -1,0 +1,162 @@
+#include "bake/material/slices.h"
+
+#include <algorithm>
+
+#include "formats/core/check.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kPolar = 128, kAzimuth = 32;  // half vectors; the azimuths of one half, the other mirrors it
+constexpr int kSubsamples = 4;              // per pixel and axis
+
+struct Node {
+  DVec2 u;  // mirror coordinates, x >= 0
+  double weight;
+};
+
+DVec3 unproject(const MirrorFrame& frame, const DVec2& u) {
+  const double q = 0.25 * glm::dot(u, u);  // tan²(γ/2)
+  return ((1 - q) * frame.mirror + u.x * frame.across + u.y * frame.along) / (1 + q);
+}
+
+DVec2 project(const MirrorFrame& frame, const DVec3& wi) {
+  const double away = std::max(1 + glm::dot(wi, frame.mirror), 1e-12);  // 2 / (1 + tan²(γ/2))
+  return DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) * (2 / away);
+}
+
+// The lobe as nodes of a lattice rule over half vectors, their slopes spread as alpha t / (1 - t) for even t. Half the
+// azimuths, with the weight of both halves. Rings are skewed by the golden ratio, so that no quantile falls on a step.
+std::vector<Node> lobe_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame) {
+  std::vector<Node> nodes;
+  nodes.reserve(kPolar * kAzimuth);
+  for (int i = 0; i < kPolar; ++i)
+    for (int j = 0; j < kAzimuth; ++j) {
+      const double t = (i + glm::fract((j + 0.5) * 0.6180339887498949)) / kPolar, slope = alpha * t / (1 - t);
+      const double phi = kPiD * (j + 0.5) / kAzimuth, cos_h = 1 / std::sqrt(1 + slope * slope);
+      const DVec3 h = cos_h * DVec3(slope * std::cos(phi), slope * std::sin(phi), 1);
+      const double cos_d = glm::dot(frame.wo, h);
+      const DVec3 wi = 2 * cos_d * h - frame.wo;
+      if (cos_d <= 0 || wi.z <= 0) continue;
+      const double d_slope = alpha / ((1 - t) * (1 - t)) / kPolar;
+      const double d_half = cos_h * cos_h * cos_h * slope * d_slope * 2 * kPiD / kAzimuth;  // both halves
+      nodes.push_back({project(frame, wi), lobe(frame.wo, wi, h) * 4 * cos_d * d_half});
+    }
+  return nodes;
+}
+
+// A coordinate of the nodes, sorted, with its running weight.
+class Distribution {
+ public:
+  template <class Key>
+  Distribution(const std::vector<Node>& nodes, const Key& key) {
+    for (const Node& node : nodes) values_.emplace_back(key(node), node.weight);
+    std::sort(values_.begin(), values_.end());
+    double sum = 0;
+    for (auto& [value, weight] : values_) weight = sum += weight;
+  }
+  // The value below which `share` of the weight lies.
+  double quantile(double share) const {
+    const auto at = std::partition_point(values_.begin(), values_.end() - 1,
+                                         [&](const auto& v) { return v.second < share * values_.back().second; });
+    return at->first;
+  }
+  // The share of the weight up to a value.
+  double share(double value) const {
+    const auto at =
+        std::partition_point(values_.begin(), values_.end(), [&](const auto& v) { return v.first <= value; });
+    return at == values_.begin() ? 0.0 : (at - 1)->second / values_.back().second;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> values_;
+};
+
+std::vector<float> integrate_pixels(const LobeFunction& lobe, const MirrorFrame& frame, const KernelSlice& slice,
+                                    std::uint32_t size) {
+  std::vector<double> sums(std::size_t{size} * size);
+  double total = 0;
+  for (std::uint32_t y = 0; y < size; ++y)
+    for (std::uint32_t x = 0; x <= size / 2; ++x) {
+      double sum = 0;
+      for (int s = 0; s < kSubsamples * kSubsamples; ++s) {
+        const DVec2 in_pixel = (DVec2(s % kSubsamples, s / kSubsamples) + 0.5) / double(kSubsamples);
+        const DVec2 u = slice_point(slice, (DVec2(x, y) + in_pixel) / double(size));
+        // dω = dA / q², and du = width cosh(s) ds
+        const double q = 1 + 0.25 * glm::dot(u, u);
+        const DVec2 sinh_s = (u - DVec2(0, slice.shift)) / DVec2(slice.width);
+        const double stretch = std::sqrt((1 + sinh_s.x * sinh_s.x) * (1 + sinh_s.y * sinh_s.y));
+        const DVec3 wi = unproject(frame, u);
+        sum += lobe(frame.wo, wi, glm::normalize(frame.wo + wi)) * stretch / (q * q);
+      }
+      sums[y * size + x] = sums[y * size + size - 1 - x] = sum;
+      total += x == size / 2 ? sum : 2 * sum;
+    }
+  ORIEL_CHECK(total > 0 && std::isfinite(total));
+  std::vector<float> weights;
+  weights.reserve(sums.size());
+  for (const double sum : sums) weights.push_back(static_cast<float>(sum / total));
+  return weights;
+}
+
+}  // namespace
+
+DVec3 from_mirror_coordinates(double cos_theta, const DVec2& u) {
+  return unproject(MirrorFrame(cos_theta), u);
+}
+
+DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi) {
+  return project(MirrorFrame(cos_theta), wi);
+}
+
+KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta, const SliceOptions& options) {
+  const MirrorFrame frame(cos_theta);
+  std::vector<Node> nodes = lobe_nodes(lobe, alpha, frame);
+  double total = 0;
+  DVec3 mean(0);
+  for (const Node& node : nodes) {
+    total += node.weight;
+    mean += node.weight * unproject(frame, node.u);
+  }
+  ORIEL_CHECK(total > 0 && std::isfinite(total));
+  const double tail = 1 - std::clamp(static_cast<double>(options.energy), 0.5, 0.9999);
+  const Distribution along(nodes, [](const Node& node) { return node.u.y; });
+  const Distribution across(nodes, [](const Node& node) { return node.u.x; });
+  const Distribution around(nodes, [](const Node& node) { return glm::length(node.u); });
+
+  KernelSlice slice;
+  slice.cos_theta = static_cast<float>(cos_theta);
+  slice.albedo = static_cast<float>(std::min(total, 1.0));
+  slice.tilt_rad = static_cast<float>(std::atan2(glm::dot(mean, frame.along), glm::dot(mean, frame.mirror)));
+  slice.shift = static_cast<float>(along.quantile(0.5));
+  slice.width = DVec2(across.quantile(0.5), 0.5 * (along.quantile(0.75) - along.quantile(0.25)));
+  const auto in_s = [&](double u) { return static_cast<float>(std::asinh((u - slice.shift) / slice.width.y)); };
+  slice.upper = {static_cast<float>(std::asinh(across.quantile(1 - 0.5 * tail) / slice.width.x)),
+                 in_s(along.quantile(1 - 0.25 * tail))};
+  slice.lower = {-slice.upper.x, in_s(along.quantile(0.25 * tail))};
+  slice.radial_extent = static_cast<float>(around.quantile(1 - tail));
+  const std::uint32_t entries = std::max(options.radial, 2u);
+  for (std::uint32_t i = 0; i < entries; ++i)
+    slice.radial.push_back(static_cast<float>(around.share(slice.radial_extent * std::pow(i / (entries - 1.0), 2))));
+  const DVec2 low = slice_point(slice, {0, 0}), high = slice_point(slice, {1, 1});
+  double kept = 0;
+  for (const Node& node : nodes)
+    if (node.u.x <= high.x && node.u.y >= low.y && node.u.y <= high.y) kept += node.weight;
+  slice.energy_kept = static_cast<float>(std::min(kept / total, 1.0));
+  slice.weights = integrate_pixels(lobe, frame, slice, std::max(options.size | 1u, 3u));
+  return slice;
+}
+
+void add_slices(BrdfKernel& kernel, const SliceOptions& options) {
+  if (kernel.size <= 1) return;
+  const LobeFunction lobe = microfacet_lobe(kernel.model, LobeForm::kLobe, kernel.alpha);
+  const std::uint32_t count = std::max(options.count, 2u);
+  kernel.slice_size = std::max(options.size | 1u, 3u);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double root = i / (count - 1.0);
+    kernel.slices.push_back(
+        make_slice(lobe, kernel.alpha, std::max(root * root, static_cast<double>(kGrazingCosine)), options));
+  }
+}
+
+}  // namespace oriel

@@ -1,0 +1,66 @@
+// The files of `oriel-inspect extract`.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "formats/core/file.h"
+#include "formats/image/exr.h"
+#include "formats/image/png.h"
+#include "formats/pack/pack.h"
+
+namespace oriel::inspect {
+
+inline Bytes bytes_of(const std::string& text) {
+  const auto* p = reinterpret_cast<const std::byte*>(text.data());
+  return Bytes(p, p + text.size());
+}
+
+inline FloatImage rgb_image(std::uint32_t width, std::uint32_t height, std::span<const Vec3> values) {
+  FloatImage image{width, height, 3, {}};
+  image.pixels.reserve(values.size() * 3);
+  for (const Vec3& v : values) image.pixels.insert(image.pixels.end(), {v.r, v.g, v.b});
+  return image;
+}
+
+// One file after another into the folder; index.json lists those that were written.
+class Extraction {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  Extraction(const Pack& pack, std::filesystem::path folder) : pack_(pack), folder_(std::move(folder)) {
+    index_ = Json::array();
+  }
+
+  Status lightmaps();
+  Status radiance_maps();
+  Status kernels();
+  Status fresnel_maps();
+  Status textures();
+  Status mesh();
+  Status finish(const std::filesystem::path& source);
+
+ private:
+  Status exr(Json& entry, const char* role, const std::string& name, const FloatImage& image, const char* unit) {
+    entry["files"][role] = name;
+    return write_exr(folder_ / name, image, {{"oriel:role", role}, {"oriel:unit", unit}});
+  }
+  Status png(Json& entry, const char* role, const std::string& name, const ByteImage& image) {
+    entry["files"][role] = name;
+    return write_png(folder_ / name, image);
+  }
+  Status csv(Json& entry, const char* role, const std::string& name, const std::string& text) {
+    entry["files"][role] = name;
+    return write_file_atomically(folder_ / name, bytes_of(text));
+  }
+  Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
+  Status kernel_slices(const BrdfKernel& kernel, const std::string& name, Json& entry);
+  Status split_reflectance();
+
+  const Pack& pack_;
+  std::filesystem::path folder_;
+  Json index_;
+};
+
+}  // namespace oriel::inspect
