@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/cached/gather.h"
+#include "bake/radiosity/gather/gather.h"
 #include "bake/scene/import.h"
 
 namespace oriel {

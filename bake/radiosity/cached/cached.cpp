@@ -4,8 +4,8 @@
 
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
-#include "bake/radiosity/cached/moments.h"
 #include "bake/radiosity/cached/patches.h"
+#include "bake/radiosity/gather/moments.h"
 
 namespace oriel {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/cached/moments.h"
+#include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
 namespace oriel {

@@ -1,7 +1,7 @@
 // Smoothing of gathered light over neighbouring texels, and what is known of its error.
 #pragma once
 
-#include "bake/radiosity/cached/gather.h"
+#include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/radiosity/texels/neighbours.h"
 

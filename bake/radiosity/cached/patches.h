@@ -2,8 +2,8 @@
 // texels that walls divide is a patch for each part of it.
 #pragma once
 
-#include "bake/radiosity/cached/gather_site.h"
-#include "bake/radiosity/cached/surroundings.h"
+#include "bake/radiosity/gather/gather_site.h"
+#include "bake/radiosity/gather/surroundings.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {

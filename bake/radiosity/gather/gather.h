@@ -1,9 +1,9 @@
 // The final gather: cosine-distributed rays from every texel into the cached light.
 #pragma once
 
-#include "bake/radiosity/cached/cached_light.h"
-#include "bake/radiosity/cached/gather_site.h"
-#include "bake/radiosity/cached/surroundings.h"
+#include "bake/radiosity/gather/cached_light.h"
+#include "bake/radiosity/gather/gather_site.h"
+#include "bake/radiosity/gather/surroundings.h"
 
 namespace oriel {
 

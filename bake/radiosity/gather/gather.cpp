@@ -1,7 +1,7 @@
-#include "bake/radiosity/cached/gather.h"
+#include "bake/radiosity/gather/gather.h"
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/cached/moments.h"
+#include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
 namespace oriel {

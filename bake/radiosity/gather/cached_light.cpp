@@ -1,4 +1,4 @@
-#include "bake/radiosity/cached/cached_light.h"
+#include "bake/radiosity/gather/cached_light.h"
 
 #include "bake/jobs/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "bake/radiosity/cached/surroundings.h"
+#include "bake/radiosity/gather/surroundings.h"
 
 #include "bake/scene/light/sky.h"
 
