@@ -180,9 +180,9 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
   ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
   out.scene.materials = document.materials;
+  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, accessors, budget, out.scene, context));
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
-  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, accessors, budget, out.scene, context));
   ORIEL_TRY_VOID(place_viewpoints(document, poses, accessors, out.scene, context));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
   ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(context));

@@ -133,6 +133,13 @@ TEST(Image, ThreadsDoNotMatter) {
   EXPECT_EQ(texels[0], texels[1]);
 }
 
+TEST(Material, DoubleSidedOnRequest) {
+  ImportOptions both;
+  both.double_sided = true;
+  EXPECT_FALSE(import(triangle()).scene().materials.front().double_sided);
+  EXPECT_TRUE(import(triangle(), both).scene().materials.front().double_sided);
+}
+
 TEST(Texture, NearestBilinearAndWraps) {
   Scene s;
   s.images.push_back({"", 2, 1, {0, 0, 0, 255, 255, 255, 255, 255}});

@@ -23,22 +23,46 @@ TEST(Sampler, IsAFunctionOfItsArguments) {
 }
 
 // 256 points of a (0,2)-sequence: one in each of 16 × 16 cells, one in each of 256 columns and rows.
+template <class Point>
+void expect_net(const Point& point) {
+  std::set<int> cells, columns, rows;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const Vec2 p = point(i);
+    ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+    cells.insert(static_cast<int>(p.x * 16) * 16 + static_cast<int>(p.y * 16));
+    columns.insert(static_cast<int>(p.x * 256));
+    rows.insert(static_cast<int>(p.y * 256));
+  }
+  EXPECT_EQ(cells.size(), 256u);
+  EXPECT_EQ(columns.size(), 256u);
+  EXPECT_EQ(rows.size(), 256u);
+}
+
 TEST(Sampler, PairsAreStratified) {
-  for (int pair = 0; pair < 5; ++pair) {
-    std::set<int> cells, columns, rows;
-    for (std::uint32_t i = 0; i < 256; ++i) {
+  for (int pair = 0; pair < 5; ++pair)
+    expect_net([pair](std::uint32_t i) {
       Sampler sampler(7, 9, i);
       for (int skip = 0; skip < pair; ++skip) sampler.next2();
-      const Vec2 p = sampler.next2();
-      ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-      cells.insert(static_cast<int>(p.x * 16) * 16 + static_cast<int>(p.y * 16));
-      columns.insert(static_cast<int>(p.x * 256));
-      rows.insert(static_cast<int>(p.y * 256));
-    }
-    EXPECT_EQ(cells.size(), 256u);
-    EXPECT_EQ(columns.size(), 256u);
-    EXPECT_EQ(rows.size(), 256u);
+      return sampler.next2();
+    });
+}
+
+TEST(ShiftedNet, EveryStreamIsANetOfItsOwn) {
+  const ShiftedNet net(7, 256);
+  for (std::uint64_t stream = 0; stream < 5; ++stream) {
+    const UVec2 shift = net.shift(stream);
+    expect_net([&](std::uint32_t i) { return net.point(i, shift); });
+    EXPECT_NE(shift, net.shift(stream + 1));
   }
+}
+
+// Streams share the sequence, not its error: the mean of one point over many streams is that of the square.
+TEST(ShiftedNet, StreamsAreIndependent) {
+  const ShiftedNet net(3, 1);
+  DVec2 mean(0);
+  for (std::uint64_t stream = 0; stream < 40000; ++stream) mean += DVec2(net.point(0, net.shift(stream))) / 40000.0;
+  EXPECT_NEAR(mean.x, 0.5, 0.006);  // four standard errors
+  EXPECT_NEAR(mean.y, 0.5, 0.006);
 }
 
 TEST(Warp, CosineHemisphereMatchesItsPdf) {
