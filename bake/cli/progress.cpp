@@ -30,8 +30,12 @@ void ProgressPrinter::operator()(const Progress& progress) {
     return;
   }
   drawn_ = now;
-  draw(progress, std::chrono::duration<double>(now - started_).count());
+  const double seconds = std::chrono::duration<double>(now - started_).count();
+  // Refinement runs a stage again and again: short rounds have no line of their own.
+  const bool again = ended && style_ == Style::kPlain && stage_ == told_ && seconds < kShort;
+  if (!again) draw(progress, seconds);
   if (ended) {
+    told_ = stage_;
     finish();
     stage_.clear();
   }

@@ -29,7 +29,9 @@ class ProgressPrinter {
   void line(const char* event, const std::string& message);
 
   Style style_;
+  static constexpr double kShort = 0.5;  // seconds
   std::string stage_;
+  std::string told_;  // the stage that ended last
   Clock::time_point started_{}, drawn_{};
   bool open_line_ = false;
 };

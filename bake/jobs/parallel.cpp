@@ -38,10 +38,11 @@ Status parallel_for(Context& context, std::string_view stage, std::size_t count,
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   std::atomic<std::size_t> done{0};
   const std::size_t step = std::max<std::size_t>(1, count / 200);
+  const std::uint64_t rays_before = rays ? rays->load() : 0;
   const auto report = [&](std::size_t finished) {
     if (!stage.empty())
       context.report(stage, count == 0 ? 1.0 : static_cast<double>(finished) / static_cast<double>(count),
-                     rays ? rays->load() : 0);
+                     rays ? rays->load() - rays_before : 0);
   };
   if (count > 0) report(0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
