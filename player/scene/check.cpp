@@ -101,19 +101,41 @@ Status check_materials(const Pack& pack) {
           pack.fresnel_maps.size(), pack.normal_textures.size());
     }
   }
+  return {};
+}
+
+// Weights of a kernel are read here; what becomes of them has a row of taps per slice.
+Status check_kernels(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) {
     const BrdfKernel& k = pack.kernels[i];
-    if (k.size == 0 || k.weights.size() != std::uint64_t{k.size} * k.size) {
-      return invalid(fmt::format("kernel {}", i), "found {} weights, expected {} squared", k.weights.size(), k.size);
+    const std::string where = fmt::format("kernel {}", i);
+    ORIEL_TRY_VOID(check_size(where, k.size, k.size, k.weights.size(), 1, device));
+    for (std::size_t s = 0; s < k.slices.size(); ++s) {
+      const KernelSlice& slice = k.slices[s];
+      const std::string at = fmt::format("{}: slice {}", where, s);
+      ORIEL_TRY_VOID(check_size(at, k.slice_size, k.slice_size, slice.weights.size(), 1, device));
+      if (!(slice.cos_theta >= 0 && slice.cos_theta <= 1) || (s > 0 && !(slice.cos_theta > k.slices[s - 1].cos_theta)))
+        return invalid(at, "found cosine {}, expected 0 to 1 and rising", slice.cos_theta);
     }
+    if (k.slices.size() > static_cast<std::size_t>(device.texture_size))
+      return fail(ErrorCode::kRuntime, where, "found {} slices, expected at most {} ({})", k.slices.size(),
+                  device.texture_size, device.renderer);
   }
+  return {};
+}
+
+// All tables lie in one texture, a row each.
+Status check_fresnel_maps(const Pack& pack, const gpu::Device& device) {
+  const auto limit = static_cast<std::size_t>(device.texture_size);
+  if (pack.fresnel_maps.size() > limit)
+    return fail(ErrorCode::kRuntime, "Fresnel maps", "found {}, expected at most {} ({})", pack.fresnel_maps.size(),
+                limit, device.renderer);
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
     const FresnelMap& f = pack.fresnel_maps[i];
-    if (f.table.empty() || f.sphere.size() != std::uint64_t{f.sphere_size} * f.sphere_size) {
-      return invalid(fmt::format("Fresnel map {}", i),
-                     "found a table of {} and a sphere map of {}, expected 1 or more and {}", f.table.size(),
-                     f.sphere.size(), std::uint64_t{f.sphere_size} * f.sphere_size);
-    }
+    const std::string where = fmt::format("Fresnel map {}", i);
+    ORIEL_TRY_VOID(check_size(where, f.table.size(), 1, f.table.size(), 1, device));
+    if (f.sphere_size > 0 || !f.sphere.empty())
+      ORIEL_TRY_VOID(check_size(where, f.sphere_size, f.sphere_size, f.sphere.size(), 1, device));
   }
   return {};
 }
@@ -144,6 +166,8 @@ Status check_reflectors(const Pack& pack) {
 Status check_drawable(const Pack& pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_mesh(pack));
   ORIEL_TRY_VOID(check_materials(pack));
+  ORIEL_TRY_VOID(check_kernels(pack, device));
+  ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device));
   return check_reflectors(pack);
 }

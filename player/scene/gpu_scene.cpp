@@ -36,10 +36,6 @@ Vec3 mean_radiance(const Pack& pack, const Reflector& reflector) {
 
 Result<std::unique_ptr<GpuScene>> GpuScene::create(Pack pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_drawable(pack, device));
-  if (pack.fresnel_maps.size() > static_cast<std::size_t>(device.texture_size)) {
-    return fail(ErrorCode::kRuntime, "Fresnel maps", "found {}, expected at most {} ({})", pack.fresnel_maps.size(),
-                device.texture_size, device.renderer);
-  }
   std::unique_ptr<GpuScene> scene(new GpuScene);
   scene->pack_ = std::move(pack);
   scene->upload_geometry();

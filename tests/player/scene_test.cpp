@@ -1,6 +1,7 @@
 // What the player decides without a GPU: views, culling, the choice of maps, taps of kernels.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "player/scene/check.h"
 #include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/map_point.h"
@@ -214,6 +215,39 @@ TEST(KernelTaps, FollowTheLobeBetweenIncidences) {
   EXPECT_EQ(kernel_row(0.3f, 1).row, 0);
   for (const KernelTap& tap : make_kernel_taps(kernel, 48, KernelPlace::kCentred).taps)
     EXPECT_LE(std::abs(tap.at.y), 0.1f) << "the published kernel stays at the mirror ray";
+}
+
+TEST(CheckDrawable, KernelsAndReflectancesFitTheDevice) {
+  gpu::Device device;
+  device.texture_size = 4;
+  const auto found = [&](auto change) {
+    Pack pack;
+    pack.kernels = {leaning_kernel()};
+    pack.fresnel_maps.resize(1);
+    pack.fresnel_maps[0].table = {Vec3(0), Vec3(1)};
+    change(pack);
+    const Status status = check_drawable(pack, device);
+    return status ? "" : status.error().text();
+  };
+  EXPECT_EQ(found([](Pack&) {}), "");
+  const auto has = [](const std::string& text) { return testing::HasSubstr(text); };
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].weights.pop_back(); }), has("kernel 0: found 8 values, expected 9"));
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 3; }),
+              has("kernel 0: slice 0: found 1 values, expected 9"));
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 5; }), has("slice 0: found 5x5 texels, expected at most"));
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices[1].cos_theta = 0; }), has("slice 1: found cosine 0"));
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices[0].cos_theta = NAN; }), has("slice 0: found cosine nan"));
+  EXPECT_THAT(found([](Pack& p) {
+                for (int i = 2; i < 5; ++i)
+                  p.kernels[0].slices.insert(p.kernels[0].slices.end() - 1, p.kernels[0].slices[0]);
+                for (int i = 0; i < 5; ++i)
+                  p.kernels[0].slices[static_cast<std::size_t>(i)].cos_theta = 0.2f * float(i);
+              }),
+              has("kernel 0: found 5 slices, expected at most 4"));
+  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].table.clear(); }), has("Fresnel map 0: found 0x1"));
+  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].table.resize(5); }), has("Fresnel map 0: found 5x1"));
+  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].sphere_size = 2; }), has("Fresnel map 0: found 0 values"));
+  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps.resize(5, p.fresnel_maps[0]); }), has("Fresnel maps: found 5"));
 }
 
 TEST(KernelTaps, AMirrorIsOneTap) {
