@@ -125,6 +125,7 @@ inline constexpr std::uint32_t kMaxSections = 1u << 20;
 inline constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;   // of all sections together
 inline constexpr std::uint64_t kMaxExpansion = std::uint64_t{1} << 16;  // raw bytes for a stored byte
 inline constexpr std::uint32_t kMaxSide = 32768;                        // texels of any map
+inline constexpr std::uint32_t kMaxSlices = 256;                        // of a kernel by incidence
 
 // "LMAP"; characters that are not printable ASCII as hexadecimal.
 std::string kind_text(std::uint32_t kind);

@@ -107,6 +107,8 @@ Status decode(ByteReader& in, KernelSlices& slices) {
   const auto count = in.get<std::uint32_t>();
   if (in.ok() && (slices.size % 2 == 0 || slices.size > kMaxSide))
     return invalid("", "found size {}, expected an odd one up to {}", slices.size, kMaxSide);
+  if (in.ok() && (count == 0 || count > kMaxSlices))
+    return invalid("", "found {} slices, expected 1 to {}", count, kMaxSlices);
   for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
     KernelSlice slice;
     ORIEL_TRY_VOID(decode(in, slices.size, slice));

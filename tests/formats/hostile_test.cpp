@@ -230,7 +230,11 @@ TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
   expect_refusal(with_raw(kKernelSliceSection, 4, 4u), slices + "element 0: found size 4, expected an odd one");
   expect_refusal(with_raw(kKernelSliceSection, 4, ~0u), slices + "element 0: found size 4294967295");
   expect_refusal(with_raw(kKernelSliceSection, 4, 32767u), slices + "its counts need more");
-  expect_refusal(with_raw(kKernelSliceSection, 8, ~0u), slices + "its counts need more");
+  expect_refusal(with_raw(kKernelSliceSection, 8, ~0u),
+                 slices + "element 0: found 4294967295 slices, expected 1 to 256");
+  expect_refusal(with_raw(kKernelSliceSection, 8, 0u), slices + "element 0: found 0 slices");
+  expect_refusal(with_raw(kKernelSliceSection, 8, 257u), slices + "element 0: found 257 slices");
+  expect_refusal(with_raw(kKernelSliceSection, 8, 256u), slices + "its counts need more");
   expect_refusal(with_raw(kKernelSliceSection, 60, ~0u), slices + "its counts need more");
   expect_refusal(with_raw(kKernelSliceSection, 67, std::uint8_t{0x7c}), slices + "element 0: found radial share half");
   expect_refusal(with_raw(kKernelSliceSection, 76, std::uint8_t{0xbc}), slices + "element 0: found weight half");

@@ -28,7 +28,7 @@ void validate_weights(std::size_t i, std::uint32_t size, const std::vector<float
 
 void validate_kernel(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
   if (!within(kernel.alpha, 0, 1) || !within(kernel.cos_theta, 0, 1) || !not_negative(kernel.half_extent) ||
-      !within(kernel.energy_kept, 0, 1.001f))
+      !within(kernel.energy_kept, 0, 1))
     list.error(501,
                "kernel {}: found alpha {}, cosine {}, half extent {}, energy {}, expected 0 to 1 (extent: from 0 up)",
                i, kernel.alpha, kernel.cos_theta, kernel.half_extent, kernel.energy_kept);
@@ -44,7 +44,17 @@ bool good_box(const KernelSlice& s) {
          in_s(s.upper.y) && s.lower.x == -s.upper.x && s.lower.x < s.upper.x && s.lower.y < s.upper.y;
 }
 
+// A section holds one half.
+bool even_in_x(const std::vector<float>& weights, std::uint32_t size) {
+  for (std::size_t row = 0; row + size <= weights.size() && size > 0; row += size)
+    for (std::size_t x = 0; x < size / 2; ++x)
+      if (weights[row + x] != weights[row + size - 1 - x]) return false;
+  return true;
+}
+
 void validate_slices(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
+  if (kernel.slices.size() > kMaxSlices)
+    list.error(515, "kernel {}: found {} slices, expected at most {}", i, kernel.slices.size(), kMaxSlices);
   float before = -1;
   for (const KernelSlice& s : kernel.slices) {
     if (!within(s.cos_theta, 0, 1) || !(s.cos_theta > before))
@@ -57,10 +67,12 @@ void validate_slices(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
     if (!good_box(s))
       list.error(513, "kernel {}: found a texture {} to {} of width {} around {}, expected rising and even in x", i,
                  text_of(s.lower), text_of(s.upper), text_of(s.width), s.shift);
-    if (s.radial.size() < 2 || s.radial.front() < 0 || s.radial.back() > 1 ||
-        !std::is_sorted(s.radial.begin(), s.radial.end()))
+    const bool shares = std::all_of(s.radial.begin(), s.radial.end(), [](float v) { return within(v, 0, 1); });
+    if (s.radial.size() < 2 || !shares || !std::is_sorted(s.radial.begin(), s.radial.end()))
       list.error(514, "kernel {}: found {} radial shares, expected at least 2, 0 to 1 and rising", i, s.radial.size());
     validate_weights(i, kernel.slice_size, s.weights, list);
+    if (!even_in_x(s.weights, kernel.slice_size))
+      list.error(516, "kernel {}: found weights of a slice that differ left and right, expected the same", i);
   }
 }
 
