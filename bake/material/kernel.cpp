@@ -11,14 +11,14 @@ namespace oriel {
 namespace {
 
 constexpr double kMirrorBelow = 1e-5;       // narrower lobes than any image can resolve
-constexpr int kPolar = 512, kAzimuth = 64;  // quadrature over half vectors
+constexpr int kPolar = 512, kAzimuth = 64;  // nodes of the lobe
 constexpr int kSubsamples = 4;              // per pixel and axis
 constexpr double kBinnedBelow = 0.25;       // cosθ: beneath it the lobe is narrower across than what subsamples catch
 
 struct Node {
   double extent;  // max of |tangents| of the reflected direction; infinite behind the tangent plane
-  double weight;  // of the lobe
-  DVec2 tangent;  // undefined where extent is infinite
+  double weight;  // of the lobe, both sides
+  DVec2 tangent;  // x >= 0; undefined where extent is infinite
 };
 
 // Weights by counting the lobe's nodes, for grazing lobes: their width across the plane of incidence shrinks with cosθ,
@@ -30,35 +30,21 @@ std::vector<double> binned_weights(const std::vector<Node>& nodes, double half_e
     const auto at = [&](double t) {
       return std::min(static_cast<std::uint32_t>((t / half_extent + 1) * 0.5 * size), size - 1);
     };
-    weights[at(node.tangent.y) * size + at(node.tangent.x)] += node.weight;
+    for (const double x : {-node.tangent.x, node.tangent.x})
+      weights[at(node.tangent.y) * size + at(x)] += 0.5 * node.weight;
   }
   return weights;
 }
 
-// The lobe as nodes of a midpoint rule over half vectors, drawn with density D cosθh:
-// D G2 / (4 cosθo) dωi = [D cosθh dωh] · G2 (wo·h) / (cosθo cosθh).
-std::vector<Node> lobe_nodes(KernelModel model, double alpha, double cos_theta) {
+std::vector<Node> tangent_nodes(const LobeFunction& lobe, double alpha, double cos_theta) {
   const MirrorFrame frame(cos_theta);
-  const Microfacet facets = microfacet(model, alpha);
   std::vector<Node> nodes;
-  nodes.reserve(kPolar * kAzimuth);
-  for (int i = 0; i < kPolar; ++i) {
-    const double u = (i + 0.5) / kPolar;
-    const double tan2 = model == KernelModel::kGgxDg ? alpha * alpha * u / (1 - u) : -alpha * alpha * std::log1p(-u);
-    const double cos_h = 1 / std::sqrt(1 + tan2), sin_h = cos_h * std::sqrt(tan2);
-    for (int j = 0; j < kAzimuth; ++j) {
-      const double phi = 2 * kPiD * (j + 0.5) / kAzimuth;
-      const DVec3 h(sin_h * std::cos(phi), sin_h * std::sin(phi), cos_h);
-      const double cos_d = glm::dot(frame.wo, h);
-      const DVec3 wi = 2 * cos_d * h - frame.wo;
-      if (cos_d <= 0 || wi.z <= 0) continue;
-      const double g2 = facets.g2(frame.wo, wi);
-      const double toward = glm::dot(wi, frame.mirror);
-      const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
-      const double extent =
-          toward > 0 ? std::max(std::abs(tangent.x), std::abs(tangent.y)) : std::numeric_limits<double>::infinity();
-      nodes.push_back({extent, g2 * cos_d / (cos_theta * cos_h) / (kPolar * kAzimuth), tangent});
-    }
+  for (const auto& [wi, weight] : lobe_nodes(lobe, alpha, frame, kPolar, kAzimuth)) {
+    const double toward = glm::dot(wi, frame.mirror);
+    const DVec2 tangent = DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) / toward;
+    const double extent =
+        toward > 0 ? std::max(std::abs(tangent.x), std::abs(tangent.y)) : std::numeric_limits<double>::infinity();
+    nodes.push_back({extent, weight, tangent});
   }
   return nodes;
 }
@@ -106,11 +92,10 @@ double tangent_density(const LobeFunction& lobe, const MirrorFrame& frame, const
 
 // Weights by subsamples of the density in every pixel: smooth, and symmetric where the lobe is. At oblique incidence
 // more of them across.
-std::vector<double> sampled_weights(KernelModel model, double alpha, double cos_theta, double half_extent,
+std::vector<double> sampled_weights(const LobeFunction& lobe, double cos_theta, double half_extent,
                                     std::uint32_t size) {
   const int across = static_cast<int>(std::ceil(kSubsamples / cos_theta)), along = kSubsamples;
   const double width = 2 * half_extent / size;
-  const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, alpha);
   const MirrorFrame frame(cos_theta);
   std::vector<double> weights;
   weights.reserve(std::size_t{size} * size);
@@ -152,13 +137,14 @@ BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const Ke
   kernel.weights = {1.0f};
   if (a < kMirrorBelow) return kernel;
 
-  const std::vector<Node> nodes = lobe_nodes(model, a, c);
+  const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, a);
+  const std::vector<Node> nodes = tangent_nodes(lobe, a, c);
   const Extent extent = choose_extent(nodes, a, options);
   kernel.half_extent = static_cast<float>(extent.half_extent);
   kernel.energy_kept = static_cast<float>(std::min(extent.energy_kept, 1.0));
   kernel.size = choose_size(extent.half_extent, a, options.max_size);
   const std::vector<double> weights = c < kBinnedBelow ? binned_weights(nodes, extent.half_extent, kernel.size)
-                                                       : sampled_weights(model, a, c, extent.half_extent, kernel.size);
+                                                       : sampled_weights(lobe, c, extent.half_extent, kernel.size);
   double sum = 0;
   for (const double w : weights) sum += w;
   ORIEL_CHECK(sum > 0 && std::isfinite(sum));

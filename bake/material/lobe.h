@@ -1,16 +1,18 @@
 // The lobes that K is sampled from: microfacet distributions with their shadowing.
 #pragma once
 
+#include <vector>
+
 #include "bake/trace/brdf/compensation.h"
 #include "formats/assets/brdf_kernel.h"
 
 namespace oriel {
 
-// What of the lobe a kernel holds. Divided by 4 cosθo, D G is the whole lobe (BRDF times cosθi) without Fresnel.
+// Which shadowing a lobe has. Divided by 4 cosθo, D G is the BRDF times cosθi without Fresnel's factor.
 enum class LobeForm {
-  kD,     // the distribution alone
-  kDg,    // times the V-cavities' G (Cook and Torrance 1981), as in Bastos et al. 1999, eq. (4)
-  kLobe,  // times the height-correlated G2 of Smith (Heitz 2014): what a path tracer sees
+  kD,     // none: the distribution alone
+  kDg,    // the V-cavities' G (Cook and Torrance 1981), as in Bastos et al. 1999, eq. (4)
+  kLobe,  // the height-correlated G2 of Smith (Heitz 2014): what a path tracer sees, and packs hold
 };
 
 // A kernel's distribution. alpha: (0, 1].
@@ -29,5 +31,15 @@ struct MirrorFrame {
     along = {cos_theta, 0, sin_theta};
   }
 };
+
+// The lobe as nodes of a lattice rule over half vectors, their slopes spread as alpha t / (1 - t) for even t:
+// directions on the side of `across`, each with the lobe's weight of both sides, which are alike. The weights' sum is
+// the lobe's albedo. Rings are skewed by the golden ratio, so that no quantile falls on a step.
+struct LobeNode {
+  DVec3 wi;
+  double weight;
+};
+std::vector<LobeNode> lobe_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame, int polar,
+                                 int azimuth);
 
 }  // namespace oriel

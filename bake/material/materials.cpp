@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 
 #include "bake/jobs/parallel.h"
 #include "bake/material/share.h"
 #include "bake/scene/shade.h"
+#include "bake/trace/albedo.h"
 
 namespace oriel {
 namespace {
@@ -50,7 +52,7 @@ MaterialSummary from_factors(const SceneMaterial& m) {
     s.diffuse = Vec3(0);
     s.transmission = 0;
   }
-  choose_image_lobe(s, m.roughness);
+  choose_image_lobe(s, std::sqrt(mean_alpha(m.roughness * m.roughness, m.anisotropy)));
   s.coverage = m.alpha_mode == AlphaMode::kBlend ? m.alpha : 1;
   s.emission = m.emission;
   return s;
@@ -89,7 +91,7 @@ MaterialSummary average(const Scene& scene, const SceneMaterial& m, const std::v
     sums.emission += DVec3(p.emission);
     sums.f90 += p.f90;
     sums.coverage += p.coverage;
-    sums.roughness += std::sqrt(p.alpha);
+    sums.roughness += std::sqrt(mean_alpha(p.alpha, p.anisotropy));
     sums.coat += p.coat;
     sums.coat_roughness += std::sqrt(p.coat_alpha);
     sums.metallic += metallic_at(scene, m, triangles[at], b);
@@ -120,23 +122,17 @@ MaterialSummary summarize(const Scene& scene, std::uint32_t material, const std:
   return s;
 }
 
-int quantised(float x) {
-  return static_cast<int>(std::lround(std::clamp(x, 0.0f, 1.0f) * 1024));
-}
+// What a Fresnel map is computed of, to the last bit: near an index of 1 the least difference changes all of R at
+// grazing angles. Maps that come out alike are merged by their tables.
+using FresnelKey = std::array<std::uint32_t, 10>;
 
-// What tells Fresnel maps apart.
-std::array<int, 10> fresnel_key(const MaterialSummary& s) {
-  const int ior = s.curve.schlick < 1 ? static_cast<int>(std::lround(std::min(s.curve.ior, 1e5f) * 4096)) : 0;
-  return {quantised(s.f0.r),
-          quantised(s.f0.g),
-          quantised(s.f0.b),
-          quantised(s.f90),
-          quantised(std::sqrt(s.base_alpha)),
-          quantised(s.coat),
-          quantised(std::sqrt(s.coat_alpha)),
-          ior,
-          quantised(s.curve.schlick),
-          static_cast<int>(s.curve.metal)};
+FresnelKey fresnel_key(const MaterialSummary& s) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return {bits(s.f0.r),          bits(s.f0.g),
+          bits(s.f0.b),          bits(s.f90),
+          bits(s.base_alpha),    bits(s.coat),
+          bits(s.coat_alpha),    s.curve.schlick < 1 ? bits(s.curve.ior) : 0,
+          bits(s.curve.schlick), static_cast<std::uint32_t>(s.curve.metal)};
 }
 
 // The widths of lobes that show an image, and who needs a Fresnel map of its own; maps.kernel and maps.fresnel_map are
@@ -151,7 +147,7 @@ Needs find_needs(const Scene& scene, MaterialMaps& maps, const MaterialOptions& 
   Needs needs;
   maps.kernel.assign(scene.materials.size(), -1);
   maps.fresnel_map.assign(scene.materials.size(), -1);
-  std::map<std::array<int, 10>, std::int32_t> fresnel_of;
+  std::map<FresnelKey, std::int32_t> fresnel_of;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const MaterialSummary& s = maps.summaries[m];
     if (scene.materials[m].unlit || (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0)) continue;

@@ -16,7 +16,7 @@ struct MaterialSummary {
   Vec3 diffuse{0};     // (1 - metallic) (1 - transmission) base colour
   float metallic = 0;
   float roughness = 1;   // of the lobe that shows an image: the coat's where it reflects as much as what it covers
-  float alpha = 1;       // GGX width: the square of that roughness
+  float alpha = 1;       // GGX width: the square of that roughness; of an anisotropic lobe the mean √(αx αy)
   float base_alpha = 1;  // of the lobe under the coat
   Vec3 f0{0.04f};
   float f90 = 1;
@@ -35,7 +35,7 @@ MaterialSummary summarize_material(const Scene& scene, std::uint32_t material);
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 
 struct MaterialOptions {
-  KernelModel model = KernelModel::kGgxDg;
+  KernelModel model = KernelModel::kGgx;
   KernelOptions kernel;
   SliceOptions slices;
   float max_roughness = 0.5f;  // rougher lobes see too much of the scene for an image: they get no kernel

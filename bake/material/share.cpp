@@ -9,11 +9,12 @@ namespace oriel {
 namespace {
 
 constexpr double kMovedPerWidth = 4 / 2.718281828459045;  // Beckmann's, the larger
-constexpr int kAngles = 65;
 
+// At the entries of the finer table: between two of them both maps are linear.
 bool same(const FresnelMap& a, const FresnelMap& b, float error) {
-  for (int i = 0; i < kAngles; ++i) {
-    const float root = static_cast<float>(i) / (kAngles - 1);
+  const std::size_t entries = std::max({a.table.size(), b.table.size(), std::size_t{2}});
+  for (std::size_t i = 0; i < entries; ++i) {
+    const float root = static_cast<float>(i) / static_cast<float>(entries - 1);
     const Vec3 ra = fresnel_lookup(a, root * root), rb = fresnel_lookup(b, root * root);
     for (int c = 0; c < 3; ++c)
       if (!(std::abs(ra[c] - rb[c]) <= std::max(error * std::min(ra[c], rb[c]), kLeastDifference))) return false;

@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kPolar = 128, kAzimuth = 32;  // half vectors; the azimuths of one half, the other mirrors it
+constexpr int kPolar = 128, kAzimuth = 32;  // nodes of the lobe
 constexpr int kSubsamples = 4;              // per pixel and axis
 
 struct Node {
@@ -25,23 +25,10 @@ DVec2 project(const MirrorFrame& frame, const DVec3& wi) {
   return DVec2(glm::dot(wi, frame.across), glm::dot(wi, frame.along)) * (2 / away);
 }
 
-// The lobe as nodes of a lattice rule over half vectors, their slopes spread as alpha t / (1 - t) for even t. Half the
-// azimuths, with the weight of both halves. Rings are skewed by the golden ratio, so that no quantile falls on a step.
-std::vector<Node> lobe_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame) {
+std::vector<Node> projected_nodes(const LobeFunction& lobe, double alpha, const MirrorFrame& frame) {
   std::vector<Node> nodes;
-  nodes.reserve(kPolar * kAzimuth);
-  for (int i = 0; i < kPolar; ++i)
-    for (int j = 0; j < kAzimuth; ++j) {
-      const double t = (i + glm::fract((j + 0.5) * 0.6180339887498949)) / kPolar, slope = alpha * t / (1 - t);
-      const double phi = kPiD * (j + 0.5) / kAzimuth, cos_h = 1 / std::sqrt(1 + slope * slope);
-      const DVec3 h = cos_h * DVec3(slope * std::cos(phi), slope * std::sin(phi), 1);
-      const double cos_d = glm::dot(frame.wo, h);
-      const DVec3 wi = 2 * cos_d * h - frame.wo;
-      if (cos_d <= 0 || wi.z <= 0) continue;
-      const double d_slope = alpha / ((1 - t) * (1 - t)) / kPolar;
-      const double d_half = cos_h * cos_h * cos_h * slope * d_slope * 2 * kPiD / kAzimuth;  // both halves
-      nodes.push_back({project(frame, wi), lobe(frame.wo, wi, h) * 4 * cos_d * d_half});
-    }
+  for (const LobeNode& node : lobe_nodes(lobe, alpha, frame, kPolar, kAzimuth))
+    nodes.push_back({project(frame, node.wi), node.weight});
   return nodes;
 }
 
@@ -111,7 +98,7 @@ DVec2 to_mirror_coordinates(double cos_theta, const DVec3& wi) {
 
 KernelSlice make_slice(const LobeFunction& lobe, double alpha, double cos_theta, const SliceOptions& options) {
   const MirrorFrame frame(cos_theta);
-  std::vector<Node> nodes = lobe_nodes(lobe, alpha, frame);
+  const std::vector<Node> nodes = projected_nodes(lobe, alpha, frame);
   double total = 0;
   DVec3 mean(0);
   for (const Node& node : nodes) {

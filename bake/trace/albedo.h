@@ -7,13 +7,18 @@
 namespace oriel {
 
 // The widths of an anisotropic lobe along and across its wide direction.
+inline float wide_alpha(float alpha, float anisotropy) {
+  return alpha + (1 - alpha) * anisotropy * anisotropy;
+}
 inline float wide_alpha(const ShadePoint& point) {
-  return point.alpha + (1 - point.alpha) * point.anisotropy * point.anisotropy;
+  return wide_alpha(point.alpha, point.anisotropy);
 }
 // An anisotropic lobe has the albedo of the isotropic one of the same area in slopes, nearly.
+inline float mean_alpha(float alpha, float anisotropy) {
+  return anisotropy > 0 ? std::sqrt(alpha * wide_alpha(alpha, anisotropy)) : alpha;
+}
 inline SpecularLobe specular_lobe(const ShadePoint& point) {
-  const float alpha = point.anisotropy > 0 ? std::sqrt(point.alpha * wide_alpha(point)) : point.alpha;
-  return {point.f0, point.f90, alpha, point.curve};
+  return {point.f0, point.f90, mean_alpha(point.alpha, point.anisotropy), point.curve};
 }
 inline SpecularLayers specular_layers(const ShadePoint& point) {
   return {specular_lobe(point), point.coat, point.coat_alpha};

@@ -7,7 +7,9 @@
 
 namespace oriel {
 
-enum class KernelModel : std::uint8_t { kBeckmannDg = 0, kGgxDg = 1 };
+// Distribution of the facets of a lobe D G2 / (4 cosθo), G2 height-correlated Smith: the BRDF times cosθi without
+// Fresnel's factor.
+enum class KernelModel : std::uint8_t { kBeckmann = 0, kGgx = 1 };
 
 // The lobe seen at one incidence. Its directions are in stereographic coordinates of the mirror direction,
 // u = 2 tan(γ/2) for the angle γ from it: x across the plane of incidence, y in it, growing towards the surface normal.
@@ -36,7 +38,7 @@ inline DVec2 slice_point(const KernelSlice& slice, const DVec2& at) {
 // t = ((i + ½) / size * 2 - 1) * half_extent, that is t = tan of the angle from the mirror direction. Sum of weights 1.
 // size 1 is the mirror. `slices` is the lobe as it turns from there and stretches with incidence.
 struct BrdfKernel {
-  KernelModel model = KernelModel::kGgxDg;
+  KernelModel model = KernelModel::kGgx;
   float alpha = 0;                  // microfacet width, roughness²
   float cos_theta = 1;              // incidence it was sampled at
   float half_extent = 0;            // tangent of the half angle it covers

@@ -52,9 +52,9 @@ TEST(KernelCases, LobesHaveTheirCentreAndWidth) {
   if (cases.empty()) GTEST_SKIP() << "ORIEL_VALIDATION is not set";
   for (const Json& c : cases) {
     for (const Json& lobe : c["expected"]["cook_torrance_beckmann_vcavity"])
-      expect_lobe(lobe, KernelModel::kBeckmannDg, LobeForm::kDg, c["tolerance"]);
+      expect_lobe(lobe, KernelModel::kBeckmann, LobeForm::kDg, c["tolerance"]);
     for (const Json& lobe : c["expected"]["ggx_smith_corr"])
-      expect_lobe(lobe, KernelModel::kGgxDg, LobeForm::kLobe, c["tolerance"]);
+      expect_lobe(lobe, KernelModel::kGgx, LobeForm::kLobe, c["tolerance"]);
   }
 }
 
@@ -66,7 +66,7 @@ TEST(KernelCases, KernelsHoldTheLobesEnergy) {
       const double m = std::stod(m_text);
       for (std::size_t i = 0; i < energies.size(); ++i) {
         const double mu = c["inputs"]["mu_view"][i];
-        const KernelSlice s = make_slice(microfacet_lobe(KernelModel::kBeckmannDg, LobeForm::kDg, m), m, mu);
+        const KernelSlice s = make_slice(microfacet_lobe(KernelModel::kBeckmann, LobeForm::kDg, m), m, mu);
         EXPECT_NEAR(s.albedo, energies[i].get<double>(), c["tolerance"]["abs"].get<double>()) << m << " at " << mu;
       }
     }

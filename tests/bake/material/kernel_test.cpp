@@ -31,7 +31,7 @@ std::string broken_promise(const BrdfKernel& k) {
 }
 
 TEST(Kernel, PromisesCanBeSeenToBreak) {
-  BrdfKernel k = make_kernel(0.1f, KernelModel::kGgxDg);
+  BrdfKernel k = make_kernel(0.1f, KernelModel::kGgx);
   EXPECT_EQ(broken_promise(k), "");
   k.weights[3] += 0.1f;
   EXPECT_EQ(broken_promise(k), "the sum is not 1");
@@ -41,7 +41,7 @@ TEST(Kernel, PromisesCanBeSeenToBreak) {
 
 TEST(Kernel, HoldsItsPromisesFromMirrorToMatteAtEveryIncidence) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg})
+  for (const KernelModel model : {KernelModel::kBeckmann, KernelModel::kGgx})
     for (const float alpha : {-1.0f, 0.0f, 1e-30f, 1e-5f, 1e-4f, 1e-3f, 0.01f, 0.1f, 0.35f, 1.0f, 7.0f, nan})
       for (const float cos_theta : {1.0f, 0.7f, 0.1f, 1e-3f, 0.0f, -1.0f, nan}) {
         const BrdfKernel k = make_kernel(alpha, model, cos_theta);
@@ -51,7 +51,7 @@ TEST(Kernel, HoldsItsPromisesFromMirrorToMatteAtEveryIncidence) {
 }
 
 TEST(Kernel, MirrorIsOnePixel) {
-  const BrdfKernel k = make_kernel(0, KernelModel::kGgxDg);
+  const BrdfKernel k = make_kernel(0, KernelModel::kGgx);
   EXPECT_EQ(k.size, 1u);
   EXPECT_EQ(k.weights, std::vector<float>{1.0f});
   EXPECT_EQ(k.half_extent, 0);
@@ -59,7 +59,7 @@ TEST(Kernel, MirrorIsOnePixel) {
 }
 
 TEST(Kernel, IsSymmetricAtNormalIncidenceAndPeaksInTheMiddle) {
-  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg}) {
+  for (const KernelModel model : {KernelModel::kBeckmann, KernelModel::kGgx}) {
     const BrdfKernel k = make_kernel(0.1f, model);
     const std::uint32_t n = k.size, c = n / 2;
     for (std::uint32_t y = 0; y < n; ++y)
@@ -76,7 +76,7 @@ TEST(Kernel, IsSymmetricAtNormalIncidenceAndPeaksInTheMiddle) {
 // twice that of the half vector's. Its share inside the disk of tangent 2 tanθh is 1 - exp(-tan²θh/α²) for Beckmann.
 TEST(Kernel, NarrowBeckmannLobeMatchesTheGaussian) {
   const float alpha = 1e-3f;
-  const BrdfKernel k = make_kernel(alpha, KernelModel::kBeckmannDg);
+  const BrdfKernel k = make_kernel(alpha, KernelModel::kBeckmann);
   // In the limit the lobe is a Gaussian of exp(-t² / (2α)²); a square of half side s holds erf(s / (2α))².
   const double held = std::pow(std::erf(k.half_extent / (2 * alpha)), 2);
   EXPECT_NEAR(held, 0.99, 4e-3);
@@ -92,7 +92,7 @@ TEST(Kernel, NarrowBeckmannLobeMatchesTheGaussian) {
 
 // energy_kept against direct integration of the density over the square, and the whole lobe against its albedo.
 TEST(Kernel, EnergyKeptIsTheLobesShareInTheSquare) {
-  for (const KernelModel model : {KernelModel::kBeckmannDg, KernelModel::kGgxDg})
+  for (const KernelModel model : {KernelModel::kBeckmann, KernelModel::kGgx})
     for (const double alpha : {0.01, 0.1, 0.3})
       for (const double cos_theta : {1.0, 0.5}) {
         const BrdfKernel k = make_kernel(static_cast<float>(alpha), model, static_cast<float>(cos_theta));
@@ -112,7 +112,7 @@ TEST(Kernel, EnergyKeptIsTheLobesShareInTheSquare) {
 }
 
 TEST(Kernel, WideLobesSayWhatTheyLose) {
-  const BrdfKernel k = make_kernel(0.8f, KernelModel::kGgxDg);
+  const BrdfKernel k = make_kernel(0.8f, KernelModel::kGgx);
   EXPECT_FLOAT_EQ(k.half_extent, 2.0f);
   EXPECT_LT(k.energy_kept, 0.95f);
   EXPECT_GT(k.energy_kept, 0.3f);
@@ -121,14 +121,14 @@ TEST(Kernel, WideLobesSayWhatTheyLose) {
 TEST(Kernel, ExtentGrowsWithTheLobe) {
   float before = 0;
   for (const float alpha : {1e-4f, 1e-3f, 1e-2f, 0.05f, 0.1f}) {
-    const float extent = make_kernel(alpha, KernelModel::kGgxDg).half_extent;
+    const float extent = make_kernel(alpha, KernelModel::kGgx).half_extent;
     EXPECT_GT(extent, before);
     before = extent;
   }
 }
 
 TEST(Kernel, TinyAlphasScaleExactly) {
-  const BrdfKernel a = make_kernel(1e-4f, KernelModel::kGgxDg), b = make_kernel(1e-3f, KernelModel::kGgxDg);
+  const BrdfKernel a = make_kernel(1e-4f, KernelModel::kGgx), b = make_kernel(1e-3f, KernelModel::kGgx);
   ASSERT_EQ(a.size, b.size);
   EXPECT_NEAR(b.half_extent / a.half_extent, 10, 0.02);
   for (std::size_t i = 0; i < a.weights.size(); ++i) EXPECT_NEAR(a.weights[i], b.weights[i], 2e-5);
