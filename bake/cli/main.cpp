@@ -109,9 +109,7 @@ Status run_lux(const Arguments& args, Context& context) {
   ORIEL_TRY(const Measurement measured, measure(args.lux, context));
   const std::string csv = lux_csv(measured.points, measured.results);
   if (!args.lux_output.empty()) return write_file_atomically(args.lux_output, std::as_bytes(std::span(csv)));
-  if (std::fwrite(csv.data(), 1, csv.size(), stdout) != csv.size() || std::fflush(stdout) != 0)
-    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
-  return {};
+  return print(csv);
 }
 
 Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {

@@ -1,10 +1,9 @@
 // What `oriel-bake material` prints.
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "bake/cli/material_arguments.h"
 #include "bake/trace/brdf/ward.h"
+#include "formats/core/file.h"
 
 namespace oriel {
 namespace {
@@ -17,26 +16,28 @@ Json rgb(const DVec3& v) {
 
 std::string evaluation_json(const std::vector<Evaluation>& rows) {
   Json out = Json::array();
-  for (const Evaluation& r : rows)
-    out.push_back({{"angle_deg", r.angle_deg},
-                   {"F", rgb(r.f)},
-                   {"F_schlick_error", rgb(r.f_error)},
-                   {"D", r.d},
-                   {"G1", r.g1},
-                   {"G", r.g2},
-                   {"albedo", rgb(r.albedo)},
-                   {"albedo_compensated", rgb(r.compensated)}});
+  for (const Evaluation& r : rows) {
+    Json& entry = out.emplace_back(Json{{"angle_deg", r.angle_deg},
+                                        {"F", rgb(r.f)},
+                                        {"F_schlick_error", rgb(r.f_error)},
+                                        {"D", r.d},
+                                        {"G1", r.g1},
+                                        {"G", r.g2},
+                                        {"albedo", rgb(r.albedo)}});
+    if (r.compensated) entry["albedo_compensated"] = rgb(*r.compensated);
+  }
   return out.dump(2) + "\n";
 }
 
 std::string evaluation_table(const std::vector<Evaluation>& rows) {
-  std::string text = fmt::format("{:>8} {:>29} {:>13} {:>9} {:>9} {:>29} {:>29} {:>10}\n", "angle", "F (R G B)", "D",
-                                 "G1", "G", "albedo (R G B)", "compensated (R G B)", "Schlick-F");
-  const auto three = [](const DVec3& v) { return fmt::format("{:9.6f} {:9.6f} {:9.6f}", v.r, v.g, v.b); };
+  std::string text = fmt::format("{:>8} {:>35} {:>13} {:>9} {:>9} {:>35} {:>35} {:>13}\n", "angle", "F (R G B)", "D",
+                                 "G1", "G", "albedo (R G B)", "compensated (R G B)", "Schlick - F");
+  const auto three = [](const DVec3& v) { return fmt::format("{:11.6g} {:11.6g} {:11.6g}", v.r, v.g, v.b); };
   for (const Evaluation& r : rows) {
     const DVec3 size = glm::abs(r.f_error);
-    text += fmt::format("{:8.3f} {} {:13.6g} {:9.6f} {:9.6f} {} {} {:10.2e}\n", r.angle_deg, three(r.f), r.d, r.g1,
-                        r.g2, three(r.albedo), three(r.compensated), std::max({size.r, size.g, size.b}));
+    text += fmt::format("{:8.3f} {} {:13.6g} {:9.6f} {:9.6f} {} {:>35} {:13.2e}\n", r.angle_deg, three(r.f), r.d, r.g1,
+                        r.g2, three(r.albedo), r.compensated ? three(*r.compensated) : "-",
+                        std::max({size.r, size.g, size.b}));
   }
   return text;
 }
@@ -50,12 +51,6 @@ std::string fit_table(const std::vector<double>& alphas) {
                         fit.phong.gain / fit.phong.exponent, fit.chi2, fit.published_chi2);
   }
   return text;
-}
-
-Status print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
-  return {};
 }
 
 }  // namespace

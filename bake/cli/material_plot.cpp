@@ -6,27 +6,25 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <map>
 
+#include "bake/cli/number_range.h"
 #include "formats/core/file.h"
 
 namespace oriel {
 namespace {
 
 Status list_materials() {
-  std::string text = fmt::format("{:<10} {:>26} {:>26}  {}\n", "name", "F at 0 degrees (R G B)", "F at 80 degrees",
+  std::string text = fmt::format("{:<10} {:>35} {:>35}  {}\n", "name", "F at 0 degrees (R G B)", "F at 80 degrees",
                                  "index at 630, 532, 465 nm");
   for (const NamedMaterial& m : named_materials()) {
     const auto fresnel = [&](double cos_theta) {
       const Vec3 f = specular_fresnel(m.lobe, cos_theta);
-      return fmt::format("{:8.4f} {:8.4f} {:8.4f}", f.r, f.g, f.b);
+      return fmt::format("{:11.5g} {:11.5g} {:11.5g}", f.r, f.g, f.b);
     };
     text += fmt::format("{:<10} {} {}  {}\n", m.name, fresnel(1), fresnel(std::cos(80 * kPiD / 180)), m.index);
   }
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
-  return {};
+  return print(text);
 }
 
 // Runs gnuplot in the folder.
@@ -58,16 +56,16 @@ void add_material_plot(CLI::App& material, MaterialPlotArguments& args) {
   material.add_flag("--list", args.list, "Prints the materials that --plot knows, with their Fresnel reflectance");
   auto* plot = material
                    .add_option("--plot", args.plot,
-                               "Writes K and R of a material as CSV, and pictures of them where gnuplot is "
-                               "installed")
+                               "Writes K and R of a material (a name of --list, or a metal's symbol) as CSV, and "
+                               "pictures of them where gnuplot is installed")
                    ->type_name("NAME");
   material.add_option("-o,--output", args.folder, "Folder of --plot's files; made where it is missing")
       ->type_name("DIR")
       ->needs(plot);
   material.add_option("--alpha", args.alpha, "Width of the lobe: the square of glTF's roughness")
-      ->check(CLI::Range(1e-4f, 1.0f))
+      ->check(number_range(1e-4, 1))
       ->capture_default_str();
-  const std::map<std::string, KernelModel> models{{"ggx", KernelModel::kGgxDg}, {"beckmann", KernelModel::kBeckmannDg}};
+  const std::map<std::string, KernelModel> models{{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}};
   material.add_option("--model", args.model, "Distribution of K's facets")
       ->transform(CLI::CheckedTransformer(models).description(""))
       ->type_name("ggx|beckmann")
@@ -86,20 +84,20 @@ Status check_material_plot(const MaterialPlotArguments& args) {
 Status run_material_plot(const MaterialPlotArguments& args) {
   if (args.list) ORIEL_TRY_VOID(list_materials());
   if (args.plot.empty()) return {};
-  std::string known;
-  for (NamedMaterial& material : named_materials()) {
-    known += (known.empty() ? "" : ", ") + material.name;
-    if (material.name != args.plot) continue;
-    material.lobe.alpha = args.alpha;
-    std::error_code ec;
-    std::filesystem::create_directories(args.folder, ec);
-    if (ec) return fail(ErrorCode::kIo, args.folder.string(), "cannot be made: {}", ec.message());
-    const std::vector<PlotFile> files = plot_files(material, args.model);
-    for (const PlotFile& file : files)
-      ORIEL_TRY_VOID(write_file_atomically(args.folder / file.name, std::as_bytes(std::span(file.text))));
-    return args.pictures ? draw(args.folder, files.back().name) : Status();
+  auto material = material_by_name(args.plot);
+  if (!material) {
+    std::string known;
+    for (const NamedMaterial& m : named_materials()) known += (known.empty() ? "" : ", ") + m.name;
+    return fail(ErrorCode::kUsage, "--plot", "found '{}', expected one of {}", args.plot, known);
   }
-  return fail(ErrorCode::kUsage, "--plot", "found '{}', expected one of {}", args.plot, known);
+  material->lobe.alpha = args.alpha;
+  std::error_code ec;
+  std::filesystem::create_directories(args.folder, ec);
+  if (ec) return fail(ErrorCode::kIo, args.folder.string(), "cannot be made: {}", ec.message());
+  const std::vector<PlotFile> files = plot_files(*material, args.model);
+  for (const PlotFile& file : files)
+    ORIEL_TRY_VOID(write_file_atomically(args.folder / file.name, std::as_bytes(std::span(file.text))));
+  return args.pictures ? draw(args.folder, files.back().name) : Status();
 }
 
 }  // namespace oriel

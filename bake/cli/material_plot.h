@@ -15,7 +15,7 @@ struct MaterialPlotArguments {
   std::string plot;  // a name; empty: none
   std::filesystem::path folder;
   float alpha = 0.1f;
-  KernelModel model = KernelModel::kGgxDg;
+  KernelModel model = KernelModel::kGgx;
   bool pictures = true;
   bool wanted() const { return list || !plot.empty(); }
 };

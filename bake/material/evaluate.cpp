@@ -56,6 +56,7 @@ std::vector<Evaluation> evaluate(const EvaluateOptions& options) {
   const auto fresnel = [&](double cosine) {
     return options.schlick ? schlick_fresnel(f0, cosine) : exact_fresnel(options, cosine);
   };
+  const bool compensable = options.model != BrdfModel::kWardOriginal && options.model != BrdfModel::kWardDuer;
   std::vector<Evaluation> rows;
   for (const double angle_deg : options.angles_deg) {
     // cos 90° of a rounded π/2 is not 0.
@@ -74,9 +75,8 @@ std::vector<Evaluation> evaluate(const EvaluateOptions& options) {
     }
     const Albedo albedo =
         lobe_albedo(lobe.f_cos, lobe.width, compensation, fresnel, f0, std::max(cos_theta, kGrazing), kOrder);
-    // Duer's norm truly gives more than 1; where others do it is the last digit of a quadrature.
-    row.albedo = options.model == BrdfModel::kWardDuer ? albedo.single : glm::min(albedo.single, DVec3(1));
-    row.compensated = glm::min(albedo.compensated, DVec3(1));
+    row.albedo = albedo.single;
+    if (compensable) row.compensated = albedo.compensated;
     rows.push_back(row);
   }
   return rows;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "formats/core/color.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -74,9 +77,8 @@ void add_incidences(KernelModel model, double alpha, std::string& incidence, std
 }
 
 // Even in mirror coordinates, out to where most of the energy lies at normal incidence.
-std::string lobe_csv(KernelModel model, double alpha, int angle) {
+std::string lobe_csv(const LobeFunction& lobe, double alpha, int angle) {
   const double c = angle == 0 ? 1 : std::cos(angle * kDegree), reach = std::min(6 * alpha, 2.0);
-  const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, alpha);
   const DVec3 wo(std::sqrt(1 - c * c), 0, c);
   std::vector<double> values;
   for (int i = 0; i < kSide * kSide; ++i) {
@@ -91,15 +93,30 @@ std::string lobe_csv(KernelModel model, double alpha, int angle) {
   return text;
 }
 
+// Of a form and a material.
+constexpr const char* kShares = R"(set title '{0}: share within a cone'
+set size noratio
+set grid
+set xlabel 'half angle, degrees'
+unset ylabel
+plot [0:*] [0:1] for [a in '0 60 80'] '{1}_radial.csv' skip 1 \
+  using (strcol(1) eq '{0}' && strcol(2) eq a ? $3 : 1/0):4 with lines lw 2 title a.' degrees'
+)";
+
 std::string script(const NamedMaterial& material) {
   const std::string& name = material.name;
   std::string lobes;
-  for (const int angle : kPlotted)
-    lobes += fmt::format(
-        "set title 'lobe at {0} degrees'\n"
-        "plot '{1}_lobe_{0}.csv' skip 1 using 1:2:3 with image notitle, '-' with points pt 1 lc 'white' notitle\n"
-        "0 0\ne\n",
-        angle, name);
+  for (const Form& form : kForms) {
+    for (const int angle : kPlotted)
+      lobes += fmt::format(
+          "set title '{0} at {1} degrees'\n"
+          "set size ratio -1\nunset grid\nset xlabel 'across'\nset ylabel 'along, towards the normal'\n"
+          "plot '{2}_{0}_{1}.csv' skip 1 using 1:2:3 with image notitle, \\\n"
+          "  $mirror with points pt 1 ps 1.6 lw 5 lc 'white' notitle, "
+          "$mirror with points pt 1 ps 1.4 lw 2 lc 'black' notitle\n",
+          form.name, angle, name);
+    lobes += fmt::format(kShares, form.name, name);
+  }
   return fmt::format(
       R"(set datafile separator ','
 set terminal pngcairo size 1100,480 font 'sans,11'
@@ -121,25 +138,18 @@ plot [-90:90] [0:1.02] for [side in '-1 1'] for [k=3:5] '{0}_reflectance.csv' sk
 unset multiplot
 reset
 set datafile separator ','
-set terminal pngcairo size 1300,380 font 'sans,11'
+set terminal pngcairo size 1300,1080 font 'sans,11'
 set output '{0}_kernel.png'
-set multiplot layout 1,4 title 'K of {0}, alpha {1}'
+set multiplot layout 3,4 title 'K of {0}, alpha {1}'
 set palette defined (0 '#000020', 0.05 '#203080', 0.3 '#c04060', 1 '#ffffc0')
-set size ratio -1
 unset colorbox
-set xlabel 'across'
-set ylabel 'along, towards the normal'
+set key bottom right
 set tics scale 0.5
 set autoscale fix
-{2}reset
-set datafile separator ','
-set grid
-set key bottom right
-set title 'share within a cone'
-set xlabel 'half angle, degrees'
-plot [0:*] [0:1] for [a in '0 60 80'] '{0}_radial.csv' skip 1 \
-  using (strcol(1) eq 'lobe' && strcol(2) eq a ? $3 : 1/0):4 with lines lw 2 title a.' degrees'
-unset multiplot
+$mirror << end
+0,0
+end
+{2}unset multiplot
 )",
       name, material.lobe.alpha, lobes);
 }
@@ -161,6 +171,14 @@ std::vector<NamedMaterial> named_materials() {
   return out;
 }
 
+std::optional<NamedMaterial> material_by_name(std::string_view name) {
+  const auto metal = metal_by_name(name);
+  const std::string wanted = metal ? constants_of(*metal).name : lower_case(name);
+  for (NamedMaterial& material : named_materials())
+    if (material.name == wanted) return std::move(material);
+  return std::nullopt;
+}
+
 std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel model) {
   const FresnelMap map = make_fresnel_map({.base = material.lobe});
   const double alpha = material.lobe.alpha;
@@ -172,8 +190,10 @@ std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel mode
                               {material.name + "_sphere.csv", sphere_csv(map)},
                               {material.name + "_incidence.csv", std::move(incidence)},
                               {material.name + "_radial.csv", std::move(radial)}};
-  for (const int angle : kPlotted)
-    files.push_back({fmt::format("{}_lobe_{}.csv", material.name, angle), lobe_csv(model, alpha, angle)});
+  for (const Form& form : kForms)
+    for (const int angle : kPlotted)
+      files.push_back({fmt::format("{}_{}_{}.csv", material.name, form.name, angle),
+                       lobe_csv(microfacet_lobe(model, form.form, alpha), alpha, angle)});
   files.push_back({material.name + ".gp", script(material)});
   return files;
 }

@@ -1,7 +1,9 @@
 // K and R of a material as tables and as a gnuplot script, in the manner of Bastos et al. 1999, figure 6.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "bake/material/reflectance.h"
 #include "bake/material/slices.h"
@@ -16,6 +18,8 @@ struct NamedMaterial {
 };
 // The measured metals, and a few dielectrics.
 std::vector<NamedMaterial> named_materials();
+// One of them by name, or a metal by its symbol, in any case: "gold", "Au".
+std::optional<NamedMaterial> material_by_name(std::string_view name);
 
 struct PlotFile {
   std::string name, text;
@@ -23,8 +27,8 @@ struct PlotFile {
 
 // NAME_reflectance.csv: R by angle from the table and from the sphere map; NAME_sphere.csv: the sphere map, sRGB codes;
 // NAME_incidence.csv and NAME_radial.csv: where K's lobe lies and how it spreads, by incidence, for D alone, D·G of
-// Cook and Torrance, and the lobe (LobeForm); NAME_lobe_ANGLE.csv: the lobe around the mirror direction, relative to
-// its peak; NAME.gp, last: the script that draws NAME_reflectance.png and NAME_kernel.png of them.
+// Cook and Torrance, and the lobe (LobeForm); NAME_FORM_ANGLE.csv: each of these around the mirror direction, relative
+// to its peak; NAME.gp, last: the script that draws NAME_reflectance.png and NAME_kernel.png of them.
 // material.lobe.alpha: [1e-4, 1].
 std::vector<PlotFile> plot_files(const NamedMaterial& material, KernelModel model);
 

@@ -1,9 +1,10 @@
 #include "bake/run/options.h"
 
-#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <nlohmann/json.hpp>
+
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -81,9 +82,7 @@ Result<Vec3> parse_color(const std::string& text) {
 
 Result<SkyChoice> parse_sky(const std::string& text) {
   std::filesystem::path file(text);
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_case(file.extension().string());
   if (extension == ".hdr" || extension == ".exr") return SkyChoice{Vec3(0), std::move(file)};
   const auto color = parse_color(text);
   if (!color)

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -52,6 +53,12 @@ Status write_file_atomically(const fs::path& path, std::span<const std::byte> by
   const bool synced = ::fsync(fd) == 0;
   if (::close(fd) != 0 || !synced) return failed("cannot be flushed to disk");
   if (::rename(temporary.c_str(), path.c_str()) != 0) return failed("cannot be renamed into place");
+  return {};
+}
+
+Status print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));
   return {};
 }
 

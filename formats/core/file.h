@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
@@ -18,5 +19,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& path);
 // Writes to a temporary name beside path, flushes to disk and renames: path holds either the old file or the whole new
 // one. Error kIo names the reason of the system; the temporary file is removed.
 Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// Text to standard output, flushed. Error kIo.
+Status print(std::string_view text);
 
 }  // namespace oriel

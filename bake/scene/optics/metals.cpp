@@ -1,6 +1,7 @@
 #include "bake/scene/optics/metals.h"
 
 #include "formats/core/check.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {
@@ -29,7 +30,8 @@ const MetalConstants& constants_of(Metal metal) {
 
 std::optional<Metal> metal_by_name(std::string_view name) {
   for (int i = 0; i < kMetalCount; ++i)
-    if (name == kConstants[i].name || name == kConstants[i].symbol) return static_cast<Metal>(i);
+    if (lower_case(name) == kConstants[i].name || lower_case(name) == lower_case(kConstants[i].symbol))
+      return static_cast<Metal>(i);
   return std::nullopt;
 }
 

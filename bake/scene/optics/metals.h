@@ -25,7 +25,7 @@ struct MetalConstants {
 
 // metal: not kNone.
 const MetalConstants& constants_of(Metal metal);
-// By name or symbol, as constants_of() spells them.
+// By name or symbol in any case: "gold", "Au".
 std::optional<Metal> metal_by_name(std::string_view name);
 // "gold, silver, …": for messages.
 std::string metal_names();

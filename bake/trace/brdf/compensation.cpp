@@ -15,7 +15,8 @@ struct Interval {
 };
 
 Interval interval(double width, double cos_theta) {
-  const double x = std::clamp(Compensation::coordinate(width, cos_theta), 0.0, double{kNodes - 1});
+  const double at = Compensation::coordinate(width, cos_theta);
+  const double x = at > 0 ? std::min(at, double{kNodes - 1}) : 0;  // NaN: 0
   const auto i = std::min(static_cast<std::size_t>(x), std::size_t{kNodes - 2});
   return {i, x - static_cast<double>(i)};
 }
@@ -46,14 +47,14 @@ Compensation::Compensation(const LobeFunction& f_cos, double width, int order) :
   }
   scale_.fill(1);
   for (int step = 0; step < kMaxSteps; ++step) {
-    double worst = 0;
+    imbalance_ = 0;
     Row reflected{};
     for (std::size_t i = 0; i < kNodes; ++i) {
       for (std::size_t j = 0; j < kNodes; ++j) reflected[i] += k[i][j] * scale_[j];
       if (step == 0) albedo_[i] = reflected[i];
-      worst = std::max(worst, std::abs(scale_[i] * reflected[i] - 1));
+      imbalance_ = std::max(imbalance_, std::abs(scale_[i] * reflected[i] - 1));
     }
-    if (worst < kBalanced) break;
+    if (imbalance_ < kBalanced) break;
     for (std::size_t i = 0; i < kNodes; ++i) scale_[i] = std::sqrt(scale_[i] / reflected[i]);
   }
 }

@@ -44,7 +44,7 @@ DVec3 beckmann_visible_normal(const DVec3& stretched, const DVec2& u) {
 }  // namespace
 
 double Microfacet::d(const DVec3& h) const {
-  if (h.z <= 0) return 0;
+  if (h.z < 0 || (h.z == 0 && model == FacetModel::kBeckmann)) return 0;
   const double x = h.x / alpha_x, y = h.y / alpha_y, z2 = h.z * h.z;
   const double area = kPiD * alpha_x * alpha_y;
   if (model == FacetModel::kBeckmann) return std::exp(-(x * x + y * y) / z2) / (area * z2 * z2);

@@ -52,7 +52,12 @@ TEST_F(BakeCli, MaterialsAreListedAndPlotted) {
   EXPECT_TRUE(fs::exists(folder_ / "plots/gold.gp"));
   EXPECT_EQ(run("oriel-bake material --plot tin -o plots"), 1);
   EXPECT_NE(log().find("gold, silver"), std::string::npos) << log();
+  ASSERT_EQ(run("oriel-bake material --plot CU -o plots --no-pictures"), 0) << log();
+  EXPECT_TRUE(fs::exists(folder_ / "plots/copper_reflectance.csv"));
   EXPECT_EQ(run("oriel-bake material --plot gold"), 1) << "no folder";
+  EXPECT_EQ(run("oriel-bake material --plot gold -o plots eval --angles 3"), 1);
+  EXPECT_NE(log().find("--plot: found before eval"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake material --list fit --alpha 0.1"), 1);
   EXPECT_EQ(run("oriel-bake material"), 1);
   EXPECT_EQ(run("oriel-bake material --plot gold -o cornell.glb"), 2) << "a file is in the way";
   const std::string without = "PATH=/nowhere '" + std::string(ORIEL_BIN_DIR) +
@@ -77,6 +82,15 @@ TEST_F(BakeCli, MaterialEvalPrintsNumbers) {
   EXPECT_EQ(run("oriel-bake material eval --metal tin --angles 3"), 1);
   EXPECT_NE(log().find("gold, silver"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake material eval --alpha 0 --angles 3"), 1);
+  for (const char* options : {"eval --alpha nan --angles 3", "eval --angles 3,nan", "eval --eta nan --angles 3",
+                              "eval --eta 1 --k nan --angles 3", "fit --alpha nan", "--plot gold -o p --alpha nan"}) {
+    EXPECT_EQ(run(std::string("oriel-bake material ") + options), 1) << options;
+    EXPECT_NE(log().find("found nan"), std::string::npos) << log();
+  }
+  ASSERT_EQ(run("oriel-bake material eval --model ward-duer --angles 0 --json"), 0) << log();
+  EXPECT_FALSE(nlohmann::json::parse(log())[0].contains("albedo_compensated"));
+  ASSERT_EQ(run("oriel-bake material eval --eta 1.0001 --angles 0"), 0) << log();
+  EXPECT_NE(log().find("2.49975e-09"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake --texel 1cm material eval --angles 3"), 1) << "an option of the bake";
 }
 

@@ -74,6 +74,17 @@ TEST(Microfacet, DistributionIsNormalised) {
 }
 
 // The weak white furnace of Heitz 2014: without shadowing of the outgoing ray every visible facet reflects.
+// GGX's D ends at α² / π, Beckmann's at 0.
+TEST(Microfacet, DistributionHasItsLimitAtTheHorizon) {
+  for (const double alpha : kAlphas) {
+    const Microfacet ggx(FacetModel::kGgx, alpha), beckmann(FacetModel::kBeckmann, alpha);
+    EXPECT_NEAR(ggx.d({1, 0, 0}), alpha * alpha / kPiD, 1e-12 * alpha * alpha);
+    EXPECT_NEAR(ggx.d({1, 0, 1e-9}), alpha * alpha / kPiD, 1e-6 * alpha * alpha);
+    EXPECT_EQ(ggx.d({1, 0, -1e-9}), 0);
+    EXPECT_EQ(beckmann.d({1, 0, 0}), 0);
+  }
+}
+
 TEST(Microfacet, MaskingSeesTheProjectedArea) {
   for (const FacetModel model : {FacetModel::kGgx, FacetModel::kBeckmann})
     for (const double alpha : {0.1, 0.5, 1.0})
@@ -100,10 +111,12 @@ TEST(Compensation, WhiteFurnace) {
     for (const double alpha : kAlphas) {
       const LobeFunction f = function_of({model, alpha});
       const Compensation compensation(f, alpha, 24);
+      EXPECT_LT(compensation.imbalance(), 1e-7) << alpha;
       for (const double cos_theta : kCosines) {
         const Albedo e = lobe_albedo(
             f, alpha, compensation, [](double) { return DVec3(1); }, DVec3(1), cos_theta, 32);
         EXPECT_NEAR(e.compensated.r, 1, 2e-3) << alpha << " " << cos_theta;
+        EXPECT_LE(e.single.r, 1 + 1e-6) << alpha << " " << cos_theta;
         EXPECT_NEAR(compensation.albedo(cos_theta), e.single.r, 2e-3) << alpha << " " << cos_theta;
       }
     }
