@@ -99,7 +99,7 @@ set size noratio
 set grid
 set xlabel 'half angle, degrees'
 unset ylabel
-plot [0:*] [0:1] for [a in '0 60 80'] '{1}_radial.csv' skip 1 \
+plot [0:90] [0:1] for [a in '0 60 80'] '{1}_radial.csv' skip 1 \
   using (strcol(1) eq '{0}' && strcol(2) eq a ? $3 : 1/0):4 with lines lw 2 title a.' degrees'
 )";
 

@@ -60,6 +60,57 @@ TEST(Materials, FactorsFollowTheConventions) {
   EXPECT_EQ(s.area_m2, 0);
 }
 
+// How far an isotropic lobe is from an anisotropic one.
+struct LobeDifference {
+  double moved = 0;  // share of K that lies elsewhere, seen from above: half of L1
+  double in_r = 0;   // largest difference of the single-scattering albedo, over angles and azimuths
+};
+
+LobeDifference difference_of(const Microfacet& truth, const Microfacet& used) {
+  constexpr int kSide = 400;  // half vectors, drawn from D cosθ of the used lobe
+  const double alpha = used.alpha_x, share = 1.0 / (kSide * kSide);
+  LobeDifference out;
+  for (const double cos_theta : {0.1, 0.2, 0.4, 0.7, 1.0})
+    for (const double azimuth : {0.0, 0.25 * kPiD, 0.5 * kPiD}) {
+      const DVec2 in_plane = std::sqrt(1 - cos_theta * cos_theta) * DVec2(std::cos(azimuth), std::sin(azimuth));
+      const DVec3 wo(in_plane, cos_theta);
+      double l1 = 0, in_r = 0;
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const double u = (i / kSide + 0.5) / kSide, phi = 2 * kPiD * (i % kSide + 0.5) / kSide;
+        const double slope = alpha * std::sqrt(u / (1 - u)), cos_h = 1 / std::sqrt(1 + slope * slope);
+        const DVec3 h = cos_h * DVec3(slope * std::cos(phi), slope * std::sin(phi), 1), wi = reflect_at(wo, h);
+        const double ratio = truth.d(h) / used.d(h), weight = std::max(0.0, glm::dot(wo, h)) / (cos_theta * cos_h);
+        l1 += std::abs(ratio - 1) * share;
+        if (wi.z > 0) in_r += weight * (ratio * truth.g2(wo, wi) - used.g2(wo, wi)) * share;
+      }
+      if (cos_theta == 1) out.moved = 0.5 * l1;
+      out.in_r = std::max(out.in_r, std::abs(in_r));
+    }
+  return out;
+}
+
+// K and R of a brushed metal are those of the isotropic lobe of the same area in slopes: nearer than the width that the
+// roughness alone gives.
+TEST(Materials, BrushedMetalsTakeTheMeanWidth) {
+  for (const float strength : {0.1f, 0.3f, 0.6f}) {
+    test::SceneParts parts;
+    SceneMaterial brushed = glossy(0.3f, 1);
+    brushed.anisotropy = strength;
+    parts.add(brushed);
+    const double narrow = 0.09, wide = narrow + (1 - narrow) * strength * strength, mean = std::sqrt(narrow * wide);
+    EXPECT_NEAR(summarize_material(parts.finish(), 0).alpha, mean, 1e-6);
+    const Microfacet truth(FacetModel::kGgx, wide, narrow);
+    const LobeDifference found = difference_of(truth, {FacetModel::kGgx, mean});
+    const LobeDifference without = difference_of(truth, {FacetModel::kGgx, narrow});
+    std::printf(
+        "brushed, alpha 0.09, strength %.1f: %.1f %% of K elsewhere (%.1f %% with alpha 0.09), R off by at most "
+        "%.4f (%.4f)\n",
+        strength, 100 * found.moved, 100 * without.moved, found.in_r, without.in_r);
+    EXPECT_LT(found.moved, without.moved);
+    EXPECT_LT(found.in_r, without.in_r);
+  }
+}
+
 // A texture counts by the area that shows it: three quarters of the quad's surface is black, a quarter white.
 TEST(Materials, TexturesAreAveragedOverTheSurface) {
   test::SceneParts parts;
