@@ -69,9 +69,18 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(stages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
+  const std::map<std::string, Reflections> modes{
+      {"march", Reflections::kMarch}, {"points", Reflections::kPoints}, {"off", Reflections::kOff}};
   app.add_option(
-         "--maps", out.frame.maps_per_element,
-         "Radiance maps drawn for each reflector element in view: more fill more gaps and cost more time; 0 shows none")
+         "--reflections", out.frame.reflections,
+         "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et "
+         "al. published it, or nothing")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("march|points|off")
+      ->default_str("march");
+  app.add_option("--maps", out.frame.maps_per_element,
+                 "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 "
+                 "shows none")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   const std::map<std::string, Selection> selections{{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
@@ -89,7 +98,7 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->default_str("lobe");
   const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable},
                                                         {"sphere", Reflectance::kSphereMap}};
-  app.add_option("--reflectance", out.frame.reflectance,
+  app.add_option("--fresnel", out.frame.reflectance,
                  "R from the exact table by angle, or from the sphere map as Bastos et al. published it")
       ->transform(CLI::CheckedTransformer(reflectances).description(""))
       ->type_name("table|sphere")

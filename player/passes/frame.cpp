@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/reflections/reflected_view.h"
 
 namespace oriel {
 namespace {
@@ -42,6 +43,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   renderer->device_ = device;
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
+  ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
@@ -65,7 +67,8 @@ Status Renderer::ensure_frame(int width, int height) {
 std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view,
                                                       const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
-  if (!shows_reflectors(options.show) || options.maps_per_element <= 0) return candidates;
+  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
+  if (options.maps_per_element <= 0) return candidates;
   GLint next = 1;
   for (const GpuReflector& reflector : scene.reflectors()) {
     if (reflector.elements.empty() || reflector.index_count == 0) continue;
@@ -96,7 +99,11 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
   const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
-  reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  if (options.reflections == Reflections::kPoints) {
+    reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  } else {
+    march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  }
   const bool blurs = kernel.blurs() && options.show != Show::kM;
   fill_pass_.draw(rect, *image_, blurs, stats);
   if (blurs) convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats);

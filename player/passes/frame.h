@@ -4,12 +4,13 @@
 #include <memory>
 #include <set>
 
-#include "player/passes/convolve_pass.h"
 #include "player/passes/display_pass.h"
-#include "player/passes/fill_pass.h"
 #include "player/passes/reflector_pass.h"
-#include "player/passes/reproject_pass.h"
 #include "player/passes/scene_pass.h"
+#include "player/reflections/convolve_pass.h"
+#include "player/reflections/fill_pass.h"
+#include "player/reflections/march_pass.h"
+#include "player/reflections/reproject_pass.h"
 
 namespace oriel {
 
@@ -49,6 +50,7 @@ class Renderer {
   gpu::Device device_;
   ScenePass scene_pass_;
   ReflectorPass reflector_pass_;
+  MarchPass march_pass_;
   ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;

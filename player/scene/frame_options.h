@@ -3,19 +3,23 @@
 
 #include <cstdint>
 
+#include "player/maps/map_choice.h"
 #include "player/scene/kernel_taps.h"
-#include "player/scene/map_point.h"
 
 namespace oriel {
 
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
 // frame.
 enum class Show { kAll, kM, kMK, kMKR, kD };
+// How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
+// mirrored scene; or not at all.
+enum class Reflections { kMarch, kPoints, kGeometry, kOff };
 enum class Reflectance { kTable, kSphereMap };
 
 struct FrameOptions {
   Show show = Show::kAll;
-  int maps_per_element = 2;  // radiance maps drawn for each reflector element in view; 0: none
+  Reflections reflections = Reflections::kMarch;
+  int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
@@ -27,7 +31,7 @@ struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
   std::uint32_t reflectors = 0;  // that had pixels in view
-  std::uint32_t maps = 0;        // radiance maps reprojected
+  std::uint32_t maps = 0;        // radiance maps chosen
   std::uint64_t points = 0;      // of them
 };
 

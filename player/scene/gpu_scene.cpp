@@ -156,6 +156,12 @@ const gpu::Texture& GpuScene::radiance_map(std::uint32_t index) {
   return texture;
 }
 
+const MapArray& GpuScene::map_array(const ReflectorElement& element) {
+  const auto [at, added] = map_arrays_.try_emplace(element.maps.front());
+  if (added) at->second = MapArray::upload(pack_.radiance_maps, element.maps);
+  return at->second;
+}
+
 const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   gpu::Texture& texture = sphere_maps_[fresnel_map];
   if (!texture) texture = upload_sphere_map(pack_.fresnel_maps[fresnel_map]);

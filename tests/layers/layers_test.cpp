@@ -61,8 +61,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
   m["player/gpu"] = core;
   m["player/walk"] = assets;
-  m["player/scene"] = plus(assets, {"formats/pack", "player/gpu"});
-  m["player/passes"] = plus(m["player/scene"], {"player/scene"});
+  m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
+  m["player/scene"] = plus(m["player/maps"], {"formats/pack", "player/maps"});
+  m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
+  m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
   m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
@@ -71,11 +73,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
 
 // Libraries that must not spread: the folders that may include their headers.
 const std::map<std::string, std::set<std::string>> kGuarded = {
-    {"embree3/", {"bake/trace"}},        {"tbb/", {"bake/jobs"}},
-    {"OpenImageIO/", {"bake/scene"}},    {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas/chart"}}, {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
-    {"OpenEXR/", {"formats/image"}},     {"Imf", {"formats/image"}},
-    {"GLFW/", {"player/app"}},           {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
+    {"embree3/", {"bake/trace"}},
+    {"tbb/", {"bake/jobs"}},
+    {"OpenImageIO/", {"bake/scene"}},
+    {"CGAL/", {"bake/scene"}},
+    {"OpenMesh/", {"bake/atlas/chart"}},
+    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"OpenEXR/", {"formats/image"}},
+    {"Imf", {"formats/image"}},
+    {"GLFW/", {"player/app"}},
+    {"epoxy/", {"player/gpu", "player/maps", "player/scene", "player/reflections", "player/passes", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {
