@@ -33,10 +33,10 @@ std::vector<RadianceMap> uniform_maps(const std::vector<RadianceMap>& planned, s
   return out;
 }
 
-void print_reflector(const Surroundings& surroundings, std::uint32_t r, const std::vector<RadianceMap>& maps,
-                     std::span<const Vec3> eyes, const Settings& settings, Context& context) {
+Status print_reflector(const Surroundings& surroundings, std::uint32_t r, const std::vector<RadianceMap>& maps,
+                       std::span<const Vec3> eyes, const Settings& settings, Context& context) {
   const FoundReflector& found = surroundings.reflectors()[r];
-  const auto samples = sample_reflections(surroundings, r, eyes, settings.samples, context.seed + 1);
+  ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, settings.samples, context.seed + 1, context));
   const ViewQuality planned = judge_maps(surroundings, maps, samples, context);
   const std::vector<RadianceMap> uniform = uniform_maps(maps, settings.hemisphere);
   const ViewQuality other = judge_maps(surroundings, uniform, samples, context);
@@ -45,6 +45,7 @@ void print_reflector(const Surroundings& surroundings, std::uint32_t r, const st
               found.reflector.elements_y, maps.size(), maps.empty() ? 0 : std::max(maps[0].width, maps[0].height),
               100 * planned.seen, 100 * planned.sharp, uniform.size(), 100 * other.seen, 100 * other.sharp);
   std::fflush(stdout);
+  return {};
 }
 
 Status run_scene(const std::string& path, const Settings& settings) {
@@ -58,10 +59,10 @@ Status run_scene(const std::string& path, const Settings& settings) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   ORIEL_TRY(const EyeRegion region, find_eye_region(accel, {}, context));
   const double walk_s = seconds();
-  const std::vector<Vec3> training = sample_eyes(region, 1024, context.seed),
+  const std::vector<Vec3> training = sample_eyes(region, 4096, context.seed),
                           held_out = sample_eyes(region, settings.eyes, context.seed + 1);
   FoundReflectors found = find_reflectors(accel, materials);
-  keep_seen_reflectors(accel, training, 32, context.seed, found);
+  ORIEL_TRY_VOID(keep_seen_reflectors(accel, training, 32, context, found));
   std::vector<FoundReflector> reflectors = found.reflectors;
   const Surroundings surroundings(accel, found.reflectors, {});
   ORIEL_TRY(const ViewPlan plan, plan_views_for_eyes(surroundings, training, settings.plan, context, reflectors));
@@ -74,7 +75,8 @@ Status run_scene(const std::string& path, const Settings& settings) {
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     found.reflectors[r] = reflectors[r];
     const auto first = plan.maps.begin() + reflectors[r].reflector.first_map;
-    print_reflector(surroundings, r, {first, first + reflectors[r].reflector.map_count}, held_out, settings, context);
+    ORIEL_TRY_VOID(print_reflector(surroundings, r, {first, first + reflectors[r].reflector.map_count}, held_out,
+                                   settings, context));
   }
   return {};
 }

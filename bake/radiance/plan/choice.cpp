@@ -6,7 +6,7 @@
 namespace oriel {
 namespace {
 
-constexpr double kSeenCounts = 2;       // as much as sharp: a hole is worse than a blur
+constexpr double kSeenCounts = 8;       // as much as sharp: a hole is worse than a blur
 constexpr double kLeastGain = 1e-4;     // of all weight: what is not worth a map
 constexpr double kCloseEnough = 0.005;  // in the share of sharp samples: fewer pixels are preferred
 

@@ -47,6 +47,8 @@ std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const E
     const Vec3 eye = centre + radius * direction;
     if (is_inside(scene, pack_from_reflector(r, mirrored(eye)), radius)) out.push_back(eye);
   }
+  for (const float nearer : {0.5f, 0.25f, 0.125f})
+    for (const Vec3& direction : hemisphere_directions(16)) out.push_back(centre + nearer * radius * direction);
   const std::size_t hemisphere = out.size();
   for (const ReflectedSample& s : samples) {
     if (out.size() >= hemisphere + options.mirrored_eyes) break;
@@ -64,8 +66,8 @@ class Planner {
   }
 
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
-    const auto samples = sample_reflections(surroundings_, reflector, eyes_,
-                                            options_.samples * std::min(options_.max_elements, 4u), context_.seed);
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed, context_));
     ReflectorPlan best;
     ElementGrid grid;
     for (;;) {
@@ -113,7 +115,10 @@ class Planner {
         table.needed[c * samples.size() + s] =
             needed_resolution(surroundings_, reflector, element.candidates[c], window, samples[s]);
     }));
-    element.choice = choose_views(table, options_.choice);
+    ChoiceOptions choice = options_.choice;
+    const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
+    choice.max_maps *= grid.x * grid.y;
+    element.choice = choose_views(table, choice);
     return element;
   }
 
@@ -194,14 +199,15 @@ void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector
 
 }  // namespace
 
-void keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, std::uint64_t seed,
-                          FoundReflectors& found) {
+Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
+                            FoundReflectors& found) {
   const std::vector<FoundReflector> all = std::move(found.reflectors);
   const Surroundings surroundings(accel, all, {});
   std::vector<std::pair<double, std::uint32_t>> seen;
   for (std::uint32_t r = 0; r < all.size(); ++r) {
     double angle = 0;
-    for (const ReflectedSample& s : sample_reflections(surroundings, r, eyes, kTrialSamples, seed)) angle += s.weight;
+    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, kTrialSamples, context.seed, context));
+    for (const ReflectedSample& s : samples) angle += s.weight;
     if (angle > 0)
       seen.emplace_back(-angle * all[r].reflectance, r);
     else
@@ -217,6 +223,7 @@ void keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::u
       found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
                                           all[r].reflector.name, all[r].reflector.area_m2, limit));
   }
+  return {};
 }
 
 Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span<const Vec3> eyes,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/reproject.h"
@@ -11,7 +12,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTries = 8;     // pairs tried for one that is kept
+constexpr std::uint32_t kRounds = 32;   // of as many pairs as samples are asked for
 constexpr float kSameDistance = 2e-3f;  // relative: two rays that meet the same point
 constexpr float kNearestEye = 0.1f;     // metres: closer eyes would outweigh all others
 constexpr float kFlattest = 1e-3f;      // cosine at which surfaces are seen edge-on
@@ -52,48 +53,64 @@ bool shows_sky(const Scene& scene) {
   return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
 }
 
-}  // namespace
-
-std::vector<ReflectedSample> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
-                                                std::span<const Vec3> eyes, std::uint32_t count, std::uint64_t seed) {
+// What the eye (scene space) sees at a point of the reflector; none where it does not see the point or nothing in it.
+// The weight is the solid angle for an area of one square metre.
+std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& eye,
+                                       const Vec3& point) {
   const Accel& accel = surroundings.accel();
-  const Scene& scene = accel.scene();
   const FoundReflector& found = surroundings.reflectors()[reflector];
   const Reflector& r = found.reflector;
-  const Mat3 to_reflector = glm::transpose(Mat3(r.pack_from_reflector));
+  ReflectedSample s;
+  s.eye = reflector_from_pack(r, eye);
+  s.on_plane = Vec3(Vec2(reflector_from_pack(r, point)), 0);
+  const Vec3 to_eye = s.eye - s.on_plane;
+  const float distance = glm::length(to_eye);
+  if (!(s.eye.z > 0) || !(distance > 0)) return {};
+  const Vec3 origin =
+      pack_from_reflector(r, s.on_plane) + 1e-5f * (distance + r.flatness_m) * Vec3(r.pack_from_reflector[2]);
+  const Vec3 towards = glm::normalize(Mat3(r.pack_from_reflector) * to_eye);
+  if (!(max_component(accel.transmittance({origin, towards, distance * (1 - 1e-4f)})) >= 0.5f)) return {};
+  const Vec3 along = Vec3(-to_eye.x, -to_eye.y, to_eye.z) / distance;
+  const Sight sight = look_along(surroundings, reflector, s.on_plane, along);
+  if (sight.state == Sight::kNothing || (sight.state == Sight::kSky && !shows_sky(accel.scene()))) return {};
   const float alpha = found.roughness * found.roughness;
-  const SurfacePoints points(scene, found);
-  std::vector<ReflectedSample> samples;
-  std::uint32_t tries = 0;
-  for (; tries < kTries * count && samples.size() < count && !eyes.empty(); ++tries) {
-    Sampler sampler(seed, reflector, tries);
-    ReflectedSample s;
-    s.eye = reflector_from_pack(r, eyes[tries % eyes.size()]);
-    s.on_plane = Vec3(Vec2(reflector_from_pack(r, points.sample(sampler))), 0);
-    const Vec3 to_eye = s.eye - s.on_plane;
-    const float distance = glm::length(to_eye);
-    if (!(s.eye.z > 0) || !(distance > 0)) continue;
-    const Vec3 origin =
-        pack_from_reflector(r, s.on_plane) + 1e-5f * (distance + r.flatness_m) * Vec3(r.pack_from_reflector[2]);
-    const Vec3 towards = glm::normalize(Mat3(r.pack_from_reflector) * to_eye);
-    if (!(max_component(accel.transmittance({origin, towards, distance * (1 - 1e-4f)})) >= 0.5f)) continue;
-    const Vec3 along = Vec3(-to_eye.x, -to_eye.y, to_eye.z) / distance;
-    const Sight sight = look_along(surroundings, reflector, s.on_plane, along);
-    if (sight.state == Sight::kNothing || (sight.state == Sight::kSky && !shows_sky(scene))) continue;
-    if (sight.state == Sight::kSurface) {
-      const float away = glm::length(sight.offset);
-      s.image = Vec4(s.on_plane + away * along, 1);
-      s.normal = to_reflector * sight.normal;
-      s.spacing = std::max(static_cast<float>(kSharpAngleRad) * (away + distance), alpha * away);
-    } else {
-      s.image = Vec4(along, 0);
-      s.spacing = std::max(static_cast<float>(kSharpAngleRad), alpha);
-    }
-    const float d = std::max(distance, kNearestEye);
-    s.weight = static_cast<float>(points.area()) * s.eye.z / distance / (d * d);
-    samples.push_back(s);
+  if (sight.state == Sight::kSurface) {
+    const float away = glm::length(sight.offset);
+    s.image = Vec4(s.on_plane + away * along, 1);
+    s.normal = glm::transpose(Mat3(r.pack_from_reflector)) * sight.normal;
+    s.spacing = std::max(static_cast<float>(kSharpAngleRad) * (away + distance), alpha * away);
+  } else {
+    s.image = Vec4(along, 0);
+    s.spacing = std::max(static_cast<float>(kSharpAngleRad), alpha);
   }
-  for (ReflectedSample& s : samples) s.weight /= static_cast<float>(tries);
+  const float d = std::max(distance, kNearestEye);
+  s.weight = s.eye.z / distance / (d * d);
+  return s;
+}
+
+}  // namespace
+
+Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
+                                                        std::span<const Vec3> eyes, std::uint32_t count,
+                                                        std::uint64_t seed, Context& context) {
+  const FoundReflector& found = surroundings.reflectors()[reflector];
+  const SurfacePoints points(surroundings.accel().scene(), found);
+  std::vector<ReflectedSample> samples;
+  std::vector<std::optional<ReflectedSample>> tried(eyes.empty() ? 0 : count);
+  std::uint32_t tries = 0;
+  for (std::uint32_t round = 0; round < kRounds && samples.size() < count; ++round) {
+    ORIEL_TRY_VOID(parallel_for(context, "", tried.size(), [&](std::size_t i) {
+      const std::size_t pair = std::size_t{round} * count + i;
+      Sampler sampler(seed, reflector, static_cast<std::uint32_t>(pair));
+      tried[i] = reflect(surroundings, reflector, eyes[pair % eyes.size()], points.sample(sampler));
+    }));
+    for (const auto& sample : tried) {
+      if (samples.size() == count) break;
+      ++tries;
+      if (sample) samples.push_back(*sample);
+    }
+  }
+  for (ReflectedSample& s : samples) s.weight *= static_cast<float>(points.area()) / static_cast<float>(tries);
   return samples;
 }
 

@@ -23,8 +23,9 @@ struct ReflectedSample {
 // Pairs of an eye (scene space, those of `eyes` in turn) and a point of the reflector that see each other: `count` of
 // them, or fewer where eyes seldom see it, or none. What shows the back of a surface or a black sky is left out. The
 // same for the same seed.
-std::vector<ReflectedSample> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
-                                                std::span<const Vec3> eyes, std::uint32_t count, std::uint64_t seed);
+Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
+                                                        std::span<const Vec3> eyes, std::uint32_t count,
+                                                        std::uint64_t seed, Context& context);
 
 // Pixels that the longer side of a map from `viewpoint` through `window` needs to show the sample sharp; infinite where
 // it does not see it.
