@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/radiance/reflectors.h"
+#include "bake/radiance/elements.h"
 
 namespace oriel {
 
@@ -18,13 +18,6 @@ struct ViewOptions {
 };
 
 inline constexpr std::uint64_t kMapBytesPerPixel = 17;  // radiance 12, disparity 4, validity 1
-
-// Elements over bounds of that size: as few as keep both sides within element_m, or within the smallest larger side
-// that needs no more than max_elements. Both counts are at least 1.
-struct ElementGrid {
-  std::uint32_t x = 1, y = 1;
-};
-ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_elements);
 
 // Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points
 // at about the same spacing. Exactly `count` of them, at least 1.
