@@ -69,14 +69,16 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(stages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
-  const std::map<std::string, Reflections> modes{
-      {"march", Reflections::kMarch}, {"points", Reflections::kPoints}, {"off", Reflections::kOff}};
+  const std::map<std::string, Reflections> modes{{"march", Reflections::kMarch},
+                                                 {"points", Reflections::kPoints},
+                                                 {"geometry", Reflections::kGeometry},
+                                                 {"off", Reflections::kOff}};
   app.add_option(
          "--reflections", out.frame.reflections,
          "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et "
-         "al. published it, or nothing")
+         "al. published it, the mirrored scene drawn again, or nothing")
       ->transform(CLI::CheckedTransformer(modes).description(""))
-      ->type_name("march|points|off")
+      ->type_name("march|points|geometry|off")
       ->default_str("march");
   app.add_option("--maps", out.frame.maps_per_element,
                  "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 "

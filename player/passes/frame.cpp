@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/passes/geometry_pass.h"
 #include "player/reflections/reflected_view.h"
 
 namespace oriel {
@@ -99,10 +100,15 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
   const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
-  if (options.reflections == Reflections::kPoints) {
-    reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-  } else {
-    march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  switch (options.reflections) {
+    case Reflections::kPoints:
+      reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+      break;
+    case Reflections::kGeometry:
+      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, stats);
+      break;
+    default:
+      march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
   }
   const bool blurs = kernel.blurs() && options.show != Show::kM;
   fill_pass_.draw(rect, *image_, blurs, stats);
