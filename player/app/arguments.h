@@ -23,7 +23,9 @@ struct PlayArguments {
   FrameOptions frame;
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
-  int frames = -1;             // the window closes after so many; -1: never
+  int frames = -1;    // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
+  std::string path;   // offscreen: frames along it instead of cameras
+  std::string stats;  // a file for what the frames cost
   bool gl_debug = false;
 };
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "player/app/frame_record.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window_input.h"

@@ -17,6 +17,13 @@ float surface_disparity(const Relief& relief, const Vec2& at, float surface) {
   return std::clamp(s, surface / (1 + kConnected), surface * (1 + kConnected));
 }
 
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+bool is_connected(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
+  const float last = relief.at(map_texel(ray, begin, relief.size));
+  const float after = relief.at(map_texel(ray, std::min(end + 1, ray.length), relief.size));
+  return surface <= 1 && std::fabs(surface - last) <= std::max(kConnected * surface, 2 * std::fabs(after - surface));
+}
+
 // The crossing in [begin, end], found by false position.
 float refine_crossing(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
   const auto height = [&](float at) {
@@ -62,7 +69,7 @@ MapRay map_ray(const Vec3& eye, const Vec2& lower, const Vec2& upper, const IVec
 MapHit march(const Relief& relief, const MapRay& ray) {
   if (ray.length < 0) return {};
   float at = 0, s = ray.s_begin, hidden = ray.hidden;
-  bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kConnected);
+  bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kTouching);
   int level = std::clamp(static_cast<int>(std::ceil(std::log2(ray.length))), 1, kRangeLevels);
   for (int step = 0; step < kMaxMarchSteps && at < ray.length; ++step) {
     const float next = std::min(at + static_cast<float>(1 << level), ray.length);
@@ -77,7 +84,7 @@ MapHit march(const Relief& relief, const MapRay& ray) {
         level = std::min(level + 1, kRangeLevels);
       } else {
         if (before && range.y < s) {
-          at = std::clamp((ray.s_end - range.y) / ray.fall + ray.length, at, next);
+          at = std::clamp((ray.s_end - range.y) / ray.fall + ray.length, at, std::max(at, next - 0.5f));
           s = ray.disparity(at);
         }
         --level;
@@ -86,7 +93,7 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     }
     const float surface = relief.at(map_texel(ray, next, relief.size));
     if (before && surface >= s_next) {
-      if (surface <= s * (1 + kConnected)) {
+      if (surface <= s * (1 + kTouching) || is_connected(relief, ray, at, next, surface)) {
         const float hit =
             refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(next + 0.5f, ray.length), surface);
         return {ray.from + hit * ray.direction, ray.disparity(hit), 1 / (1 + hidden)};

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "player/passes/display_pass.h"
+#include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
 #include "player/reflections/convolve_pass.h"
@@ -43,6 +44,8 @@ class Renderer {
   Status ensure_frame(int width, int height);
   std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
                                     FrameStats& stats);
+  void draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                           const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
@@ -58,6 +61,7 @@ class Renderer {
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;
   std::vector<gpu::Query> queries_;
+  PassClock clock_;
 };
 
 }  // namespace oriel

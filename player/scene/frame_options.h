@@ -1,6 +1,7 @@
 // What is asked of a frame, and what it cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "player/maps/map_choice.h"
@@ -24,8 +25,14 @@ struct FrameOptions {
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
+  bool timed = false;   // each pass, which costs a little itself
   float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
+
+enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kScene, kTransparent };
+inline constexpr std::array<const char*, 8> kPassNames{"depth",    "mask",    "reflect", "fill",
+                                                       "convolve", "compose", "scene",   "transparent"};
+using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {
   std::uint32_t draws = 0;
@@ -33,6 +40,8 @@ struct FrameStats {
   std::uint32_t reflectors = 0;  // that had pixels in view
   std::uint32_t maps = 0;        // radiance maps chosen
   std::uint64_t points = 0;      // of them
+  std::uint64_t map_bytes = 0;   // of all radiance maps on the device so far
+  PassTimes ms{};                // by pass, where asked for
 };
 
 }  // namespace oriel

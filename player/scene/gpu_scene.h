@@ -71,6 +71,8 @@ class GpuScene {
   // Uploaded on first use and kept.
   const gpu::Texture& radiance_map(std::uint32_t index);       // as points
   const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
+  // Of radiance maps on the device.
+  std::uint64_t map_bytes() const { return map_bytes_; }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
   // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
   const GpuKernel& kernel(std::int32_t index, KernelPlace place);
@@ -92,6 +94,7 @@ class GpuScene {
   LightmapTexture no_lightmap_;
   std::map<std::uint32_t, MapArray> map_arrays_;  // by the first map of the element
   std::map<std::pair<std::int32_t, KernelPlace>, GpuKernel> kernels_;
+  std::uint64_t map_bytes_ = 0;
   bool mipmaps_ = true;
 };
 

@@ -120,7 +120,7 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 
 TEST_F(Play, EveryStageAndOption) {
   for (const char* options : {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1",
-                              "--select distance", "--fresnel sphere", "--reflections points", "--reflections off",
+                              "--select distance", "--fresnel sphere", "--reflections points", "--reflections geometry", "--reflections off",
                               "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
