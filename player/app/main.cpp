@@ -7,7 +7,7 @@
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window.h"
-#include "player/walk/path.h"
+#include "formats/camera/path.h"
 
 namespace {
 using namespace oriel;

@@ -9,7 +9,7 @@
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
 #include "player/passes/frame.h"
-#include "player/walk/camera_spec.h"
+#include "formats/camera/camera_spec.h"
 
 namespace oriel {
 namespace {

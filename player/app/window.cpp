@@ -7,8 +7,8 @@
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
 #include "player/passes/frame.h"
-#include "player/walk/camera_spec.h"
-#include "player/walk/path.h"
+#include "formats/camera/camera_spec.h"
+#include "formats/camera/path.h"
 
 namespace oriel {
 namespace {

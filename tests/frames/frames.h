@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/trace/reference.h"
+#include "bake/reference/reference.h"
 #include "formats/image/image.h"
 
 namespace oriel::test {
