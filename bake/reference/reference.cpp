@@ -3,6 +3,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/trace/albedo.h"
 #include "formats/camera/camera.h"
+#include "formats/metrics/relative_error.h"
 
 namespace oriel {
 namespace {
@@ -59,50 +60,35 @@ struct PixelSums {
   }
 };
 
-Vec3 standard_error(const DVec3& sum, const DVec3& squares, double n) {
+DVec3 standard_error(const DVec3& sum, const DVec3& squares, double n) {
   const DVec3 mean = sum / n;
-  return Vec3(glm::sqrt(glm::max(DVec3(0), squares / n - mean * mean) / std::max(1.0, n - 1)));
+  return glm::sqrt(glm::max(DVec3(0), squares / n - mean * mean) / std::max(1.0, n - 1));
+}
+
+void push(FloatImage& image, const DVec3& v) {
+  for (int c = 0; c < 3; ++c) image.pixels.push_back(static_cast<float>(v[c]));
 }
 
 ReferenceFrame frame_of(const std::vector<PixelSums>& sums, const ReferenceOptions& options, std::uint32_t samples) {
-  ReferenceFrame frame;
-  frame.width = options.width;
-  frame.height = options.height;
-  frame.samples = samples;
+  const FloatImage empty{static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height), 3, {}};
+  ReferenceFrame frame{samples, empty, empty, empty, empty, empty, empty, empty, empty};
   const double n = samples;
   for (const PixelSums& s : sums) {
     const DVec3 diffuse = s.direct + s.indirect, total = diffuse + s.specular + s.emission;
-    frame.total.emplace_back(total / n);
-    frame.direct.emplace_back(s.direct / n);
-    frame.indirect.emplace_back(s.indirect / n);
-    frame.specular.emplace_back(s.specular / n);
-    frame.emission.emplace_back(s.emission / n);
-    frame.noise.push_back(standard_error(total, s.total_squares, n));
-    frame.diffuse_noise.push_back(standard_error(diffuse, s.diffuse_squares, n));
-    frame.specular_noise.push_back(standard_error(s.specular, s.specular_squares, n));
+    push(frame.total, total / n);
+    push(frame.direct, s.direct / n);
+    push(frame.indirect, s.indirect / n);
+    push(frame.specular, s.specular / n);
+    push(frame.emission, s.emission / n);
+    push(frame.noise, standard_error(total, s.total_squares, n));
+    push(frame.diffuse_noise, standard_error(diffuse, s.diffuse_squares, n));
+    push(frame.specular_noise, standard_error(s.specular, s.specular_squares, n));
   }
+  frame.relative_noise = relative_error(frame.total, frame.total, frame.noise)->noise;
   return frame;
 }
 
 }  // namespace
-
-std::vector<Vec3> ReferenceFrame::diffuse() const {
-  std::vector<Vec3> sum(direct);
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += indirect[i];
-  return sum;
-}
-
-double ReferenceFrame::relative_noise() const {
-  DVec3 mean(0), sum(0);
-  const double pixels = static_cast<double>(total.size());
-  for (const Vec3& v : total) mean += DVec3(v) / pixels;
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    const DVec3 scale = DVec3(total[i]) * DVec3(total[i]) + 1e-4 * mean * mean;
-    for (int c = 0; c < 3; ++c)
-      if (scale[c] > 0) sum[c] += double{noise[i][c]} * noise[i][c] / scale[c];
-  }
-  return std::sqrt((sum.x + sum.y + sum.z) / (3 * pixels));
-}
 
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
                                         const ReferenceOptions& options, Context& context) {
@@ -131,7 +117,7 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
     ORIEL_TRY_VOID(round(done, next));
     done = next;
     ReferenceFrame frame = frame_of(sums, options, done);
-    if (done == most || frame.relative_noise() <= options.error) return frame;
+    if (done == most || frame.relative_noise <= options.error) return frame;
   }
 }
 

@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
-  m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera"});
+  m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
