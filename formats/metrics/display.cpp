@@ -28,16 +28,27 @@ FloatImage shown(const FloatImage& light, float white) {
   return out;
 }
 
-double psnr(const FloatImage& a, const FloatImage& b, const Region& region) {
-  constexpr double kMost = 99;
-  double squares = 0, count = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    if (!counts(region, i / a.channels)) continue;
-    const double d = double{a.pixels[i]} - b.pixels[i];
-    squares += d * d;
-    ++count;
+FloatImage shown_variance(const FloatImage& light, const FloatImage& noise, float white) {
+  FloatImage above = light, below = light;
+  for (std::size_t i = 0; i < light.pixels.size(); ++i) {
+    above.pixels[i] += noise.pixels[i];
+    below.pixels[i] -= noise.pixels[i];
   }
-  return squares > 0 ? std::min(kMost, -10 * std::log10(squares / count)) : kMost;
+  FloatImage out = squared_difference(shown(above, white), shown(below, white));
+  for (float& v : out.pixels) v *= 0.25f;
+  return out;
+}
+
+FloatImage squared_difference(const FloatImage& a, const FloatImage& b) {
+  FloatImage out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = (a.pixels[i] - b.pixels[i]) * (a.pixels[i] - b.pixels[i]);
+  return out;
+}
+
+double psnr_db(double mean_squared_difference) {
+  constexpr double kMost = 99;
+  return mean_squared_difference > 0 ? std::min(kMost, -10 * std::log10(mean_squared_difference)) : kMost;
 }
 
 }  // namespace oriel

@@ -114,10 +114,21 @@ TEST(Shown, MiddleGreyIsAtItsPlace) {
   EXPECT_EQ(white_of(plain(Vec3(0))), 1);
 }
 
+double psnr(const FloatImage& a, const FloatImage& b) {
+  return psnr_db(mean_over(squared_difference(a, b)));
+}
+
 TEST(Psnr, IsTheLogarithmOfTheSquares) {
   EXPECT_EQ(psnr(waves(), waves()), 99);
   EXPECT_NEAR(psnr(plain(Vec3(0)), plain(Vec3(1))), 0, 1e-9);
   EXPECT_NEAR(psnr(plain(Vec3(0.5f)), plain(Vec3(0.6f))), 20, 1e-5);
+}
+
+// Near middle grey a small error of light moves its sRGB value by the curve's slope, 1.055 / 2.4 · 0.18^(1/2.4 - 1).
+TEST(Shown, CarriesNoiseAlongTheCurve) {
+  const double slope = 1.055 / 2.4 * std::pow(0.18, 1 / 2.4 - 1);
+  const FloatImage variance = shown_variance(plain(Vec3(0.18f)), plain(Vec3(0.01f)), 1);
+  EXPECT_NEAR(std::sqrt(mean_over(variance)), 0.01 * slope, 0.01 * 0.01 * slope);
 }
 
 // Two even pictures have no variance: what is left is the comparison of their means.
