@@ -26,7 +26,7 @@ struct BakeOptions {
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
   ViewOptions views;
-  CaptureOptions capture;
+  SightOptions sight;
   MaterialOptions material;
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too

@@ -49,11 +49,12 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
     result.omissions.push_back(fmt::format(
         "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
         options.reflectors.max_roughness, options.reflectors.min_area_m2));
-  const auto outgoing = [&](const Hit& hit, const Vec3& towards_eye) {
-    return baked_radiance(scene, atlas, result.pack.lightmaps, hit, towards_eye);
+  const auto outgoing = [&](const SeenSurface& seen) {
+    return baked_radiance(scene, atlas, result.pack.lightmaps, seen);
   };
   std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY_VOID(capture_maps(accel, found.reflectors, outgoing, options.capture, context, plan.maps, &counted));
+  ORIEL_TRY_VOID(
+      capture_maps(Surroundings(accel, found.reflectors, options.sight), outgoing, context, plan.maps, &counted));
   rays = counted;
   result.pack.radiance_maps = std::move(plan.maps);
   for (FoundReflector& f : found.reflectors) {
