@@ -1,7 +1,7 @@
 // What `oriel-bake material` prints.
 #include <nlohmann/json.hpp>
 
-#include "bake/cli/material_arguments.h"
+#include "bake/cli/material/material_arguments.h"
 #include "bake/trace/brdf/ward.h"
 #include "formats/core/file.h"
 
