@@ -72,7 +72,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
 const std::map<std::string, std::set<std::string>> kGuarded = {
     {"embree3/", {"bake/trace"}},        {"tbb/", {"bake/jobs"}},
     {"OpenImageIO/", {"bake/scene"}},    {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas/chart"}}, {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"OpenMesh/", {"bake/atlas/chart"}}, {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
     {"OpenEXR/", {"formats/image"}},     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},           {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
 };
