@@ -31,6 +31,14 @@ inline DVec2 slice_point(const KernelSlice& slice, const DVec2& at) {
   return DVec2(0, slice.shift) + DVec2(slice.width) * DVec2(std::sinh(s.x), std::sinh(s.y));
 }
 
+// The lobe at one incidence as a linearly transformed cosine (Heitz, Dupuy, Hill, Neubelt 2016), by which polygons of
+// light reflect in closed form. Surface frame: z the normal, x the projection of the direction towards the eye on the
+// surface, y = z × x. The inverse matrix, by rows: (m11, 0, m13), (0, m22, 0), (m31, 0, 1).
+struct LobeFit {
+  float m11 = 1, m13 = 0, m22 = 1, m31 = 0;
+  float amplitude = 1;  // integral of the lobe times cosine without Fresnel, [0, 1]
+};
+
 // K of a material. `weights` is the paper's: a square kernel over the tangent plane of the mirror direction, centred on
 // it, sampled at one incidence; pixel (x, y) is the direction (tx, ty, 1) with
 // t = ((i + ½) / size * 2 - 1) * half_extent, that is t = tan of the angle from the mirror direction. Sum of weights 1.
@@ -45,6 +53,7 @@ struct BrdfKernel {
   std::vector<float> weights;       // size * size
   std::uint32_t slice_size = 0;     // odd where there are slices
   std::vector<KernelSlice> slices;  // by rising cosθ; empty for a mirror
+  std::vector<LobeFit> fits;        // one a slice, or none
 };
 
 }  // namespace oriel

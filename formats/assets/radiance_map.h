@@ -22,7 +22,15 @@ struct Reflector {
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
   std::uint32_t first_map = 0,
                 map_count = 0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
+  // Emitters that its maps leave out, into Pack::emitters, and the share of each that is seen from the nodes of a grid
+  // over the bounds: node (i, j) lies at lower + (i / (visibility_x - 1), j / (visibility_y - 1)) * (upper - lower),
+  // borders included. Emitter k's node is at (k * visibility_y + j) * visibility_x + i: share * 255.
+  std::vector<std::uint32_t> emitters;
+  std::uint32_t visibility_x = 0, visibility_y = 0;  // at least 2 each where there are emitters
+  std::vector<std::uint8_t> visibility;
 };
+
+inline constexpr std::size_t kMaxReflectorEmitters = 16;
 
 // A radiance map: an off-axis perspective image from `eye` (behind the plane, z < 0) through the element's rectangle on
 // the plane. Pixel (x, y), row 0 at the element's lower y, is the ray from eye through the rectangle's point
@@ -34,7 +42,10 @@ struct RadianceMap {
   std::uint32_t width = 0, height = 0;
   std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light, emission not included
                                // unless has_emission
-  bool has_emission = false;   // emitters are seen in the map at their own radiance
+  bool has_emission = false;   // the reflector's emitters are seen in the map at their own radiance
+  // Shows only what no map of the reflector sees (second surfaces along the rays of another map with the same eye and
+  // element): valid is 0 everywhere else. Consulted last.
+  bool residual = false;
   // Disparity: the eye's distance to the plane over the distance to the hit, both measured along the reflector's z:
   // 1 on the plane, 0 at infinity (a miss). Linear along a projected ray, so it interpolates.
   std::vector<float> disparity;

@@ -84,15 +84,20 @@ inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
 inline constexpr std::uint32_t kNormalMappingSection = fourcc("NMAP");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
+inline constexpr std::uint32_t kResidualSection = fourcc("RRES");
+inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
+inline constexpr std::uint32_t kReflectorEmitterSection = fourcc("REMT");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
 inline constexpr std::uint32_t kKernelSliceSection = fourcc("KINC");
+inline constexpr std::uint32_t kKernelFitSection = fourcc("KLTC");
 inline constexpr std::uint32_t kFresnelSection = fourcc("FRES");
 inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
+inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 18> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 23> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -105,12 +110,17 @@ inline constexpr std::array<SectionKind, 18> kSectionKinds = {{
     {kNormalMappingSection, "normal mapping", true, false, false},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
+    {kResidualSection, "residual radiance maps", true, false, false},
+    {kEmitterSection, "emitters", true, false, false},
+    {kReflectorEmitterSection, "emitters by reflector", true, false, false},
     {kKernelSection, "kernels", false, false, false},
     {kKernelSliceSection, "kernels by incidence", true, false, false},
+    {kKernelFitSection, "kernels as cosines", true, false, false},
     {kFresnelSection, "Fresnel maps", false, false, false},
     {kSplitSection, "split reflectance", true, false, false},
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},
+    {kWalkSection, "walk grids", true, false, false},
 }};
 
 // nullptr for a kind that this version does not know.

@@ -6,11 +6,13 @@
 
 #include "formats/assets/brdf_kernel.h"
 #include "formats/assets/camera.h"
+#include "formats/assets/emitter.h"
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
 #include "formats/assets/radiance_map.h"
+#include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
 
 namespace oriel {
@@ -38,11 +40,13 @@ struct Pack {
   std::vector<LightmapPage> lightmaps;
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
+  std::vector<Emitter> emitters;  // that reflectors show in closed form
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
   SplitReflectance split_reflectance;
   std::vector<Camera> cameras;
   std::vector<CameraPath> paths;
+  std::vector<WalkGrid> walk_grids;  // by storey
   std::vector<UnknownSection> unknown;
 };
 

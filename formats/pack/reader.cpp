@@ -50,6 +50,9 @@ struct Parts {
   std::vector<DirectionPage> directions;
   std::vector<NormalMapping> normal_mapping;
   std::vector<KernelSlices> kernel_slices;
+  std::vector<KernelFits> kernel_fits;
+  std::vector<ResidualMap> residuals;
+  std::vector<ReflectorEmitters> reflector_emitters;
 };
 
 Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Parts& parts) {
@@ -92,6 +95,16 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, pack.kernels);
     case kKernelSliceSection:
       return decode_list(in, section, parts.kernel_slices);
+    case kKernelFitSection:
+      return decode_list(in, section, parts.kernel_fits);
+    case kResidualSection:
+      return decode_list(in, section, parts.residuals);
+    case kEmitterSection:
+      return decode_list(in, section, pack.emitters);
+    case kReflectorEmitterSection:
+      return decode_list(in, section, parts.reflector_emitters);
+    case kWalkSection:
+      return decode_list(in, section, pack.walk_grids);
     case kSplitSection:
       ORIEL_TRY_VOID(one_element_only(section));
       if (auto status = decode(in, pack.split_reflectance); !status && in.ok())
@@ -148,6 +161,39 @@ Status attach(KernelSlices& from, Pack& pack) {
   return {};
 }
 
+Status attach(KernelFits& from, Pack& pack) {
+  const std::string label = section_label(kKernelFitSection, 0);
+  if (from.kernel >= pack.kernels.size())
+    return invalid(label, "found kernel {}, expected less than {}", from.kernel, pack.kernels.size());
+  BrdfKernel& kernel = pack.kernels[from.kernel];
+  if (!kernel.fits.empty()) return invalid(label, "kernel {} is there twice, expected once", from.kernel);
+  kernel.fits = std::move(from.fits);
+  return {};
+}
+
+Status attach(const ResidualMap& from, Pack& pack) {
+  const std::string label = section_label(kResidualSection, 0);
+  if (from.map >= pack.radiance_maps.size())
+    return invalid(label, "found radiance map {}, expected less than {}", from.map, pack.radiance_maps.size());
+  RadianceMap& map = pack.radiance_maps[from.map];
+  if (map.residual) return invalid(label, "radiance map {} is there twice, expected once", from.map);
+  map.residual = true;
+  return {};
+}
+
+Status attach(ReflectorEmitters& from, Pack& pack) {
+  const std::string label = section_label(kReflectorEmitterSection, 0);
+  if (from.reflector >= pack.reflectors.size())
+    return invalid(label, "found reflector {}, expected less than {}", from.reflector, pack.reflectors.size());
+  Reflector& reflector = pack.reflectors[from.reflector];
+  if (!reflector.emitters.empty()) return invalid(label, "reflector {} is there twice, expected once", from.reflector);
+  reflector.emitters = std::move(from.emitters);
+  reflector.visibility_x = from.width;
+  reflector.visibility_y = from.height;
+  reflector.visibility = std::move(from.visibility);
+  return {};
+}
+
 Result<Pack> decode_all(std::span<const std::byte> file) {
   ORIEL_TRY(const PackIndex index, read_index(file));
   Parts parts;
@@ -164,6 +210,9 @@ Result<Pack> decode_all(std::span<const std::byte> file) {
   }
   for (std::size_t i = 0; i < parts.directions.size(); ++i) ORIEL_TRY_VOID(attach(parts.directions[i], i, pack));
   for (KernelSlices& slices : parts.kernel_slices) ORIEL_TRY_VOID(attach(slices, pack));
+  for (KernelFits& fits : parts.kernel_fits) ORIEL_TRY_VOID(attach(fits, pack));
+  for (const ResidualMap& residual : parts.residuals) ORIEL_TRY_VOID(attach(residual, pack));
+  for (ReflectorEmitters& part : parts.reflector_emitters) ORIEL_TRY_VOID(attach(part, pack));
   for (NormalMapping& mapping : parts.normal_mapping) ORIEL_TRY_VOID(attach(mapping, pack));
   return std::move(parts.pack);
 }

@@ -19,6 +19,21 @@ struct KernelSlices {
   std::uint32_t size = 0;
   std::vector<KernelSlice> slices;
 };
+// A radiance map that is a residual.
+struct ResidualMap {
+  std::uint32_t map = 0;  // into Pack::radiance_maps
+};
+// What a reflector's maps leave out.
+struct ReflectorEmitters {
+  std::uint32_t reflector = 0;  // into Pack::reflectors
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint32_t> emitters;
+  std::vector<std::uint8_t> visibility;
+};
+struct KernelFits {
+  std::uint32_t kernel = 0;  // into Pack::kernels
+  std::vector<LobeFit> fits;
+};
 struct NormalMapping {
   struct Use {
     std::uint32_t material = 0;       // into Pack::materials
@@ -45,6 +60,11 @@ void encode(ByteWriter& out, const BrdfKernel& kernel);
 void encode(ByteWriter& out, const KernelSlices& slices);
 void encode(ByteWriter& out, const FresnelMap& map);
 void encode(ByteWriter& out, const SplitReflectance& split);
+void encode(ByteWriter& out, const WalkGrid& grid);
+void encode(ByteWriter& out, const Emitter& emitter);
+void encode(ByteWriter& out, const ReflectorEmitters& part);
+void encode(ByteWriter& out, const ResidualMap& residual);
+void encode(ByteWriter& out, const KernelFits& fits);
 
 // Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
 // the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes
@@ -63,5 +83,10 @@ Status decode(ByteReader& in, BrdfKernel& kernel);
 Status decode(ByteReader& in, KernelSlices& slices);
 Status decode(ByteReader& in, FresnelMap& map);
 Status decode(ByteReader& in, SplitReflectance& split);
+Status decode(ByteReader& in, WalkGrid& grid);
+Status decode(ByteReader& in, Emitter& emitter);
+Status decode(ByteReader& in, ReflectorEmitters& part);
+Status decode(ByteReader& in, ResidualMap& residual);
+Status decode(ByteReader& in, KernelFits& fits);
 
 }  // namespace oriel

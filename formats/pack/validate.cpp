@@ -200,10 +200,13 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_lightmaps(pack, list);
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, list);
+  validate_emitters(pack, list);
   validate_kernels(pack, list);
+  validate_kernel_fits(pack, list);
   validate_fresnel_maps(pack, list);
   validate_split_reflectance(pack, list);
   validate_cameras(pack, list);
+  validate_walk_grids(pack, list);
   validate_unknown(pack, list);
   return std::move(list.issues);
 }

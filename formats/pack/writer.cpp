@@ -112,6 +112,28 @@ std::vector<KernelSlices> kernel_slices(const Pack& pack) {
   return all;
 }
 
+std::vector<KernelFits> kernel_fits(const Pack& pack) {
+  std::vector<KernelFits> all;
+  for (std::uint32_t i = 0; i < pack.kernels.size(); ++i)
+    if (const BrdfKernel& k = pack.kernels[i]; !k.fits.empty()) all.push_back({i, k.fits});
+  return all;
+}
+
+std::vector<ResidualMap> residual_maps(const Pack& pack) {
+  std::vector<ResidualMap> all;
+  for (std::uint32_t i = 0; i < pack.radiance_maps.size(); ++i)
+    if (pack.radiance_maps[i].residual) all.push_back({i});
+  return all;
+}
+
+std::vector<ReflectorEmitters> reflector_emitters(const Pack& pack) {
+  std::vector<ReflectorEmitters> all;
+  for (std::uint32_t i = 0; i < pack.reflectors.size(); ++i)
+    if (const Reflector& r = pack.reflectors[i]; !r.emitters.empty())
+      all.push_back({i, r.visibility_x, r.visibility_y, r.emitters, r.visibility});
+  return all;
+}
+
 SectionList encode_sections(const Pack& pack) {
   SectionList list;
   list.add_text(kProvenanceSection, pack.provenance);
@@ -136,8 +158,12 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kNormalMappingSection, normal_mapping(pack));
   list.add_list(kReflectorSection, pack.reflectors);
   list.add_each(kRadianceMapSection, pack.radiance_maps);
+  list.add_list(kResidualSection, residual_maps(pack));
+  list.add_list(kEmitterSection, pack.emitters);
+  list.add_list(kReflectorEmitterSection, reflector_emitters(pack));
   list.add_list(kKernelSection, pack.kernels);
   list.add_list(kKernelSliceSection, kernel_slices(pack));
+  list.add_list(kKernelFitSection, kernel_fits(pack));
   list.add_list(kFresnelSection, pack.fresnel_maps);
   if (pack.split_reflectance.angles > 0) {
     ByteWriter split;
@@ -146,6 +172,7 @@ SectionList encode_sections(const Pack& pack) {
   }
   list.add_list(kCameraSection, pack.cameras);
   list.add_list(kPathSection, pack.paths);
+  list.add_list(kWalkSection, pack.walk_grids);
   for (const auto& unknown : pack.unknown) list.add_unknown(unknown);
   return list;
 }

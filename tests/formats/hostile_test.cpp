@@ -240,17 +240,47 @@ TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
   expect_refusal(with_record(kSplitSection, [](SectionRecord& r) { r.count = 2; }), split + "found 2 elements");
 }
 
+TEST(Hostile, WhatReflectionsNeed) {
+  const std::string walk = "section WALK (walk grids): ", emitters = "section EMIT (emitters): ",
+                    parts = "section REMT (emitters by reflector): ", fits = "section KLTC (kernels as cosines): ",
+                    residual = "section RRES (residual radiance maps): ";
+  expect_refusal(with_raw(kWalkSection, 16, 0u), walk + "element 0: found 0 x 2 texels");
+  expect_refusal(with_raw(kWalkSection, 16, 32768u), walk + "its counts need more");
+  expect_refusal(with_raw(kWalkSection, 24, std::uint8_t{2}), walk + "element 0: found floor 0 with walkable flag 2");
+  expect_refusal(with_raw(kWalkSection, 30 + 18, std::uint8_t{0x7f}), walk + "element 0: found floor");
+  expect_refusal(with_raw(kEmitterSection, 0, std::uint8_t{5}), emitters + "element 0: found 5 corners");
+  expect_refusal(with_raw(kEmitterSection, 1, std::uint8_t{2}), emitters + "element 0: found two-sided flag 2");
+  expect_refusal(with_raw(kReflectorEmitterSection, 0, 1u), parts + "found reflector 1, expected less than 1");
+  expect_refusal(with_raw(kReflectorEmitterSection, 4, 0u), parts + "element 0: found 0 emitters");
+  expect_refusal(with_raw(kReflectorEmitterSection, 4, 17u), parts + "element 0: found 17 emitters");
+  expect_refusal(with_raw(kReflectorEmitterSection, 8, 32768u), parts + "its counts need more");
+  expect_refusal(with_raw(kKernelFitSection, 0, 2u), fits + "found kernel 2, expected less than 2");
+  expect_refusal(with_raw(kKernelFitSection, 4, ~0u), fits + "its counts need more");
+  expect_refusal(with_raw(kResidualSection, 0, 3u), residual + "found radiance map 3, expected less than 3");
+  Forge twice = Forge::from(tiny_file());
+  auto& section = twice.find(kResidualSection);
+  Bytes raw = Forge::raw(section);
+  raw.insert(raw.end(), raw.begin(), raw.begin() + 4);
+  Forge::set_raw(section, raw);
+  section.record.count = 2;
+  expect_refusal(twice.file(), residual + "radiance map 2 is there twice");
+}
+
 // Sections may come in any order: what a section adds to others does not depend on theirs.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
   std::reverse(forge.sections.begin(), forge.sections.end());
-  std::erase_if(forge.sections, [](const auto& s) { return s.record.kind == kRadianceMapSection; });
-  std::erase_if(forge.sections, [](const auto& s) { return s.record.kind == kReflectorSection; });
+  // All but the radiance maps, whose number is their order.
+  std::erase_if(forge.sections, [](const auto& s) {
+    return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
+           s.record.kind == kResidualSection || s.record.kind == kReflectorEmitterSection;
+  });
   const auto pack = decode_pack(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();
   EXPECT_EQ(pack->lightmaps[0].direction.size(), 32u);
   EXPECT_EQ(pack->materials[1].normal_texture, 0);
   EXPECT_EQ(pack->kernels[1].slices.size(), 2u);
+  EXPECT_EQ(pack->kernels[1].fits.size(), 2u);
   EXPECT_TRUE(validate(*pack).empty());
 }
 

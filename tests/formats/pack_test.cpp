@@ -159,6 +159,32 @@ TEST(Pack, KernelsByIncidenceAndSplitReflectanceComeBack) {
   EXPECT_EQ(out.split_reflectance.table, in.split_reflectance.table);
 }
 
+TEST(Pack, WhatReflectionsNeedComesBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_EQ(out.emitters.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(out.emitters[i].corners, in.emitters[i].corners);
+    EXPECT_EQ(out.emitters[i].radiance, in.emitters[i].radiance);
+    EXPECT_EQ(out.emitters[i].two_sided, in.emitters[i].two_sided);
+  }
+  EXPECT_EQ(out.reflectors[0].emitters, in.reflectors[0].emitters);
+  EXPECT_EQ(out.reflectors[0].visibility_x, 3u);
+  EXPECT_EQ(out.reflectors[0].visibility_y, 2u);
+  EXPECT_EQ(out.reflectors[0].visibility, in.reflectors[0].visibility);
+  EXPECT_FALSE(out.radiance_maps[1].residual);
+  EXPECT_TRUE(out.radiance_maps[2].residual);
+  EXPECT_TRUE(out.kernels[0].fits.empty());
+  ASSERT_EQ(out.kernels[1].fits.size(), 2u);
+  const LobeFit &a = in.kernels[1].fits[0], &b = out.kernels[1].fits[0];
+  EXPECT_EQ(std::tie(a.m11, a.m13, a.m22, a.m31, a.amplitude), std::tie(b.m11, b.m13, b.m22, b.m31, b.amplitude));
+  ASSERT_EQ(out.walk_grids.size(), 2u);
+  const WalkGrid& grid = out.walk_grids[0];
+  EXPECT_EQ(grid.lower, Vec2(-2));
+  EXPECT_EQ(std::tie(grid.cell_m, grid.eye_height_m), std::tuple(0.5f, 1.6f));
+  EXPECT_FALSE(grid.walkable(3));
+  EXPECT_EQ(grid.eye(4), Vec3(-1.25f, 0.6f, -1.25f));
+}
+
 // What halves do to the light shown under lamps anywhere above, with any share of even light, on normals
 // tilted up to 60 degrees: the figures of docs/format.md.
 TEST(Pack, DirectionsKeepWhatIsShown) {

@@ -1,5 +1,7 @@
 #include "tests/support/tiny_pack.h"
 
+#include <limits>
+
 namespace oriel::testing {
 namespace {
 
@@ -193,6 +195,19 @@ Pack tiny_mapped_pack() {
   pack.kernels[1].slice_size = 3;
   pack.kernels[1].slices = {tiny_slice(0.25f), tiny_slice(1)};
   pack.split_reflectance = {2, 3, {{0, 1}, {1, 0}, {0.25f, 0.5f}, {0.75f, 0.125f}, {0, 0.5f}, {0.5f, 0}}};
+  pack.kernels[1].fits = {{0.5f, 0.25f, 2, -0.5f, 0.75f}, {}};
+  pack.radiance_maps.push_back(tiny_radiance_map(0.5f));
+  pack.radiance_maps.back().residual = true;
+  pack.emitters = {{{{-1, 3, 0}, {1, 3, 0}, {1, 3, 1}, {-1, 3, 1}}, {4000, 3000, 2000}, false},
+                   {{{0, 1, -2}, {1, 1, -2}, {0, 2, -2}}, {100, 100, 100}, true}};
+  Reflector& reflector = pack.reflectors[0];
+  reflector.map_count = 3;
+  reflector.emitters = {1, 0};
+  reflector.visibility_x = 3;
+  reflector.visibility_y = 2;
+  reflector.visibility = {0, 51, 102, 153, 204, 255, 255, 204, 153, 102, 51, 0};
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  pack.walk_grids = {{{-2, -2}, 0.5f, 3, 2, {0, 0.25f, none, none, -1, 0}, 1.6f}, {{0, 0}, 1, 1, 1, {3}, 1.5f}};
   return pack;
 }
 
