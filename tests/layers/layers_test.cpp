@@ -37,7 +37,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
-  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/optics"});
+  m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});  // what animations move
+  m["bake/scene"] =
+      plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
   m["bake/trace"] = m["bake/atlas"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
   m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
@@ -56,7 +58,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/scene/motion", "bake/lux", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
   m["player/gpu"] = core;
   m["player/walk"] = assets;
