@@ -39,7 +39,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
-  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/optics"});
+  m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});  // what animations move
+  m["bake/scene"] =
+      plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
   m["bake/trace"] = m["bake/atlas"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
   m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
@@ -61,8 +63,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"],
-                       {"bake/plan", "bake/lux", "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/plan", "bake/walk",
+                                        "formats/pack", "formats/image"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run"});  // a subcommand that needs no scene
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
@@ -85,7 +87,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenImageIO/", {"bake/scene"}},
     {"CGAL/", {"bake/scene"}},
     {"OpenMesh/", {"bake/atlas/chart"}},
-    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},
