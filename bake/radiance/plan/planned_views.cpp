@@ -130,7 +130,7 @@ class Planner {
 
 std::uint64_t bytes_of(const ElementPlan& element) {
   const UVec2 size = map_size(element.window, element.choice.resolution);
-  return kStoredBytesPerPixel * size.x * size.y;
+  return kMapBytesPerPixel * size.x * size.y;
 }
 
 std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {

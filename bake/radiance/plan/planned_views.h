@@ -15,10 +15,8 @@ struct PlannedViewOptions {
   std::uint32_t mirrored_eyes = 128;  // and mirror images of eyes that see the element
   std::uint32_t max_elements = 16;    // of a reflector: it is divided while that makes it sharper
   std::uint32_t map_resolution = 0;   // of all maps; 0: as few pixels as are sharp
-  std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps, kStoredBytesPerPixel each
+  std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps, kMapBytesPerPixel each
 };
-
-inline constexpr std::uint64_t kStoredBytesPerPixel = 4;  // of a map in a pack, at most (docs/format.md)
 
 // Leaves those reflectors in which an eye sees anything, at most `limit` of them, ordered by their reflectance times
 // the solid angle that they fill on average; says which were left out and why. Error kStopped.
