@@ -42,9 +42,9 @@ void main() {
   float pace = length(direction);
   float to_plane = u_ortho > 0.5 ? dot(u_depth_row, vec4(on_plane, 1.0)) : pace;
 
-  // Beyond the reflector's edges, where only blurring looks, the best maps must do.
+  // Beyond the reflector's edges, where only blurring looks, the best map must do.
   bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
-  int count = inside ? u_count : min(u_count, u_blended);
+  int count = inside ? u_count : min(u_count, 1);
   vec4 sum = vec4(0.0);
   float total = 0.0;
   for (int i = 0; i < count; ++i) {
