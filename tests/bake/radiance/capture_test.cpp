@@ -76,11 +76,11 @@ TEST(Capture, StopsWhenAskedAndCountsItsRays) {
   ViewPlan plan = plan_views(room.scene, reflectors, small_maps());
   Context context;
   std::atomic<std::uint64_t> rays{0};
-  ASSERT_TRUE(capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps, &rays));
+  ASSERT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps, &rays));
   EXPECT_GE(rays.load(), 16u * 32 * 24);
   EXPECT_LE(rays.load(), 16u * 32 * 24 + 10);
   context.stop = true;
-  const Status stopped = capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps);
+  const Status stopped = capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
@@ -110,11 +110,11 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   ViewPlan plan = plan_views(scene, reflectors, views);
   EXPECT_EQ(plan.maps.size(), 1u);
   Context context;
-  EXPECT_TRUE(capture_maps(*accel, reflectors, outgoing, {}, context, plan.maps));
+  EXPECT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), outgoing, context, plan.maps));
   return plan.maps[0];
 }
 
-Vec3 white(const Hit&, const Vec3&) {
+Vec3 white(const SeenSurface&) {
   return Vec3(1);
 }
 
@@ -151,7 +151,7 @@ TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
       p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
     };
   };
-  const auto coloured = [](const Hit& hit, const Vec3&) { return hit.triangle < 4 ? Vec3(0, 0, 4) : Vec3(1, 2, 0); };
+  const auto coloured = [](const SeenSurface& s) { return s.hit.triangle < 4 ? Vec3(0, 0, 4) : Vec3(1, 2, 0); };
   SceneMaterial cut_out, veil, glass;
   cut_out.alpha_mode = AlphaMode::kMask;
   cut_out.alpha = 0.1f;
@@ -177,7 +177,7 @@ TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
 }
 
 TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
-  const auto bad = [](const Hit&, const Vec3&) {
+  const auto bad = [](const SeenSurface&) {
     return Vec3(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1);
   };
   const RadianceMap map = one_map(
@@ -189,7 +189,9 @@ TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
 }
 
 TEST(Capture, TheCallbackIsAskedForLightTowardsTheEye) {
-  const auto towards = [](const Hit&, const Vec3& d) { return Vec3(-d.z, std::abs(glm::length(d) - 1) < 1e-5f, 0); };
+  const auto towards = [](const SeenSurface& s) {
+    return Vec3(-s.towards_eye.z, std::abs(glm::length(s.towards_eye) - 1) < 1e-5f, 0);
+  };
   const RadianceMap map = one_map(
       [](test::SceneParts& p) {
         p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
