@@ -63,8 +63,8 @@ class TextureArray {
   // Contents are undefined. The caller keeps the layers within the device's.
   TextureArray(const TextureFormat& format, int width, int height, int layers, const TextureOptions& options = {});
 
-  // Rows of the lower left corner of a layer's level.
-  void upload(int level, int layer, int width, int height, const void* pixels) const;
+  // Rows at the left edge of a layer's level, from `row` on.
+  void upload(int level, int layer, int row, int width, int height, const void* pixels) const;
   void bind(int unit) const;
   std::size_t bytes() const { return bytes_; }
   explicit operator bool() const { return static_cast<bool>(handle_); }

@@ -68,9 +68,10 @@ MapRay map_ray(const Vec3& eye, const Vec2& lower, const Vec2& upper, const IVec
 
 MapHit march(const Relief& relief, const MapRay& ray) {
   if (ray.length < 0) return {};
-  float at = 0, s = ray.s_begin, hidden = ray.hidden;
+  float at = 0, s = ray.s_begin, hidden = ray.hidden, surface = -1;
   bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kTouching);
   int level = std::clamp(static_cast<int>(std::ceil(std::log2(ray.length))), 1, kRangeLevels);
+  bool hit = false;
   for (int step = 0; step < kMaxMarchSteps && at < ray.length; ++step) {
     const float next = std::min(at + static_cast<float>(1 << level), ray.length);
     const float s_next = ray.disparity(next);
@@ -91,13 +92,10 @@ MapHit march(const Relief& relief, const MapRay& ray) {
       }
       continue;
     }
-    const float surface = relief.at(map_texel(ray, next, relief.size));
+    surface = relief.at(map_texel(ray, next, relief.size));
     if (before && surface >= s_next) {
-      if (surface <= s * (1 + kTouching) || is_connected(relief, ray, at, next, surface)) {
-        const float hit =
-            refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(next + 0.5f, ray.length), surface);
-        return {ray.from + hit * ray.direction, ray.disparity(hit), 1 / (1 + hidden)};
-      }
+      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at, next, surface);
+      if (hit) break;
       before = false;
     } else if (!before) {
       hidden += next - at;
@@ -107,7 +105,9 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     s = s_next;
     level = 1;
   }
-  return {};
+  if (!hit) return {};
+  const float crossing = refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
+  return {ray.from + crossing * ray.direction, ray.disparity(crossing), 1 / (1 + hidden)};
 }
 
 }  // namespace oriel

@@ -91,15 +91,18 @@ float refine_crossing(sampler2DArray disparity, int layer, ivec2 size, MapRay ra
 MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 size, MapRay ray) {
   MapHit miss = MapHit(vec2(0.0), 0.0, 0.0);
   if (ray.length < 0.0) return miss;
-  float at = 0.0, s = ray.s_begin, hidden = ray.hidden;
+  float at = 0.0, s = ray.s_begin, hidden = ray.hidden, surface = -1.0;
   bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kTouching);
   int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
+  int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
+  bool hit = false;
   for (int step = 0; step < kMaxSteps && at < ray.length; ++step) {
     float next = min(at + float(1 << level), ray.length);
     float s_next = ray_disparity(ray, next);
     if (level > 0) {
       ivec2 cell = map_texel(ray, 0.5 * (at + next), size) >> level;
-      vec2 range = texelFetch(ranges, ivec3(cell, layer), level - 1).rg;
+      cell.y += level_rows - (2 * level_rows >> level);
+      vec2 range = texelFetch(ranges, ivec3(cell, layer), 0).rg;
       if (before ? range.y < s_next : range.x > s) {
         hidden += before ? 0.0 : next - at;
         at = next;
@@ -114,12 +117,10 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
       }
       continue;
     }
-    float surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
+    surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
     if (before && surface >= s_next) {
-      if (surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface)) {
-        float hit = refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(next + 0.5, ray.length), surface);
-        return MapHit(ray.from + hit * ray.direction, ray_disparity(ray, hit), 1.0 / (1.0 + hidden));
-      }
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface);
+      if (hit) break;
       before = false;
     } else if (!before) {
       hidden += next - at;
@@ -129,7 +130,10 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
     s = s_next;
     level = 1;
   }
-  return miss;
+  if (!hit) return miss;
+  float crossing =
+      refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(at + 1.5, ray.length), surface);
+  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + hidden));
 }
 
 // 1 / distance along the ray from the mirrored eye to a hit. to_plane: distance to where the ray leaves the plane; pace: length
