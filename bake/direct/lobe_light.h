@@ -16,4 +16,8 @@ double lobe_density(const LobeFit& fit, const DVec3& w);
 // from it: positive, else negative.
 float reflected_polygon(const LobeFit& fit, std::span<const Vec3> corners);
 
+// The lobe at cos_theta between those at two incidences, cos_below < cos_above. The matrices are interpolated in the
+// frame of the mirror direction, where they hardly change: as they stand they would turn the lobe away from it.
+LobeFit fit_between(const LobeFit& below, float cos_below, const LobeFit& above, float cos_above, float cos_theta);
+
 }  // namespace oriel

@@ -220,6 +220,24 @@ TEST_F(SharedMaths, PolygonsInLobes) {
   }
 }
 
+TEST_F(SharedMaths, LobesBetweenIncidences) {
+  std::vector<Vec4> below, above;
+  for (int i = 0; i < 500; ++i) {
+    const float tilt = random(0, 3), width = random(0.05f, 1);
+    below.emplace_back(1 / width, tilt / width, random(1, 3) / width, -tilt);
+    above.emplace_back(below.back() * Vec4(0.9f, 0.8f, 0.7f, 0.6f));
+  }
+  const auto found = run_shader(
+      "lib/lobe_light.glsl",
+      "float t = (sqrt(0.6) - sqrt(0.5)) / (sqrt(0.8) - sqrt(0.5));\no_value = lobe_between(a, 0.5, b, 0.8, 0.6, t);\n",
+      below, above);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec4 &a = below[i], &b = above[i];
+    const LobeFit cpu = fit_between({a.x, a.y, a.z, a.w, 1}, 0.5f, {b.x, b.y, b.z, b.w, 1}, 0.8f, 0.6f);
+    expect_same(found[i], {cpu.m11, cpu.m13, cpu.m22, cpu.m31}, 1 + 10 * glm::length(a));
+  }
+}
+
 TEST_F(SharedMaths, SrgbAndToneCurves) {
   std::vector<Vec4> colors;
   for (int i = 0; i <= 1000; ++i)

@@ -150,6 +150,25 @@ TEST(LobeFit, HidesNothingBetweenNodes) {
     }
 }
 
+// Between the incidences that kernels are stored at, an interpolated fit is as near to the lobe as its own fit would
+// be.
+TEST(LobeFit, Interpolates) {
+  for (const double alpha : {0.01, 0.03, 0.1, 0.2})
+    for (int i = 1; i < 8; ++i) {
+      const auto cosine = [](double row) { return static_cast<float>(row * row / 64); };
+      const LobeFunction lobe = lobe_of(FacetModel::kGgx, alpha);
+      const auto fit = [&](float c) { return fit_lobe(lobe, alpha, c); };
+      const float below = cosine(i), above = cosine(i + 1), between = cosine(i + 0.5);
+      const LobeFit found = fit_between(fit(below), below, fit(above), above, between);
+      EXPECT_LE(fit_distance(lobe, alpha, between, found), fit_distance(lobe, alpha, between, fit(between)) + 0.03)
+          << alpha << " " << between;
+      EXPECT_NEAR(found.amplitude, fit(between).amplitude, 0.03);  // as of any albedo from nine incidences
+      const LobeFit same = fit_between(fit(below), below, fit(above), above, below);
+      EXPECT_NEAR(same.m22, fit(below).m22, 1e-3f * same.m22);
+      EXPECT_NEAR(same.m31, fit(below).m31, 1e-3f * (1 - same.m31));
+    }
+}
+
 TEST(LobeFit, GrazingAndNarrowAreFinite) {
   for (const double alpha : {1e-5, 1e-3, 1.0})
     for (const double cos_theta : {1e-3, 0.01, 1.0}) {
