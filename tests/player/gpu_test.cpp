@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "bake/direct/lobe_light.h"
 #include "bake/radiance/reproject.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/normal_map.h"
@@ -191,6 +192,49 @@ TEST_F(SharedMaths, ScreenSteps) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec2 s = screen_step(clips[i], steps[i], {640, 480});
     expect_same(found[i], Vec4(s, covering_size(s, Vec2(steps[i])), 0), 1e3f + glm::length(s));
+  }
+}
+
+// A quad and a triangle around b.xyz with sides of b.w, in lobes of a.
+TEST_F(SharedMaths, PolygonsInLobes) {
+  std::vector<Vec4> matrices, places;
+  for (int i = 0; i < 500; ++i) {
+    const float width = std::exp2(random(-8, 0)), tilt = random(-1.5f, 0.5f);
+    matrices.emplace_back(1 / width, -tilt / width, random(0.5f, 1) / width, tilt);
+    places.emplace_back(random(-1, 1), random(-1, 1), random(-0.2f, 1), std::exp2(random(-4, 1)));
+  }
+  const auto found =
+      run_shader("lib/lobe_light.glsl",
+                 "vec3 v[6];\n"
+                 "v[0] = b.xyz + b.w * vec3(-1, -1, 0);\nv[1] = b.xyz + b.w * vec3(-1, 1, 0.5);\n"
+                 "v[2] = b.xyz + b.w * vec3(1, 1, 0);\nv[3] = b.xyz + b.w * vec3(1, -1, -0.5);\n"
+                 "o_value = vec4(reflected_polygon(a, 0.8, v, 4), reflected_polygon(a, 1.0, v, 3), 0, 0);\n",
+                 matrices, places);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec4 &m = matrices[i], &p = places[i];
+    const std::array<Vec3, 4> v = {Vec3(p) + p.w * Vec3(-1, -1, 0), Vec3(p) + p.w * Vec3(-1, 1, 0.5f),
+                                   Vec3(p) + p.w * Vec3(1, 1, 0), Vec3(p) + p.w * Vec3(1, -1, -0.5f)};
+    const float quad = reflected_polygon({m.x, m.y, m.z, m.w, 0.8f}, v);
+    const float triangle = reflected_polygon({m.x, m.y, m.z, m.w, 1.0f}, std::span(v).first(3));
+    expect_same(found[i], {quad, triangle, 0, 0}, 1);
+  }
+}
+
+TEST_F(SharedMaths, LobesBetweenIncidences) {
+  std::vector<Vec4> below, above;
+  for (int i = 0; i < 500; ++i) {
+    const float tilt = random(0, 3), width = random(0.05f, 1);
+    below.emplace_back(1 / width, tilt / width, random(1, 3) / width, -tilt);
+    above.emplace_back(below.back() * Vec4(0.9f, 0.8f, 0.7f, 0.6f));
+  }
+  const auto found = run_shader(
+      "lib/lobe_light.glsl",
+      "float t = (sqrt(0.6) - sqrt(0.5)) / (sqrt(0.8) - sqrt(0.5));\no_value = lobe_between(a, 0.5, b, 0.8, 0.6, t);\n",
+      below, above);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec4 &a = below[i], &b = above[i];
+    const LobeFit cpu = fit_between({a.x, a.y, a.z, a.w, 1}, 0.5f, {b.x, b.y, b.z, b.w, 1}, 0.8f, 0.6f);
+    expect_same(found[i], {cpu.m11, cpu.m13, cpu.m22, cpu.m31}, 1 + 10 * glm::length(a));
   }
 }
 
