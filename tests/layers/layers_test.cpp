@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = core;
   m["formats/camera"] = assets;
+  m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
   m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
@@ -55,8 +56,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
   m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
-  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});  // which viewpoints
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});         // where eyes can be
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});             // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
@@ -71,7 +72,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/gpu"] = core;
   m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/pack", "player/maps"});
+  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/pack", "player/maps"});
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
   m["player/app"] =
