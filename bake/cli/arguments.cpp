@@ -1,6 +1,7 @@
 #include "bake/cli/arguments.h"
 
 #include "bake/cli/lux_arguments.h"
+#include "bake/cli/render_arguments.h"
 #include "bake/run/version.h"
 
 namespace oriel {
@@ -201,6 +202,7 @@ Arguments parse_arguments(int argc, char** argv) {
   Texts texts;
   SharedTexts shared;
   LuxTexts lux_texts;
+  RenderTexts render_texts;
   MaterialTexts material_texts;
   CLI::App app(
       "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
@@ -219,11 +221,13 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
+  const CLI::App* render = add_render(app, render_texts, shared, args);
   add_material(app, material_texts, args.material);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     args.wants_lux = lux->parsed();
+    args.render.wanted = render->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -232,7 +236,9 @@ Arguments parse_arguments(int argc, char** argv) {
   Status resolved = resolve_shared(shared, args);
   if (resolved) resolved = resolve_material(material_texts, args.material);
   if (resolved && !args.material.wanted)
-    resolved = args.wants_lux ? resolve_lux(lux_texts, args) : resolve(texts, args);
+    resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
+               : args.render.wanted ? resolve_render(render_texts, args)
+                                    : resolve(texts, args);
   if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
     args.exit_code = 1;

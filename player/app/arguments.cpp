@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 namespace oriel {
@@ -13,7 +14,8 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --list                              which cameras and paths it has\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror -o mirror.png\n"
     "  oriel-play gallery.oriel --offscreen --camera all -o pictures\n"
-    "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n";
+    "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
+    "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n";
 
 constexpr const char* kFooter =
     "In the window:\n"
@@ -23,7 +25,8 @@ constexpr const char* kFooter =
     "  1 … 9          cameras        P      play the path         F12    screenshot\n"
     "  + -            exposure       X      automatic exposure    M      next stage of --show\n\n"
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
-    "            4 failed at run time (no OpenGL 3.3, no display), 130 stopped by the user";
+    "            4 failed at run time (no OpenGL 3.3, no display), 5 further from the reference than --max-flip,\n"
+    "            130 stopped by the user";
 
 std::string parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
@@ -111,6 +114,17 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       "comparing frames");
 }
 
+void add_compare_options(CLI::App& app, PlayArguments& out) {
+  app.add_option("--compare", out.reference,
+                 "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
+                 "reflectors; -o is then the picture of reference, frame and FLIP side by side")
+      ->type_name("FILE.exr");
+  app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
+  app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("X");
+}
+
 void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("pack", out.pack, "The .oriel pack")->required()->type_name("PACK");
   app.add_flag("--list", out.list, "Print the cameras and paths of the pack, and stop");
@@ -120,8 +134,9 @@ void add_options(CLI::App& app, PlayArguments& out) {
          [&out](const std::string& text) {
            const std::string complaint = parse_size(text, out.width, out.height);
            if (!complaint.empty()) throw CLI::ValidationError("--size", complaint);
+           out.sized = true;
          },
-         "Pixels of the window or the picture")
+         "Pixels of the window or the picture; with --compare the reference's, or a whole multiple that is averaged")
       ->type_name("WxH")
       ->default_str("1280x720");
   app.add_option(
@@ -134,6 +149,7 @@ void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("-o,--output", out.output,
                  "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")
       ->type_name("FILE|DIR");
+  add_compare_options(app, out);
   app.add_option("--format", out.format, "Of the files written to a folder")
       ->check(CLI::IsMember({"png", "exr"}))
       ->type_name("png|exr")
@@ -154,9 +170,17 @@ void add_options(CLI::App& app, PlayArguments& out) {
 
 std::string contradiction(const PlayArguments& out) {
   const bool measures = !out.stats.empty() || !out.path.empty();
-  if (out.offscreen && !out.list && out.output.empty() && !measures) {
+  const bool compares = !out.reference.empty();
+  if (compares && !out.offscreen) return "--compare needs --offscreen";
+  if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
+  if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
+    return "--compare takes one camera";
+  if (compares && measures) return "--compare takes neither --path nor --stats";
+  if (compares && out.frame.show != Show::kAll) return "--compare draws the stages that it needs: leave --show out";
+  if (compares && !out.output.empty() && std::filesystem::path(out.output).extension() != ".png")
+    return "--compare writes its picture as .png";
+  if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
     return "--offscreen draws into files: -o FILE is missing";
-  }
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
   if (!out.offscreen && measures) return "--path and --stats need --offscreen";
   if (!out.path.empty() && !out.cameras.empty()) return "found both --path and --camera, expected one of them";

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <set>
 
+#include "formats/camera/camera_spec.h"
+#include "formats/camera/path.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "player/app/frame_record.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
 #include "player/passes/frame.h"
-#include "player/walk/camera_spec.h"
-#include "player/walk/path.h"
 #include "player/walk/zone.h"
 
 namespace oriel {

@@ -69,9 +69,9 @@ Status Renderer::ensure_frame(int width, int height) {
 std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view,
                                                       const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
+  marked_.clear();
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
   if (options.maps_per_element <= 0) return candidates;
-  GLint next = 1;
   for (const GpuReflector& reflector : scene.reflectors()) {
     if (reflector.elements.empty() || reflector.index_count == 0) continue;
     const Vec4 eye = eye_in_reflector(reflector, view);
@@ -79,8 +79,11 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
     if (candidate.screen.empty) continue;
     const bool see_through = scene.is_transparent(reflector.material);
-    if (!see_through && next > static_cast<GLint>(kReflectorBits)) continue;  // more than the stencil counts
-    if (!see_through) candidate.value = next++;
+    if (!see_through && marked_.size() >= kReflectorBits) continue;  // more than the stencil counts
+    if (!see_through) {
+      marked_.push_back(reflector.index);
+      candidate.value = static_cast<GLint>(marked_.size());
+    }
     if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
     reflector_pass_.draw_mask(scene, reflector, view,
                               see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
@@ -188,6 +191,22 @@ std::vector<float> Renderer::read_light() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
   return flipped(rgba, width, height);
+}
+
+std::vector<std::int32_t> Renderer::read_reflectors() const {
+  const auto width = static_cast<std::size_t>(frame_->light.width());
+  const auto height = static_cast<std::size_t>(frame_->light.height());
+  std::vector<std::uint8_t> stencil(width * height);
+  frame_->framebuffer.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, frame_->light.width(), frame_->light.height(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+  std::vector<std::int32_t> reflectors;
+  for (std::size_t y = height; y-- > 0;)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
+      reflectors.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
+    }
+  return reflectors;
 }
 
 Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {

@@ -26,7 +26,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   std::map<std::string, std::set<std::string>> m;
   m["formats/core"] = {};
   m["formats/image"] = core;
+  m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = core;
+  m["formats/camera"] = assets;
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
   m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
@@ -51,22 +53,26 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
   m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});  // which viewpoints
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});  // where eyes can be
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});         // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
+  m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
-  m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
+  m["bake/run"] = plus(m["bake/plan"],
+                       {"bake/plan", "bake/lux", "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run"});  // a subcommand that needs no scene
+  m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
-  m["player/walk"] = assets;
+  m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
   m["player/scene"] = plus(m["player/maps"], {"formats/pack", "player/maps"});
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
-  m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
+  m["player/app"] =
+      plus(m["player/passes"], {"player/passes", "player/walk", "formats/camera", "formats/metrics", "formats/image"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;

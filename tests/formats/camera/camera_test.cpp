@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "player/walk/camera.h"
+#include "formats/camera/camera.h"
 
 namespace oriel {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bake/cli/material_plot.h"
+#include "bake/cli/material/material_plot.h"
 #include "bake/material/evaluate.h"
 #include "formats/core/result.h"
 

@@ -1,4 +1,4 @@
-#include "bake/cli/material_plot.h"
+#include "bake/cli/material/material_plot.h"
 
 #include <fmt/format.h>
 #include <spawn.h>

@@ -1,4 +1,4 @@
-#include "player/walk/camera.h"
+#include "formats/camera/camera.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "player/walk/camera_spec.h"
+#include "formats/camera/camera_spec.h"
 
 namespace oriel {
 namespace {

@@ -1,4 +1,4 @@
-#include "bake/cli/material_arguments.h"
+#include "bake/cli/material/material_arguments.h"
 
 #include <map>
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "formats/camera/camera.h"
 #include "formats/core/result.h"
-#include "player/walk/camera.h"
 
 namespace oriel {
 

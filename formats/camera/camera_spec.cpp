@@ -1,11 +1,11 @@
-#include "player/walk/camera_spec.h"
+#include "formats/camera/camera_spec.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
 
-#include "player/walk/path.h"
+#include "formats/camera/path.h"
 
 namespace oriel {
 namespace {

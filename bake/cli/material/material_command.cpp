@@ -3,7 +3,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "bake/cli/material_arguments.h"
+#include "bake/cli/material/material_arguments.h"
 #include "bake/trace/brdf/ward.h"
 
 namespace oriel {

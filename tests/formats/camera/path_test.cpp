@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "player/walk/path.h"
+#include "formats/camera/path.h"
 
 namespace oriel {
 namespace {

@@ -1,7 +1,7 @@
 // Camera paths by time.
 #pragma once
 
-#include "player/walk/camera.h"
+#include "formats/camera/camera.h"
 
 namespace oriel {
 

@@ -1,4 +1,4 @@
-#include "player/walk/path.h"
+#include "formats/camera/path.h"
 
 #include <algorithm>
 
