@@ -94,6 +94,14 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(selections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
+  const std::map<std::string, Blur> blurs{
+      {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
+  app.add_option("--blur", out.frame.blur,
+                 "K's width in the image: by the distance of what is reflected, one for all distances as Bastos et al. "
+                 "published it (of the reflector's mean one), or as sharp as a mirror")
+      ->transform(CLI::CheckedTransformer(blurs).description(""))
+      ->type_name("distance|constant|off")
+      ->default_str("distance");
   const std::map<std::string, KernelPlace> places{{"lobe", KernelPlace::kLobe}, {"centred", KernelPlace::kCentred}};
   app.add_option("--kernel", out.frame.kernel,
                  "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as "
@@ -176,6 +184,7 @@ std::string contradiction(const PlayArguments& out) {
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
   if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
     return "--compare takes one camera";
+  if (compares && measures) return "--compare takes neither --path nor --stats";
   if (compares && out.frame.show != Show::kAll) return "--compare draws the stages that it needs: leave --show out";
   if (compares && !out.output.empty() && std::filesystem::path(out.output).extension() != ".png")
     return "--compare writes its picture as .png";

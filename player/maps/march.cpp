@@ -106,7 +106,8 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     level = 1;
   }
   if (!hit) return {};
-  const float crossing = refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
+  const float crossing =
+      refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
   return {ray.from + crossing * ray.direction, ray.disparity(crossing), 1 / (1 + hidden)};
 }
 
