@@ -72,9 +72,20 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(stages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
+  const std::map<std::string, Reflections> modes{{"march", Reflections::kMarch},
+                                                 {"points", Reflections::kPoints},
+                                                 {"geometry", Reflections::kGeometry},
+                                                 {"off", Reflections::kOff}};
   app.add_option(
-         "--maps", out.frame.maps_per_element,
-         "Radiance maps drawn for each reflector element in view: more fill more gaps and cost more time; 0 shows none")
+         "--reflections", out.frame.reflections,
+         "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et "
+         "al. published it, the mirrored scene drawn again, or nothing")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("march|points|geometry|off")
+      ->default_str("march");
+  app.add_option("--maps", out.frame.maps_per_element,
+                 "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 "
+                 "shows none")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   const std::map<std::string, Selection> selections{{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
@@ -92,7 +103,7 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->default_str("lobe");
   const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable},
                                                         {"sphere", Reflectance::kSphereMap}};
-  app.add_option("--reflectance", out.frame.reflectance,
+  app.add_option("--fresnel", out.frame.reflectance,
                  "R from the exact table by angle, or from the sphere map as Bastos et al. published it")
       ->transform(CLI::CheckedTransformer(reflectances).description(""))
       ->type_name("table|sphere")
@@ -143,25 +154,36 @@ void add_options(CLI::App& app, PlayArguments& out) {
       ->check(CLI::IsMember({"png", "exr"}))
       ->type_name("png|exr")
       ->capture_default_str();
-  app.add_option("--frames", out.frames, "Close the window after so many frames: for tests and timings")
+  app.add_option(
+         "--frames", out.frames,
+         "Close the window after so many frames. Offscreen: draw each camera so often and report the median time, or "
+         "so many frames along --path")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
+  app.add_option("--path", out.path,
+                 "Offscreen: frames along this path of the pack instead of cameras; prints how they flicker")
+      ->type_name("NAME");
+  app.add_option("--stats", out.stats, "Offscreen: time each pass and write times and counts as JSON")
+      ->type_name("FILE");
   app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");
 }
 
 std::string contradiction(const PlayArguments& out) {
+  const bool measures = !out.stats.empty() || !out.path.empty();
   const bool compares = !out.reference.empty();
   if (compares && !out.offscreen) return "--compare needs --offscreen";
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
   if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
     return "--compare takes one camera";
+  if (compares && measures) return "--compare takes neither --path nor --stats";
   if (compares && out.frame.show != Show::kAll) return "--compare draws the stages that it needs: leave --show out";
   if (compares && !out.output.empty() && std::filesystem::path(out.output).extension() != ".png")
     return "--compare writes its picture as .png";
-  if (out.offscreen && !out.list && !compares && out.output.empty())
+  if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
     return "--offscreen draws into files: -o FILE is missing";
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
-  if (out.offscreen && out.frames > 0) return "--frames is for the window, not for --offscreen";
+  if (!out.offscreen && measures) return "--path and --stats need --offscreen";
+  if (!out.path.empty() && !out.cameras.empty()) return "found both --path and --camera, expected one of them";
   if (!out.offscreen && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all"))) {
     return "several cameras need --offscreen";
   }

@@ -27,7 +27,9 @@ struct PlayArguments {
   std::string reference;       // compare with this file of `oriel-bake render` instead of drawing into files
   std::string json;            // file for the comparison's numbers
   std::optional<double> max_flip;
-  int frames = -1;  // the window closes after so many; -1: never
+  int frames = -1;    // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
+  std::string path;   // offscreen: frames along it instead of cameras
+  std::string stats;  // a file for what the frames cost
   bool gl_debug = false;
 };
 

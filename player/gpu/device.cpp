@@ -52,12 +52,15 @@ Result<Device> open_device() {
   }
   device.dialect = desktop ? Dialect::kDesktop330 : Dialect::kEs300;
   GLint texture_size = 0;
+  GLint layers = 0;
   GLint viewport[2] = {0, 0};
   GLfloat points[2] = {1, 1};
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
   glGetFloatv(desktop ? GL_POINT_SIZE_RANGE : GL_ALIASED_POINT_SIZE_RANGE, points);
   device.texture_size = std::min({texture_size, viewport[0], viewport[1]});
+  device.array_layers = layers;
   device.point_size_max = std::max(1.0f, points[1]);
   device.debug_output = epoxy_has_gl_extension("GL_KHR_debug");
   if (desktop) {

@@ -14,6 +14,7 @@ struct Device {
   Dialect dialect = Dialect::kDesktop330;
   std::string vendor, renderer, version;
   int texture_size = 0;       // largest width or height of a texture and of a viewport
+  int array_layers = 0;       // of a texture array
   float point_size_max = 1;   // pixels
   bool debug_output = false;  // KHR_debug is there
 };

@@ -10,6 +10,19 @@ int mip_levels(int width, int height) {
   return levels;
 }
 
+namespace {
+
+void set_sampling(GLenum target, const TextureOptions& options) {
+  glTexParameteri(target, GL_TEXTURE_BASE_LEVEL, 0);
+  glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, options.levels - 1);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(options.min_filter));
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(options.mag_filter));
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, static_cast<GLint>(options.wrap_s));
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, static_cast<GLint>(options.wrap_t));
+}
+
+}  // namespace
+
 Texture::Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options)
     : width_(width), height_(height), levels_(options.levels) {
   GLuint name = 0;
@@ -23,18 +36,40 @@ Texture::Texture(const TextureFormat& format, int width, int height, const void*
                  level == 0 ? pixels : nullptr);
     bytes_ += static_cast<std::size_t>(w) * h * format.bytes_per_texel;
   }
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels_ - 1);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(options.min_filter));
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(options.mag_filter));
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, static_cast<GLint>(options.wrap_s));
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, static_cast<GLint>(options.wrap_t));
+  set_sampling(GL_TEXTURE_2D, options);
   if (options.make_mipmaps && levels_ > 1) glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void Texture::bind(int unit) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, handle_.name());
+}
+
+TextureArray::TextureArray(const TextureFormat& format, int width, int height, int layers,
+                           const TextureOptions& options)
+    : format_(format) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  handle_ = Handle<ObjectKind::kTexture>(name);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, name);
+  for (int level = 0; level < options.levels; ++level) {
+    const int w = std::max(1, width >> level), h = std::max(1, height >> level);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, level, static_cast<GLint>(format.internal), w, h, layers, 0, format.format,
+                 format.type, nullptr);
+    bytes_ += static_cast<std::size_t>(w) * h * layers * format.bytes_per_texel;
+  }
+  set_sampling(GL_TEXTURE_2D_ARRAY, options);
+}
+
+void TextureArray::upload(int level, int layer, int row, int width, int height, const void* pixels) const {
+  glBindTexture(GL_TEXTURE_2D_ARRAY, handle_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, row, layer, width, height, 1, format_.format, format_.type, pixels);
+}
+
+void TextureArray::bind(int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, handle_.name());
 }
 
 }  // namespace oriel::gpu

@@ -19,6 +19,9 @@ inline constexpr TextureFormat kSrgbAlpha8{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED
 inline constexpr TextureFormat kRgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
 inline constexpr TextureFormat kRgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TextureFormat kRgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+inline constexpr TextureFormat kRgb9e5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4};
+inline constexpr TextureFormat kR32f{GL_R32F, GL_RED, GL_FLOAT, 4};
+inline constexpr TextureFormat kRg32f{GL_RG32F, GL_RG, GL_FLOAT, 8};
 inline constexpr TextureFormat kDepthStencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV,
                                              8};
 inline constexpr TextureFormat kDepth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
@@ -50,6 +53,25 @@ class Texture {
  private:
   Handle<ObjectKind::kTexture> handle_;
   int width_ = 0, height_ = 0, levels_ = 1;
+  std::size_t bytes_ = 0;
+};
+
+// Layers of one size and format.
+class TextureArray {
+ public:
+  TextureArray() = default;
+  // Contents are undefined. The caller keeps the layers within the device's.
+  TextureArray(const TextureFormat& format, int width, int height, int layers, const TextureOptions& options = {});
+
+  // Rows at the left edge of a layer's level, from `row` on.
+  void upload(int level, int layer, int row, int width, int height, const void* pixels) const;
+  void bind(int unit) const;
+  std::size_t bytes() const { return bytes_; }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  Handle<ObjectKind::kTexture> handle_;
+  TextureFormat format_;
   std::size_t bytes_ = 0;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/passes/geometry_pass.h"
+#include "player/reflections/reflected_view.h"
 
 namespace oriel {
 namespace {
@@ -40,8 +42,10 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
 Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
+  renderer->clock_ = PassClock(device.dialect);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
+  ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
@@ -66,7 +70,8 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
                                                       const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
   marked_.clear();
-  if (!shows_reflectors(options.show) || options.maps_per_element <= 0) return candidates;
+  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
+  if (options.maps_per_element <= 0) return candidates;
   for (const GpuReflector& reflector : scene.reflectors()) {
     if (reflector.elements.empty() || reflector.index_count == 0) continue;
     const Vec4 eye = eye_in_reflector(reflector, view);
@@ -93,20 +98,40 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
   return candidates;
 }
 
+// M into the image.
+void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view,
+                                   const ImageRect& rect, const FrameOptions& options, FrameStats& stats) {
+  switch (options.reflections) {
+    case Reflections::kPoints:
+      reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+      break;
+    case Reflections::kGeometry:
+      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, stats);
+      break;
+    default:
+      march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  }
+}
+
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
   const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
   const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
-  reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
   const bool blurs = kernel.blurs() && options.show != Show::kM;
-  fill_pass_.draw(rect, *image_, blurs, stats);
-  if (blurs) convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats);
+  clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
+  if (blurs) {
+    clock_.time(Pass::kConvolve,
+                [&] { convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats); });
+  }
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
-                             options, stats);
+  clock_.time(Pass::kCompose, [&] {
+    reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
+                               options, stats);
+  });
   ++stats.reflectors;
   return {};
 }
@@ -123,6 +148,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
+  clock_.start(options.timed);
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
   gpu::RasterState all;
@@ -134,8 +160,9 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
-  scene_pass_.draw_depth(scene, view, stats);
-  const std::vector<Candidate> candidates = draw_masks(scene, view, options, stats);
+  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  const std::vector<Candidate> candidates =
+      clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); });
   std::set<std::uint32_t> reflective;
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) continue;
@@ -143,13 +170,16 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     reflective.insert(candidate.reflector->material);
   }
   if (shows_scene(options.show)) {
-    scene_pass_.draw_opaque(scene, view, weights_of(options.show), reflective, stats);
+    const SceneWeights weights = weights_of(options.show);
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
     ORIEL_TRY(const float white, white_for(scene, options));
-    scene_pass_.draw_transparent(scene, view, weights_of(options.show), white, stats);
+    clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
   }
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
   }
+  stats.map_bytes = scene.map_bytes();
+  stats.ms = clock_.read();
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
   return stats;
 }

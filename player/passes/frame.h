@@ -4,12 +4,14 @@
 #include <memory>
 #include <set>
 
-#include "player/passes/convolve_pass.h"
 #include "player/passes/display_pass.h"
-#include "player/passes/fill_pass.h"
+#include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
-#include "player/passes/reproject_pass.h"
 #include "player/passes/scene_pass.h"
+#include "player/reflections/convolve_pass.h"
+#include "player/reflections/fill_pass.h"
+#include "player/reflections/march_pass.h"
+#include "player/reflections/reproject_pass.h"
 
 namespace oriel {
 
@@ -45,6 +47,8 @@ class Renderer {
   Status ensure_frame(int width, int height);
   std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
                                     FrameStats& stats);
+  void draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                           const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
@@ -52,6 +56,7 @@ class Renderer {
   gpu::Device device_;
   ScenePass scene_pass_;
   ReflectorPass reflector_pass_;
+  MarchPass march_pass_;
   ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
@@ -59,6 +64,7 @@ class Renderer {
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;
   std::vector<gpu::Query> queries_;
+  PassClock clock_;
   std::vector<std::uint32_t> marked_;  // the reflector that value i + 1 in the last frame's stencil stands for
 };
 

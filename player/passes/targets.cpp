@@ -1,7 +1,6 @@
 #include "player/passes/targets.h"
 
-#include <algorithm>
-#include <bit>
+#include "player/gpu/device.h"
 
 namespace oriel {
 
@@ -12,58 +11,6 @@ Result<FrameTarget> make_frame_target(int width, int height) {
   ORIEL_TRY_VOID(gpu::check_gl("making the frame's textures"));
   ORIEL_TRY(target.framebuffer, gpu::Framebuffer::create("the frame", &target.light, &target.depth, true));
   return target;
-}
-
-Vec4 ndc_from_image(const ImageRect& rect, const View& view) {
-  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-  const Vec2 scale = 2.0f / (rect.scale * size);
-  const Vec2 offset = 2.0f * rect.origin / size - 1.0f;
-  return Vec4(scale, offset);
-}
-
-Mat4 image_from_clip(const ImageRect& rect, const View& view) {
-  const Vec4 ndc = ndc_from_image(rect, view);
-  const Vec2 half = 0.5f * Vec2(ndc.x, ndc.y) * Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height));
-  const Vec2 center = Vec2(ndc.z, ndc.w) + half;
-  Mat4 m(1);
-  m[0][0] = 1 / half.x;
-  m[1][1] = 1 / half.y;
-  m[3][0] = -center.x / half.x;
-  m[3][1] = -center.y / half.y;
-  return m;
-}
-
-Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit) {
-  if (current && current->sharp.width() >= width && current->sharp.height() >= height) return {};
-  const auto rounded = [&](int size, int had) {
-    const int wanted = std::max(size, had);
-    return static_cast<int>(
-        std::min(std::bit_ceil(static_cast<unsigned>(wanted)), std::bit_floor(static_cast<unsigned>(limit))));
-  };
-  const int w = rounded(width, current ? current->sharp.width() : 16);
-  const int h = rounded(height, current ? current->sharp.height() : 16);
-  if (w < width || h < height) {
-    return fail(ErrorCode::kRuntime, "reflected image", "found {}x{} pixels, expected at most {}", width, height,
-                limit);
-  }
-  current.reset();
-  ImageTarget target;
-  gpu::TextureOptions options;
-  options.levels = gpu::mip_levels(w, h);
-  target.sharp = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
-  options.mag_filter = GL_LINEAR;
-  options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
-  target.filled = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
-  gpu::TextureOptions linear;
-  linear.min_filter = linear.mag_filter = GL_LINEAR;
-  target.blurred = gpu::Texture(gpu::kRgba32f, w, h, nullptr, linear);
-  target.depth = gpu::Texture(gpu::kDepth32f, w, h, nullptr);
-  ORIEL_TRY_VOID(gpu::check_gl("making the reflected image's textures"));
-  ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth));
-  ORIEL_TRY(target.level_framebuffer,
-            gpu::Framebuffer::create("levels of the reflected image", &target.filled, nullptr));
-  current = std::move(target);
-  return {};
 }
 
 }  // namespace oriel

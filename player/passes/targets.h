@@ -1,11 +1,7 @@
-// The pictures that passes draw into.
+// The frame that passes draw into.
 #pragma once
 
-#include <optional>
-
-#include "player/gpu/device.h"
 #include "player/gpu/framebuffer.h"
-#include "player/scene/view.h"
 
 namespace oriel {
 
@@ -15,28 +11,5 @@ struct FrameTarget {
   gpu::Framebuffer framebuffer;
 };
 Result<FrameTarget> make_frame_target(int width, int height);
-
-// The part of the frame that a reflected image covers, with a margin around it that may lie outside the frame.
-struct ImageRect {
-  Vec2 origin{0};             // lower left corner, frame pixels
-  float scale = 1;            // image pixels per frame pixel
-  int width = 0, height = 0;  // image pixels
-};
-
-// Image pixels to normalised device coordinates of the frame: scale in xy, offset in zw.
-Vec4 ndc_from_image(const ImageRect& rect, const View& view);
-// Clip space of the frame to the clip space whose picture is the rectangle.
-Mat4 image_from_clip(const ImageRect& rect, const View& view);
-
-// The reflected image: rgb light, a 1 / distance (0: hole). sharp: as drawn, with its coarser levels; filled: without
-// holes, with its coarser levels; blurred: convolved. Textures are powers of two; an image uses their lower left
-// corner.
-struct ImageTarget {
-  gpu::Texture sharp, filled, blurred, depth;
-  gpu::Framebuffer sharp_framebuffer;  // with depth
-  gpu::Framebuffer level_framebuffer;  // no depth; passes attach what they draw into
-};
-// At least that large; keeps `current` where it suffices.
-Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit);
 
 }  // namespace oriel

@@ -1,34 +1,47 @@
 // What is asked of a frame, and what it cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "player/maps/map_choice.h"
 #include "player/scene/kernel_taps.h"
-#include "player/scene/map_point.h"
 
 namespace oriel {
 
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
 // frame.
 enum class Show { kAll, kM, kMK, kMKR, kD };
+// How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
+// mirrored scene; or not at all.
+enum class Reflections { kMarch, kPoints, kGeometry, kOff };
 enum class Reflectance { kTable, kSphereMap };
 
 struct FrameOptions {
   Show show = Show::kAll;
-  int maps_per_element = 2;  // radiance maps drawn for each reflector element in view; 0: none
+  Reflections reflections = Reflections::kMarch;
+  int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
+  bool timed = false;   // each pass, which costs a little itself
   float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
+
+enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kScene, kTransparent };
+inline constexpr std::array<const char*, 8> kPassNames{"depth",    "mask",    "reflect", "fill",
+                                                       "convolve", "compose", "scene",   "transparent"};
+using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
   std::uint32_t reflectors = 0;  // that had pixels in view
-  std::uint32_t maps = 0;        // radiance maps reprojected
+  std::uint32_t maps = 0;        // radiance maps chosen
   std::uint64_t points = 0;      // of them
+  std::uint64_t map_bytes = 0;   // of all radiance maps on the device so far
+  PassTimes ms{};                // by pass, where asked for
 };
 
 }  // namespace oriel

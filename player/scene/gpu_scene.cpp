@@ -156,8 +156,20 @@ const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {
 
 const gpu::Texture& GpuScene::radiance_map(std::uint32_t index) {
   gpu::Texture& texture = radiance_maps_[index];
-  if (!texture) texture = upload_radiance_map(pack_.radiance_maps[index]);
+  if (!texture) {
+    texture = upload_radiance_map(pack_.radiance_maps[index]);
+    map_bytes_ += texture.bytes();
+  }
   return texture;
+}
+
+const MapArray& GpuScene::map_array(const ReflectorElement& element) {
+  const auto [at, added] = map_arrays_.try_emplace(element.maps.front());
+  if (added) {
+    at->second = MapArray::upload(pack_.radiance_maps, element.maps);
+    map_bytes_ += at->second.bytes();
+  }
+  return at->second;
 }
 
 const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {

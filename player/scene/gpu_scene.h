@@ -9,9 +9,10 @@
 #include "formats/pack/pack.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/device.h"
+#include "player/maps/map_array.h"
+#include "player/maps/map_choice.h"
 #include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
-#include "player/scene/map_point.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
@@ -68,7 +69,10 @@ class GpuScene {
   const LightmapTexture& lightmap(std::int32_t index) const;
   const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
   // Uploaded on first use and kept.
-  const gpu::Texture& radiance_map(std::uint32_t index);
+  const gpu::Texture& radiance_map(std::uint32_t index);       // as points
+  const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
+  // Of radiance maps on the device.
+  std::uint64_t map_bytes() const { return map_bytes_; }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
   // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
   const GpuKernel& kernel(std::int32_t index, KernelPlace place);
@@ -88,7 +92,9 @@ class GpuScene {
   std::vector<LightmapTexture> lightmaps_;
   gpu::Texture white_, flat_, reflectance_tables_;
   LightmapTexture no_lightmap_;
+  std::map<std::uint32_t, MapArray> map_arrays_;  // by the first map of the element
   std::map<std::pair<std::int32_t, KernelPlace>, GpuKernel> kernels_;
+  std::uint64_t map_bytes_ = 0;
   bool mipmaps_ = true;
 };
 

@@ -52,7 +52,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});  // where eyes can be
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});  // which viewpoints
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});         // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
@@ -60,13 +61,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"],
+                       {"bake/plan", "bake/lux", "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run"});  // a subcommand that needs no scene
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/walk"] = plus(assets, {"formats/camera"});
-  m["player/scene"] = plus(assets, {"formats/pack", "player/gpu"});
-  m["player/passes"] = plus(m["player/scene"], {"player/scene"});
+  m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
+  m["player/scene"] = plus(m["player/maps"], {"formats/pack", "player/maps"});
+  m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
+  m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
   m["player/app"] =
       plus(m["player/passes"], {"player/passes", "player/walk", "formats/camera", "formats/metrics", "formats/image"});
   m["scenes/kit"] = core;
@@ -76,11 +80,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
 
 // Libraries that must not spread: the folders that may include their headers.
 const std::map<std::string, std::set<std::string>> kGuarded = {
-    {"embree3/", {"bake/trace"}},        {"tbb/", {"bake/jobs"}},
-    {"OpenImageIO/", {"bake/scene"}},    {"CGAL/", {"bake/scene"}},
-    {"OpenMesh/", {"bake/atlas/chart"}}, {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
-    {"OpenEXR/", {"formats/image"}},     {"Imf", {"formats/image"}},
-    {"GLFW/", {"player/app"}},           {"epoxy/", {"player/gpu", "player/scene", "player/passes", "player/app"}},
+    {"embree3/", {"bake/trace"}},
+    {"tbb/", {"bake/jobs"}},
+    {"OpenImageIO/", {"bake/scene"}},
+    {"CGAL/", {"bake/scene"}},
+    {"OpenMesh/", {"bake/atlas/chart"}},
+    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"OpenEXR/", {"formats/image"}},
+    {"Imf", {"formats/image"}},
+    {"GLFW/", {"player/app"}},
+    {"epoxy/", {"player/gpu", "player/maps", "player/scene", "player/reflections", "player/passes", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {

@@ -12,16 +12,16 @@
 #include "formats/core/color.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
-#include "player/scene/map_point.h"
+#include "player/maps/map_point.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {"depth",         "mask",        "scene",           "transparent", "reproject",
-                                   "screen/pull",   "screen/push", "screen/convolve", "compose",     "screen/luminance",
-                                   "screen/tonemap"};
+constexpr const char* kPasses[] = {
+    "depth",       "mask",        "scene",           "transparent", "reproject",        "march",
+    "screen/pull", "screen/push", "screen/convolve", "compose",     "screen/luminance", "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

@@ -1,9 +1,9 @@
 // What the player decides without a GPU: views, culling, the choice of maps, taps of kernels.
 #include <gtest/gtest.h>
 
+#include "player/maps/map_choice.h"
 #include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
-#include "player/scene/map_point.h"
 #include "player/scene/view.h"
 
 namespace oriel {
@@ -103,24 +103,58 @@ std::vector<RadianceMap> maps_from(const std::vector<Vec3>& eyes) {
     map.eye = eye;
     map.lower = {-1, -1};
     map.upper = {1, 1};
+    map.width = map.height = 8;
     maps.push_back(map);
   }
   return maps;
 }
 
 TEST(SelectMaps, ByAngleAndByDistance) {
-  const auto maps = maps_from({{0, 0, -10}, {1, 0, -1}, {-1, 0, -1}, {0.9f, 0, -1}});
+  auto maps = maps_from({{0, 0, -10}, {1, 0, -1}, {-1, 0, -1}, {0.9f, 0, -1}});
   Reflector reflector;
   reflector.map_count = 4;
   const auto elements = group_by_element(reflector, maps);
   ASSERT_EQ(elements.size(), 1u);
   const Vec4 eye(0.1f, 0, -1, 1);
   using Indices = std::vector<std::uint32_t>;
-  EXPECT_EQ(select_maps(elements[0], maps, eye, 2, Selection::kAngle), (Indices{0, 3}));
-  EXPECT_EQ(select_maps(elements[0], maps, eye, 2, Selection::kDistance), (Indices{3, 1}));
-  EXPECT_EQ(select_maps(elements[0], maps, Vec4(-1, 0, -1, 0), 1, Selection::kDistance), (Indices{2}));
-  EXPECT_EQ(select_maps(elements[0], maps, eye, 9, Selection::kAngle).size(), 4u);
-  EXPECT_TRUE(select_maps(elements[0], maps, eye, 0, Selection::kAngle).empty());
+  const auto best = [&](const Vec4& from, int count, Selection selection) {
+    Indices out;
+    for (const WeighedMap& m : weigh_maps(elements[0], maps, from, count, selection)) out.push_back(m.map);
+    return out;
+  };
+  EXPECT_EQ(best(eye, 2, Selection::kAngle), (Indices{0, 3, 1, 2}));
+  EXPECT_EQ(best(eye, 2, Selection::kDistance), (Indices{3, 1, 2, 0}));
+  EXPECT_EQ(best(Vec4(-1, 0, -1, 0), 1, Selection::kDistance)[0], 2u);
+  maps[0].residual = true;
+  EXPECT_EQ(best(eye, 2, Selection::kAngle), (Indices{3, 1, 2, 0})) << "residual maps come last";
+}
+
+// Along a path of the eye the weights change without a jump, sum to 1, and a map that leaves the chosen ones has none
+// left.
+TEST(SelectMaps, WeightsAreContinuous) {
+  const auto maps = maps_from({{-1, 0, -1}, {-0.5f, 0, -1}, {0, 0, -1}, {0.5f, 0, -1}, {1, 0, -1}});
+  Reflector reflector;
+  reflector.map_count = 5;
+  const auto elements = group_by_element(reflector, maps);
+  const auto weights_at = [&](float x) {
+    std::vector<float> weights(5);
+    for (const WeighedMap& m : weigh_maps(elements[0], maps, {x, 0.1f, -1, 1}, 2, Selection::kAngle))
+      weights[m.map] = m.weight;
+    return weights;
+  };
+  std::vector<float> last = weights_at(-1);
+  EXPECT_GT(last[0], 0.8f);
+  constexpr int kSteps = 20000;
+  for (int i = 1; i <= kSteps; ++i) {
+    const auto now = weights_at(-1 + 2.0f * static_cast<float>(i) / kSteps);
+    float sum = 0;
+    for (int m = 0; m < 5; ++m) {
+      sum += now[m];
+      EXPECT_LT(std::fabs(now[m] - last[m]), 0.01f) << m << " at " << i;
+    }
+    EXPECT_NEAR(sum, 1, 1e-5f);
+    last = now;
+  }
 }
 
 TEST(SelectMaps, ElementsAreTheMapsRectangles) {

@@ -1,8 +1,8 @@
-#include "player/passes/reproject_pass.h"
+#include "player/reflections/reproject_pass.h"
 
 #include <algorithm>
 
-#include "player/gpu/raster_state.h"
+#include "player/reflections/reflected_view.h"
 
 namespace oriel {
 namespace {
@@ -20,22 +20,7 @@ int pixel_step(const RadianceMap& map, const Vec4& eye, float pixels_per_tangent
   return step >= 4 ? 4 : step >= 2 ? 2 : 1;
 }
 
-// How far along the view the mirrored scene reaches: beyond the scene itself.
-float mirrored_far(const Bounds& bounds, const Mat4& view_from_mirrored, const Mat4& reflector_from_pack) {
-  float far = 0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner(i & 1 ? bounds.upper.x : bounds.lower.x, i & 2 ? bounds.upper.y : bounds.lower.y,
-                      i & 4 ? bounds.upper.z : bounds.lower.z);
-    far = std::max(far, -(view_from_mirrored * reflector_from_pack * Vec4(corner, 1)).z);
-  }
-  return 1.01f * far;
-}
-
 }  // namespace
-
-Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view) {
-  return reflector.reflector_from_pack * view.eye;
-}
 
 Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
   ReprojectPass pass;
@@ -47,36 +32,18 @@ Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
 
 void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                          const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
-  target.sharp_framebuffer.bind();
-  target.sharp_framebuffer.attach_color_level(target.sharp, 0);
-  gpu::RasterState state;
-  state.depth_test = state.depth_write = true;
-  gpu::apply(state);
-  glViewport(0, 0, rect.width, rect.height);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, 0, rect.width, rect.height);
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-
-  Vec4 mirrored_eye = eye_in_reflector(reflector, view);
-  mirrored_eye.z = -mirrored_eye.z;
-  Mat4 mirror(1);
-  mirror[2][2] = -1;
-  const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
-  const Mat4 view_from_mirrored = view_from_reflector * mirror;
-  const float far = std::max(view.far, mirrored_far(scene.bounds(), view_from_mirrored, reflector.reflector_from_pack));
-  const Mat4 image_from_view = image_from_clip(rect, view) * clip_from_view_to(view, far);
-  const Mat4 image_from_reflector = image_from_view * view_from_reflector;
+  clear_image(target, rect);
+  const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
+  const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
   program_.use();
-  program_.set("u_clip_from_mirrored", image_from_view * view_from_mirrored);
-  program_.set("u_mirrored_eye", mirrored_eye);
+  program_.set("u_clip_from_mirrored", reflected.image_from_view * reflected.view_from_mirrored);
+  program_.set("u_mirrored_eye", reflected.mirrored_eye);
   program_.set("u_viewport", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   program_.set("u_point_max", point_max_);
   program_.set("u_bias_scale", view.orthographic ? scene.bounds().radius() : 1.0f);
-  program_.set("u_closest", 1e-15f);
+  program_.set("u_closest", kClosest);
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
-  program_.set("u_depth_row", -glm::transpose(view_from_mirrored)[2]);
+  program_.set("u_depth_row", -glm::transpose(reflected.view_from_mirrored)[2]);
   program_.set("u_map", 0);
   glBindVertexArray(no_vertices_.name());
   for (const ReflectorElement& element : reflector.elements) {
@@ -84,9 +51,12 @@ void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const V
     const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
                                       Vec3(lower.x, upper.y, 0)};
     if (project_polygon(image_from_reflector, corners).empty) continue;
-    for (const std::uint32_t map :
-         select_maps(element, scene.pack().radiance_maps, mirrored_eye, options.maps_per_element, options.selection)) {
-      draw_map(scene, map, reflector, view, rect, stats);
+    const auto maps = weigh_maps(element, scene.pack().radiance_maps, reflected.mirrored_eye, options.maps_per_element,
+                                 options.selection);
+    const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t map = element.maps[maps[i].map];
+      if (!scene.pack().radiance_maps[map].residual) draw_map(scene, map, reflector, view, rect, stats);
     }
   }
 }

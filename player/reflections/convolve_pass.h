@@ -2,7 +2,7 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/passes/targets.h"
+#include "player/reflections/image_target.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 

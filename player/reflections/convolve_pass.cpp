@@ -1,4 +1,4 @@
-#include "player/passes/convolve_pass.h"
+#include "player/reflections/convolve_pass.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/passes/targets.h"
+#include "player/reflections/image_target.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 
@@ -24,8 +24,5 @@ class ReprojectPass {
   gpu::VertexArray no_vertices_;
   float point_max_ = 1;
 };
-
-// The eye of a view in a reflector's space: a point (w = 1), or the direction to it (w = 0).
-Vec4 eye_in_reflector(const GpuReflector& reflector, const View& view);
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-#include "player/passes/fill_pass.h"
+#include "player/reflections/fill_pass.h"
 
 #include <algorithm>
 #include <bit>

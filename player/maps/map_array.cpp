@@ -1,0 +1,40 @@
+#include "player/maps/map_array.h"
+
+namespace oriel {
+
+MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices) {
+  Relief largest;
+  for (const std::uint32_t index : indices) {
+    const RadianceMap& map = maps[index];
+    largest.size = glm::max(largest.size, IVec2(static_cast<int>(map.width), static_cast<int>(map.height)));
+  }
+  const IVec2 size = largest.size, range_size = largest.range_size(1);
+  const int layers = static_cast<int>(indices.size());
+  MapArray out;
+  gpu::TextureOptions filtered;
+  filtered.min_filter = filtered.mag_filter = GL_LINEAR;
+  out.disparity = gpu::TextureArray(gpu::kR32f, size.x, size.y, layers, filtered);
+  filtered.levels = gpu::mip_levels(size.x, size.y);
+  filtered.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  out.light = gpu::TextureArray(gpu::kRgb9e5, size.x, size.y, layers, filtered);
+  out.ranges = gpu::TextureArray(gpu::kRg32f, range_size.x, 2 * range_size.y, layers);
+  for (int layer = 0; layer < layers; ++layer) {
+    const RadianceMap& map = maps[indices[static_cast<std::size_t>(layer)]];
+    const Relief relief = make_relief(map);
+    out.disparity.upload(0, layer, 0, relief.size.x, relief.size.y, relief.disparity.data());
+    for (int level = 1; level <= kRangeLevels; ++level) {
+      const IVec2 cells = relief.range_size(level);
+      const int row = 2 * range_size.y - (4 * range_size.y >> level);
+      out.ranges.upload(0, layer, row, cells.x, cells.y, relief.ranges[static_cast<std::size_t>(level - 1)].data());
+    }
+    const LightLevels levels = make_light_levels(map);
+    for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level) {
+      const int w = std::max(relief.size.x >> level, 1), h = std::max(relief.size.y >> level, 1);
+      out.light.upload(static_cast<int>(level), layer, 0, w, h, levels.rgb9e5[level].data());
+    }
+    out.scale.push_back(levels.scale);
+  }
+  return out;
+}
+
+}  // namespace oriel

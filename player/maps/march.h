@@ -1,0 +1,51 @@
+// Marching a reflected ray through a radiance map: the same maths as shaders/lib/march.glsl.
+//
+// The ray leaves the plane at s = 1 and goes to infinity at s = 0. Seen from the map's eye it runs over a straight line
+// of pixels, and its disparity falls evenly along it: the map is a height field that the ray falls onto (as in relief
+// mapping, Policarpo et al. 2005), and the ray's pixels are as many as the eye and the map's viewpoint differ by.
+// Ranges of disparity over squares of 2^level pixels let it skip what it cannot meet.
+#pragma once
+
+#include <algorithm>
+
+#include "player/maps/relief.h"
+
+namespace oriel {
+
+// Neighbouring pixels whose disparities differ by more than this share, and by more than the surface goes on to fall or
+// rise, lie on different surfaces: a ray does not hit the gap between them, it passes behind the nearer one.
+inline constexpr float kConnected = 0.05f;
+// Unless it was no farther behind the nearer one than this share before the gap.
+inline constexpr float kTouching = 0.01f;
+inline constexpr int kMaxMarchSteps = 96;
+
+// The part of a ray inside a map's frame: from a pixel position over `length` pixels (the longer of x and y) along
+// `direction`, while the disparity falls from s_begin to s_end by `fall` a pixel. length < 0: none of it. hidden:
+// pixels that it runs outside before.
+struct MapRay {
+  Vec2 from{0}, direction{0};
+  float length = -1, s_begin = 1, s_end = 0, fall = 0, hidden = 0;
+
+  float disparity(float at) const { return s_end + (length - at) * fall; }
+};
+
+// The ray from a point of the plane along `direction`, direction.z > 0, for a map with that eye (z < 0), element and
+// size in pixels. Reflector space.
+MapRay map_ray(const Vec3& eye, const Vec2& lower, const Vec2& upper, const IVec2& size, const Vec2& on_plane,
+               const Vec3& direction);
+
+// Where the ray meets a surface: pixel position, disparity, and trust in (0, 1], which falls with the pixels that the
+// ray was hidden from the map before. trust 0: the map does not see it.
+struct MapHit {
+  Vec2 at{0};
+  float s = 0, trust = 0;
+};
+MapHit march(const Relief& relief, const MapRay& ray);
+
+// 1 / distance along the ray from the mirrored eye to a hit; 0 at infinity. to_plane: distance to where the ray leaves
+// the plane; pace: length of `direction`, whose z is `rise`.
+inline float inverse_distance(float s, float map_eye_z, float to_plane, float pace, float rise) {
+  return s * rise / (s * rise * to_plane - map_eye_z * (1 - s) * pace);
+}
+
+}  // namespace oriel

@@ -1,0 +1,101 @@
+#include "player/reflections/march_pass.h"
+
+#include <algorithm>
+
+#include "player/gpu/raster_state.h"
+#include "player/reflections/reflected_view.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kMaps = 8;  // as in march.frag: maps of an element that can be asked
+
+struct PlaneRect {
+  Vec2 from{0}, to{0};
+};
+
+// What an element's maps serve: itself, and where it borders on the reflector's edge all of the plane beyond, which the
+// kernel reaches.
+PlaneRect served_by(const ReflectorElement& element, const Reflector& reflector, float beyond) {
+  const float eps = 1e-4f * glm::length(reflector.upper - reflector.lower);
+  PlaneRect rect{element.lower, element.upper};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (element.lower[axis] <= reflector.lower[axis] + eps) rect.from[axis] -= beyond;
+    if (element.upper[axis] >= reflector.upper[axis] - eps) rect.to[axis] += beyond;
+  }
+  return rect;
+}
+
+}  // namespace
+
+Result<MarchPass> MarchPass::create(gpu::Dialect dialect) {
+  MarchPass pass;
+  ORIEL_TRY(pass.program_, gpu::Program::create("march", dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
+  return pass;
+}
+
+void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                     const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
+  clear_image(target, rect);
+  gpu::apply({});
+  const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
+  program_.use();
+  const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
+  program_.set("u_clip_from_reflector", image_from_reflector);
+  program_.set("u_mirrored_eye", reflected.mirrored_eye);
+  program_.set("u_depth_row", -glm::transpose(reflected.view_from_reflector)[2]);
+  program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program_.set("u_pixel", 2 * view.tangents.y / static_cast<float>(view.height) / rect.scale);
+  program_.set("u_closest", kClosest);
+  program_.set("u_light", 0);
+  program_.set("u_disparity", 1);
+  program_.set("u_ranges", 2);
+  glBindVertexArray(no_vertices_.name());
+  const Reflector& shape = scene.pack().reflectors[reflector.index];
+  const float beyond = 4 * (reflector.size + std::fabs(reflected.mirrored_eye.z));
+  for (const ReflectorElement& element : reflector.elements) {
+    const PlaneRect served = served_by(element, shape, beyond);
+    const std::array<Vec3, 4> corners{Vec3(served.from, 0), Vec3(served.to.x, served.from.y, 0), Vec3(served.to, 0),
+                                      Vec3(served.from.x, served.to.y, 0)};
+    if (project_polygon(image_from_reflector, corners).empty) continue;
+    program_.set("u_from", served.from);
+    program_.set("u_to", served.to);
+    program_.set("u_lower", element.lower);
+    program_.set("u_upper", element.upper);
+    choose_maps(scene, element, reflected.mirrored_eye, options, stats);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    ++stats.draws;
+  }
+}
+
+void MarchPass::choose_maps(GpuScene& scene, const ReflectorElement& element, const Vec4& mirrored_eye,
+                            const FrameOptions& options, FrameStats& stats) const {
+  const std::vector<RadianceMap>& maps = scene.pack().radiance_maps;
+  std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element, options.selection);
+  // Where not all can be asked, residual ones come before the worst of the others.
+  const auto residual = std::find_if(chosen.begin(), chosen.end(),
+                                     [&](const WeighedMap& m) { return maps[element.maps[m.map]].residual; });
+  const auto excess = static_cast<std::ptrdiff_t>(chosen.size()) - static_cast<std::ptrdiff_t>(kMaps);
+  if (excess > 0) chosen.erase(residual - std::min(excess, residual - chosen.begin()), residual);
+  chosen.resize(std::min(chosen.size(), kMaps));
+
+  const MapArray& array = scene.map_array(element);
+  array.light.bind(0);
+  array.disparity.bind(1);
+  array.ranges.bind(2);
+  std::vector<Vec4> eyes, sizes;
+  for (const WeighedMap& m : chosen) {
+    const RadianceMap& map = maps[element.maps[m.map]];
+    eyes.emplace_back(map.eye, m.weight);
+    sizes.emplace_back(map.width, map.height, m.map, array.scale[m.map]);
+  }
+  program_.set("u_eyes", eyes);
+  program_.set("u_maps", sizes);
+  program_.set("u_count", static_cast<int>(chosen.size()));
+  program_.set("u_blended", options.maps_per_element);
+  stats.maps +=
+      std::min(static_cast<std::uint32_t>(chosen.size()), static_cast<std::uint32_t>(options.maps_per_element));
+}
+
+}  // namespace oriel

@@ -1,0 +1,143 @@
+// Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as player/maps/march.h, which tells
+// what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
+
+const float kConnected = 0.05;
+const float kTouching = 0.01;
+const int kRangeLevels = 6;
+const int kMaxSteps = 96;
+
+// The part of a ray inside a map's frame: from a pixel position over `length` pixels along `direction`, while the disparity falls
+// from s_begin to s_end by `fall` a pixel. length < 0: none of it. hidden: pixels that it runs outside before.
+struct MapRay {
+  vec2 from;
+  vec2 direction;
+  float length;
+  float s_begin;
+  float s_end;
+  float fall;
+  float hidden;
+};
+
+MapRay map_ray(vec3 eye, vec2 lower, vec2 upper, vec2 size, vec2 on_plane, vec3 direction) {
+  vec2 to_pixels = size / (upper - lower);
+  vec2 start = (on_plane - lower) * to_pixels;
+  vec2 way = (eye.xy - eye.z * direction.xy / direction.z - lower) * to_pixels - start;  // to where it goes at infinity
+  vec2 safe = vec2(abs(way.x) < 1e-12 ? 1e-12 : way.x, abs(way.y) < 1e-12 ? 1e-12 : way.y);
+  vec2 a = -start / safe, b = (size - start) / safe;
+  vec2 first = min(a, b), last = max(a, b);
+  float enter = max(max(first.x, first.y), 0.0), leave = min(min(last.x, last.y), 1.0);
+  MapRay ray = MapRay(vec2(0.0), vec2(0.0), -1.0, 1.0, 0.0, 0.0, 0.0);
+  if (!(enter <= leave)) return ray;
+  vec2 inside = (leave - enter) * way;
+  ray.length = max(max(abs(inside.x), abs(inside.y)), 1e-3);
+  ray.from = start + enter * way;
+  ray.direction = inside / ray.length;
+  ray.s_begin = 1.0 - enter;
+  ray.s_end = 1.0 - leave;
+  ray.fall = (leave - enter) / ray.length;
+  ray.hidden = enter * max(abs(way.x), abs(way.y));
+  return ray;
+}
+
+float ray_disparity(MapRay ray, float at) { return ray.s_end + (ray.length - at) * ray.fall; }
+
+ivec2 map_texel(MapRay ray, float at, ivec2 size) {
+  return clamp(ivec2(floor(ray.from + at * ray.direction)), ivec2(0), size - 1);
+}
+
+// Where the ray meets a surface: pixel position, disparity, and trust in (0, 1]; trust 0: the map does not see it.
+struct MapHit {
+  vec2 at;
+  float s;
+  float trust;
+};
+
+// Disparity over the surface around a texel of it, bilinear.
+float surface_disparity(sampler2DArray disparity, int layer, ivec2 size, vec2 at, float surface) {
+  vec2 inside = clamp(at, vec2(0.5), vec2(size) - 0.5) / vec2(textureSize(disparity, 0).xy);
+  float s = textureLod(disparity, vec3(inside, float(layer)), 0.0).r;
+  return clamp(s, surface / (1.0 + kConnected), surface * (1.0 + kConnected));
+}
+
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
+  float last = texelFetch(disparity, ivec3(map_texel(ray, begin, size), layer), 0).r;
+  float after = texelFetch(disparity, ivec3(map_texel(ray, min(end + 1.0, ray.length), size), layer), 0).r;
+  return surface <= 1.0 && abs(surface - last) <= max(kConnected * surface, 2.0 * abs(after - surface));
+}
+
+// The crossing in [begin, end], found by false position.
+float refine_crossing(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
+  float above = ray_disparity(ray, begin) -
+      surface_disparity(disparity, layer, size, ray.from + begin * ray.direction, surface);
+  float below = ray_disparity(ray, end) - surface_disparity(disparity, layer, size, ray.from + end * ray.direction, surface);
+  for (int i = 0; i < 2; ++i) {
+    if (above <= 0.0) return begin;
+    if (below >= 0.0) return end;
+    float middle = mix(begin, end, above / (above - below));
+    float left = ray_disparity(ray, middle) -
+        surface_disparity(disparity, layer, size, ray.from + middle * ray.direction, surface);
+    if (left > 0.0) {
+      begin = middle;
+      above = left;
+    } else {
+      end = middle;
+      below = left;
+    }
+  }
+  return above - below > 0.0 ? mix(begin, end, clamp(above / (above - below), 0.0, 1.0)) : begin;
+}
+
+MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 size, MapRay ray) {
+  MapHit miss = MapHit(vec2(0.0), 0.0, 0.0);
+  if (ray.length < 0.0) return miss;
+  float at = 0.0, s = ray.s_begin, hidden = ray.hidden, surface = -1.0;
+  bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kTouching);
+  int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
+  int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
+  bool hit = false;
+  for (int step = 0; step < kMaxSteps && at < ray.length; ++step) {
+    float next = min(at + float(1 << level), ray.length);
+    float s_next = ray_disparity(ray, next);
+    if (level > 0) {
+      ivec2 cell = map_texel(ray, 0.5 * (at + next), size) >> level;
+      cell.y += level_rows - (2 * level_rows >> level);
+      vec2 range = texelFetch(ranges, ivec3(cell, layer), 0).rg;
+      if (before ? range.y < s_next : range.x > s) {
+        hidden += before ? 0.0 : next - at;
+        at = next;
+        s = s_next;
+        level = min(level + 1, kRangeLevels);
+      } else {
+        if (before && range.y < s) {
+          at = clamp((ray.s_end - range.y) / ray.fall + ray.length, at, max(at, next - 0.5));
+          s = ray_disparity(ray, at);
+        }
+        --level;
+      }
+      continue;
+    }
+    surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
+    if (before && surface >= s_next) {
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface);
+      if (hit) break;
+      before = false;
+    } else if (!before) {
+      hidden += next - at;
+      before = surface < s_next;
+    }
+    at = next;
+    s = s_next;
+    level = 1;
+  }
+  if (!hit) return miss;
+  float crossing =
+      refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(at + 1.5, ray.length), surface);
+  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + hidden));
+}
+
+// 1 / distance along the ray from the mirrored eye to a hit. to_plane: distance to where the ray leaves the plane; pace: length
+// of `direction`, whose z is `rise`.
+float inverse_distance(float s, float map_eye_z, float to_plane, float pace, float rise) {
+  return s * rise / (s * rise * to_plane - map_eye_z * (1.0 - s) * pace);
+}

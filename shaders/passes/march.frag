@@ -1,0 +1,71 @@
+// M by marching each pixel's reflected ray through the radiance maps of its element: the best ones blended, the others asked only
+// where those see nothing.
+#include "lib/march.glsl"
+
+const int kMaps = 8;
+const float kEnough = 0.005;      // trust times weight after which no further map is asked
+const float kLeastWeight = 0.01;  // of a map whose own weight is 0
+const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
+
+uniform sampler2DArray u_light;      // of the maps, over u_maps[].w
+uniform sampler2DArray u_disparity;
+uniform sampler2DArray u_ranges;
+uniform int u_count;
+uniform int u_blended;       // so many are asked in any case
+uniform vec4 u_eyes[kMaps];  // reflector space; w: weight
+uniform vec4 u_maps[kMaps];  // width, height, layer, scale of light
+uniform vec2 u_lower;        // the element
+uniform vec2 u_upper;
+uniform vec4 u_mirrored_eye;  // reflector space; w = 0: the direction to it
+uniform vec4 u_depth_row;     // view-space -z of a point of reflector space = dot(row, point)
+uniform float u_ortho;        // 1: distances run along the view direction
+uniform float u_pixel;        // tangent of an image pixel, or its metres
+uniform float u_closest;      // 1 / distance is never stored smaller: marks the sky as seen
+
+in vec2 v_on_plane;
+layout(location = 0) out vec4 o_light;
+
+vec3 light_of_hit(MapHit hit, vec4 map, vec3 eye, float inverse) {
+  vec2 at = clamp(hit.at, vec2(0.5), map.xy - 0.5) / vec2(textureSize(u_light, 0).xy);
+  // Pixels of the map under one of the image.
+  float footprint = u_pixel * (u_ortho > 0.5 ? 1.0 : 1.0 / inverse);
+  vec2 pixel = (u_upper - u_lower) / map.xy;
+  float level = log2(max(footprint * hit.s / max(pixel.x, pixel.y), 1e-6));
+  return textureLod(u_light, vec3(at, map.z), max(level, 0.0)).rgb * map.w;
+}
+
+void main() {
+  o_light = vec4(0.0);
+  vec3 on_plane = vec3(v_on_plane, 0.0);
+  vec3 direction = on_plane * u_mirrored_eye.w - u_mirrored_eye.xyz;
+  if (!(direction.z > 0.0)) return;
+  float pace = length(direction);
+  float to_plane = u_ortho > 0.5 ? dot(u_depth_row, vec4(on_plane, 1.0)) : pace;
+
+  // Beyond the reflector's edges, where only blurring looks, the best map must do.
+  bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
+  int count = inside ? u_count : min(u_count, 1);
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int i = 0; i < count; ++i) {
+    if (i >= u_blended && total > kEnough) break;
+    vec4 map = u_maps[i];
+    vec3 eye = u_eyes[i].xyz;
+    MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, v_on_plane, direction);
+    MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
+    if (hit.trust <= 0.0) continue;
+    float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
+    vec4 light = vec4(light_of_hit(hit, map, eye, inverse), inverse);
+    // Maps that do not agree about the distance do not mix: the weightier ones win.
+    float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
+    if (total > 0.0) {
+      float mean = sum.a / total;
+      float agreement = exp2(-pow(abs(inverse - mean) / (kSameDepth * max(inverse, mean)), 2.0));
+      float vote = (weight + total * agreement) / (total + weight * agreement);
+      weight *= vote * vote;
+    }
+    sum += weight * light;
+    total += weight;
+  }
+  if (total > 0.0) o_light = sum / total;
+}
