@@ -94,6 +94,14 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(selections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
+  const std::map<std::string, Blur> blurs{
+      {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
+  app.add_option("--blur", out.frame.blur,
+                 "K's width in the image: by the distance of what is reflected, one for all distances as Bastos et al. "
+                 "published it (of the reflector's mean one), or as sharp as a mirror")
+      ->transform(CLI::CheckedTransformer(blurs).description(""))
+      ->type_name("distance|constant|off")
+      ->default_str("distance");
   const std::map<std::string, KernelPlace> places{{"lobe", KernelPlace::kLobe}, {"centred", KernelPlace::kCentred}};
   app.add_option("--kernel", out.frame.kernel,
                  "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as "

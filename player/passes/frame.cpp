@@ -118,10 +118,10 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
   const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
-  const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
+  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
+  const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
   clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
-  const bool blurs = kernel.blurs() && options.show != Show::kM;
   if (options.count_holes && candidate.value > 0) {
     const HoleCount count = count_holes(*frame_, candidate.value, *image_, rect);
     stats.reflected_pixels += count.pixels;
@@ -129,8 +129,9 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   }
   clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
   if (blurs) {
-    clock_.time(Pass::kConvolve,
-                [&] { convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats); });
+    clock_.time(Pass::kConvolve, [&] {
+      convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
+    });
   }
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);

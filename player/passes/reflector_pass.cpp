@@ -1,5 +1,7 @@
 #include "player/passes/reflector_pass.h"
 
+#include <algorithm>
+
 #include "player/gpu/raster_state.h"
 #include "player/passes/scene_pass.h"
 
@@ -79,8 +81,41 @@ void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, c
                                                          : static_cast<int>(fresnel->table.size()));
   compose_.set("u_sphere_map", sphere ? 1 : 0);
   compose_.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
+  set_emitters(scene, reflector, options);
   scene.bind_geometry();
   draw_reflector(reflector, stats);
+}
+
+// Those that the reflector's maps leave out. M shows a mirror's world, in which a glossy lobe has no place.
+void ReflectorPass::set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const {
+  const Pack& pack = scene.pack();
+  const Reflector& shape = pack.reflectors[reflector.index];
+  const GpuKernel& kernel = scene.kernel(pack.materials[reflector.material].kernel, options.kernel);
+  const bool shown = !shape.emitters.empty() && kernel.fits && options.show != Show::kM;
+  compose_.set("u_emitter_count", shown ? static_cast<int>(shape.emitters.size()) : 0);
+  if (!shown) return;
+  std::vector<Vec4> corners;
+  std::vector<Vec3> light;
+  for (const std::uint32_t index : shape.emitters) {
+    const Emitter& emitter = pack.emitters[index];
+    const auto count = static_cast<float>(emitter.corners.size());
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& corner = emitter.corners[std::min(i, emitter.corners.size() - 1)];
+      corners.emplace_back(Vec3(reflector.reflector_from_pack * Vec4(corner, 1)), emitter.two_sided ? -count : count);
+    }
+    light.push_back(emitter.radiance);
+  }
+  compose_.set("u_emitter_corners", corners);
+  compose_.set("u_emitter_light", light);
+  compose_.set("u_visibility", 2);
+  compose_.set("u_lobes", 3);
+  reflector.visibility.bind(2);
+  kernel.fits.bind(3);
+  compose_.set("u_visibility_nodes", IVec2(static_cast<int>(shape.visibility_x), static_cast<int>(shape.visibility_y)));
+  compose_.set("u_lower", shape.lower);
+  compose_.set("u_upper", shape.upper);
+  compose_.set("u_lobe_rows", kernel.fits.width());
+  compose_.set("u_reflector_from_pack", reflector.reflector_from_pack);
 }
 
 }  // namespace oriel

@@ -22,6 +22,7 @@ class ReflectorPass {
                   const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
 
  private:
+  void set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
   gpu::Program mask_, compose_;
 };
 

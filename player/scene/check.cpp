@@ -1,5 +1,7 @@
 #include "player/scene/check.h"
 
+#include "player/maps/map_choice.h"
+
 namespace oriel {
 namespace {
 
@@ -106,6 +108,9 @@ Status check_materials(const Pack& pack) {
     if (k.size == 0 || k.weights.size() != std::uint64_t{k.size} * k.size) {
       return invalid(fmt::format("kernel {}", i), "found {} weights, expected {} squared", k.weights.size(), k.size);
     }
+    if (!k.fits.empty() && k.fits.size() != k.slices.size()) {
+      return invalid(fmt::format("kernel {}", i), "found {} fits, expected {}", k.fits.size(), k.slices.size());
+    }
   }
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
     const FresnelMap& f = pack.fresnel_maps[i];
@@ -118,7 +123,25 @@ Status check_materials(const Pack& pack) {
   return {};
 }
 
-Status check_reflectors(const Pack& pack) {
+Status check_emitters(const Pack& pack, const Reflector& r, const std::string& where, const gpu::Device& device) {
+  if (r.emitters.empty()) return {};
+  if (r.emitters.size() > kMaxReflectorEmitters || r.visibility_x < 2 || r.visibility_y < 2) {
+    return invalid(where, "found {} emitters seen from {}x{} nodes, expected at most {} and at least 2x2 nodes",
+                   r.emitters.size(), r.visibility_x, r.visibility_y, kMaxReflectorEmitters);
+  }
+  ORIEL_TRY_VOID(check_size(where, r.visibility_x, r.visibility_y * static_cast<std::uint32_t>(r.emitters.size()),
+                            r.visibility.size(), 1, device));
+  for (const std::uint32_t emitter : r.emitters) {
+    if (emitter >= pack.emitters.size()) {
+      return invalid(where, "found emitter {}, expected less than {}", emitter, pack.emitters.size());
+    }
+    const std::size_t corners = pack.emitters[emitter].corners.size();
+    if (corners < 3 || corners > 4) return invalid(where, "found an emitter of {} corners, expected 3 or 4", corners);
+  }
+  return {};
+}
+
+Status check_reflectors(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const Reflector& r = pack.reflectors[i];
     const std::string where = fmt::format("reflector {} '{}'", i, r.name);
@@ -129,6 +152,13 @@ Status check_reflectors(const Pack& pack) {
       return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count,
                      pack.radiance_maps.size());
     }
+    for (const ReflectorElement& element : group_by_element(r, pack.radiance_maps)) {
+      if (element.maps.size() > static_cast<std::size_t>(device.array_layers)) {
+        return fail(ErrorCode::kRuntime, where, "found {} maps of one element, expected at most {} ({})",
+                    element.maps.size(), device.array_layers, device.renderer);
+      }
+    }
+    ORIEL_TRY_VOID(check_emitters(pack, r, where, device));
     if (r.indices.size() % 3 != 0) return invalid(where, "found {} indices, expected triangles", r.indices.size());
     for (const std::uint32_t index : r.indices) {
       if (index >= pack.mesh.positions.size()) {
@@ -145,7 +175,7 @@ Status check_drawable(const Pack& pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_mesh(pack));
   ORIEL_TRY_VOID(check_materials(pack));
   ORIEL_TRY_VOID(check_images(pack, device));
-  return check_reflectors(pack);
+  return check_reflectors(pack, device);
 }
 
 }  // namespace oriel

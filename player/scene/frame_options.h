@@ -15,6 +15,8 @@ enum class Show { kAll, kM, kMK, kMKR, kD };
 // How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
 // mirrored scene; or not at all.
 enum class Reflections { kMarch, kPoints, kGeometry, kOff };
+// How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
+enum class Blur { kDistance, kConstant, kOff };
 enum class Reflectance { kTable, kSphereMap };
 
 struct FrameOptions {
@@ -22,6 +24,7 @@ struct FrameOptions {
   Reflections reflections = Reflections::kMarch;
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
+  Blur blur = Blur::kDistance;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them

@@ -33,14 +33,17 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
-  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+  Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
+  float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
+  gpu::Texture visibility;  // of Reflector::emitters: their grids, one above the other
 };
 
-// K as a shader reads it.
+// K as shaders read it.
 struct GpuKernel {
   gpu::Texture taps;
   int count = 1, rows = 1;  // as KernelTaps
   float median = 0;
+  gpu::Texture fits;  // LobeFit by incidence, a texel a row of the taps; none where the kernel has no fits
   bool blurs() const { return count > 1; }
 };
 

@@ -88,6 +88,22 @@ gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
   return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
 }
 
+gpu::Texture upload_lobe_fits(const BrdfKernel& kernel, int rows) {
+  std::vector<Vec4> texels;
+  for (int i = 0; i < rows; ++i) {
+    const double root = i / (rows - 1.0);
+    const SlicePosition at = find_slice(kernel, root * root);
+    const LobeFit &a = kernel.fits[at.below], &b = kernel.fits[at.above];
+    texels.push_back(glm::mix(Vec4(a.m11, a.m13, a.m22, a.m31), Vec4(b.m11, b.m13, b.m22, b.m31), at.share));
+  }
+  return {gpu::kRgba32f, rows, 1, texels.data()};
+}
+
+gpu::Texture upload_visibility(const Reflector& reflector) {
+  return {gpu::kR8, static_cast<int>(reflector.visibility_x),
+          static_cast<int>(reflector.visibility_y * reflector.emitters.size()), reflector.visibility.data()};
+}
+
 gpu::Texture upload_sphere_map(const FresnelMap& map) {
   std::vector<Vec4> texels;
   for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);
