@@ -16,6 +16,7 @@ struct PlayedFrame {
   FloatImage total, diffuse, specular;  // specular: (M * K) R where a reflector shows its image
   std::vector<std::uint8_t> mirrors;    // by pixel: 1 where all of it shows an image that is not blurred,
   std::vector<std::uint8_t> glossy;     // and one that is
+  double holes = 0;                     // share of the reflected images' pixels that were filled from beside
 };
 
 // Over the whole frame, or over the pixels that show reflected images.
@@ -31,6 +32,7 @@ struct RegionComparison {
 struct Comparison {
   std::uint32_t width = 0, height = 0;
   float white = 1;                        // cd/m² shown as white in both
+  double holes = 0;                       // as PlayedFrame
   std::vector<RegionComparison> regions;  // the frame first; regions without pixels are left out
   FloatImage picture;                     // reference, frame, FLIP (white is 1), side by side, sRGB in [0, 1]
 };

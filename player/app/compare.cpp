@@ -33,7 +33,12 @@ class Stages {
   Result<PlayedFrame> draw() {
     PlayedFrame frame;
     ORIEL_TRY(frame.diffuse, draw_stage(Show::kD));
+    options_.count_holes = true;
     ORIEL_TRY(frame.specular, draw_stage(Show::kMKR));
+    frame.holes = stats_.reflected_pixels > 0
+                      ? static_cast<double>(stats_.holes) / static_cast<double>(stats_.reflected_pixels)
+                      : 0;
+    options_.count_holes = false;
     ORIEL_TRY(frame.total, draw_stage(Show::kAll));
     const std::vector<std::int32_t> reflectors = renderer_.read_reflectors();
     frame.mirrors = region(reflectors, false);
@@ -44,7 +49,7 @@ class Stages {
  private:
   Result<FloatImage> draw_stage(Show show) {
     options_.show = show;
-    ORIEL_TRY_VOID(renderer_.render(scene_, view_, options_));
+    ORIEL_TRY(stats_, renderer_.render(scene_, view_, options_));
     const auto width = static_cast<std::uint32_t>(view_.width), height = static_cast<std::uint32_t>(view_.height);
     return shrink(FloatImage{width, height, 3, renderer_.read_light()}, n_);
   }
@@ -72,6 +77,7 @@ class Stages {
   Renderer& renderer_;
   const View& view_;
   FrameOptions options_;
+  FrameStats stats_;  // of the last stage
   std::uint32_t n_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "player/gpu/raster_state.h"
 #include "player/passes/geometry_pass.h"
+#include "player/passes/holes.h"
 #include "player/reflections/reflected_view.h"
 
 namespace oriel {
@@ -121,6 +122,11 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
   clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
+  if (options.count_holes && candidate.value > 0) {
+    const HoleCount count = count_holes(*frame_, candidate.value, *image_, rect);
+    stats.reflected_pixels += count.pixels;
+    stats.holes += count.holes;
+  }
   clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
   if (blurs) {
     clock_.time(Pass::kConvolve, [&] {

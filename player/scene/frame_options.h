@@ -29,7 +29,9 @@ struct FrameOptions {
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   bool timed = false;   // each pass, which costs a little itself
-  float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  // Fills FrameStats::reflected_pixels and holes: reads images back, which is slow.
+  bool count_holes = false;
+  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
 enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kScene, kTransparent };
@@ -44,7 +46,9 @@ struct FrameStats {
   std::uint32_t maps = 0;        // radiance maps chosen
   std::uint64_t points = 0;      // of them
   std::uint64_t map_bytes = 0;   // of all radiance maps on the device so far
-  PassTimes ms{};                // by pass, where asked for
+  // Of opaque reflectors, where they are counted.
+  std::uint64_t reflected_pixels = 0, holes = 0;
+  PassTimes ms{};  // by pass, where asked for
 };
 
 }  // namespace oriel

@@ -30,7 +30,7 @@ LayeredImage reference() {
 
 // The right half is a mirror.
 PlayedFrame played() {
-  PlayedFrame frame{plain(6), plain(4), plain(2), {}, {}};
+  PlayedFrame frame{plain(6), plain(4), plain(2), {}, {}, 0.25};
   for (std::size_t i = 0; i < std::size_t{kWidth} * kHeight; ++i) frame.mirrors.push_back(i % kWidth >= kWidth / 2);
   frame.glossy.resize(frame.mirrors.size());
   return frame;
@@ -67,6 +67,8 @@ TEST(Comparison, TellsComponentsAndRegionsApart) {
   EXPECT_GT(c.regions[2].flip, c.regions[0].flip);
   const auto json = nlohmann::json::parse(comparison_json(c));
   EXPECT_NEAR(json["regions"]["mirrors"]["S"]["relRMSE"], 0.5 / dark, 1e-6);
+  EXPECT_EQ(json["holes"], 0.25);
+  EXPECT_NE(comparison_text(c).find("25.000 %"), std::string::npos);
   EXPECT_NE(comparison_text(c).find("mirrors"), std::string::npos);
 }
 
