@@ -10,12 +10,6 @@
 namespace oriel {
 namespace {
 
-struct Pixel {
-  Vec3 radiance{0};
-  float disparity = 0;
-  std::uint8_t valid = 0;
-};
-
 float finite_or_zero(float x) {
   return std::isfinite(x) && x > 0 ? x : 0.0f;
 }
@@ -23,45 +17,24 @@ Vec3 finite_or_zero(const Vec3& c) {
   return {finite_or_zero(c.r), finite_or_zero(c.g), finite_or_zero(c.b)};
 }
 
-class Capture {
- public:
-  Capture(const Surroundings& surroundings, const OutgoingRadiance& outgoing, const RadianceMap& map)
-      : surroundings_(surroundings), found_(surroundings.reflectors()[map.reflector]), outgoing_(outgoing), map_(map) {}
-
-  Pixel trace(std::uint32_t x, std::uint32_t y) {
-    const Vec3 q(map_point(map_, Vec2(x, y) + 0.5f), 0);
-    const Mat3 to_pack(found_.reflector.pack_from_reflector);
-    const Vec3 direction = glm::normalize(to_pack * glm::normalize(q - map_.eye)), normal = to_pack[2];
-    Pixel pixel;
-    const auto add = [&](SeenSurface surface) {
-      const auto& emitters = found_.emitters;
-      surface.emission = !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
-      pixel.radiance += surface.throughput * finite_or_zero(outgoing_(surface));
-      return true;
-    };
-    const Sight sight = surroundings_.look(map_.reflector, pack_from_reflector(found_.reflector, q), direction, add);
-    rays_ += sight.rays;
-    pixel.valid = sight.state;
-    if (sight.state == Sight::kNothing)
-      pixel.radiance = Vec3(0);
-    else if (sight.sky_direction != Vec3(0))
-      pixel.radiance +=
-          sight.sky_throughput * finite_or_zero(sky_radiance(surroundings_.accel().scene(), sight.sky_direction));
-    if (sight.state == Sight::kSurface || sight.back)
-      pixel.disparity = disparity_of(map_, std::max(0.0f, glm::dot(sight.offset, normal)));
-    return pixel;
-  }
-  std::uint64_t rays() const { return rays_; }
-
- private:
-  const Surroundings& surroundings_;
-  const FoundReflector& found_;
-  const OutgoingRadiance& outgoing_;
-  const RadianceMap& map_;
-  std::uint64_t rays_ = 0;
-};
-
 }  // namespace
+
+SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
+              const Vec3& from, const Vec3& direction) {
+  const auto& emitters = surroundings.reflectors()[reflector].emitters;
+  SeenLight seen;
+  const auto add = [&](SeenSurface surface) {
+    surface.emission = !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
+    seen.radiance += surface.throughput * finite_or_zero(outgoing(surface));
+    return true;
+  };
+  seen.sight = surroundings.look(reflector, from, direction, add);
+  if (seen.sight.sky_direction != Vec3(0))
+    seen.radiance += seen.sight.sky_throughput *
+                     finite_or_zero(sky_radiance(surroundings.accel().scene(), seen.sight.sky_direction));
+  seen.radiance = seen.sight.state == Sight::kNothing ? Vec3(0) : finite_or_zero(seen.radiance);
+  return seen;
+}
 
 Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
@@ -81,15 +54,23 @@ Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& ou
       [&](std::size_t i) {
         RadianceMap& map = maps[rows[i].x];
         const std::uint32_t y = rows[i].y;
-        Capture capture(surroundings, outgoing, map);
+        const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
+        const Mat3 to_pack(reflector.pack_from_reflector);
+        std::uint64_t row_rays = 0;
         for (std::uint32_t x = 0; x < map.width; ++x) {
-          const Pixel pixel = capture.trace(x, y);
+          const Vec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
+          const Vec3 direction = glm::normalize(to_pack * glm::normalize(q - map.eye));
+          const SeenLight seen =
+              see(surroundings, outgoing, map.reflector, pack_from_reflector(reflector, q), direction);
           const std::size_t at = std::size_t{y} * map.width + x;
-          map.radiance[at] = finite_or_zero(pixel.radiance);
-          map.disparity[at] = pixel.disparity;
-          map.valid[at] = pixel.valid;
+          map.radiance[at] = seen.radiance;
+          map.valid[at] = seen.sight.state;
+          map.disparity[at] = seen.sight.state == Sight::kSurface || seen.sight.back
+                                  ? disparity_of(map, std::max(0.0f, glm::dot(seen.sight.offset, to_pack[2])))
+                                  : 0;
+          row_rays += seen.sight.rays;
         }
-        if (rays) *rays += capture.rays();
+        if (rays) *rays += row_rays;
       },
       rays);
 }

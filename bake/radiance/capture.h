@@ -11,6 +11,15 @@ namespace oriel {
 // Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput. Called from any thread.
 using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 
+// What a ray from a reflector's plane sees (Surroundings::look), with its light: finite, not negative, 0 where nothing
+// usable is seen. The reflector's emitters do not shine.
+struct SeenLight {
+  Sight sight;
+  Vec3 radiance{0};  // cd/m²
+};
+SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
+              const Vec3& from, const Vec3& direction);
+
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): one ray through each pixel's
 // centre, so that colour and depth belong to the same point, as Surroundings::look has them: what transmitting surfaces
 // hide and show is weighted by their transmittance, and mirrors add what they reflect. The reflector's own triangles

@@ -4,6 +4,7 @@
 
 #include "bake/radiance/capture.h"
 #include "bake/radiance/emitters/emitters.h"
+#include "bake/radiance/plan/residual.h"
 #include "bake/run/baked_light.h"
 
 namespace oriel {
@@ -84,11 +85,13 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Acce
     ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
                                       report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
-  ORIEL_TRY_VOID(
-      judge(surroundings, plan.maps, sample_eyes(region, kHeldOutEyes, context.seed + 1), context, report.quality));
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, plan.maps, &rays));
   report.rays = rays;
+  if (options.view_scheme == ViewScheme::kPlanned)
+    ORIEL_TRY_VOID(add_residuals(surroundings, outgoing, eyes, {}, context, reflectors, plan.maps));
+  ORIEL_TRY_VOID(
+      judge(surroundings, plan.maps, sample_eyes(region, kHeldOutEyes, context.seed + 1), context, report.quality));
   pack.radiance_maps = std::move(plan.maps);
   pack.walk_grids = std::move(region.grids);
   for (FoundReflector& f : reflectors) {

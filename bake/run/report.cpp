@@ -60,7 +60,8 @@ Json reflectors_json(const BakeFacts& f) {
                    {"maps", r.map_count},
                    {"pixels", pixels},
                    {"seen", f.reflections.quality[i].seen},
-                   {"sharp", f.reflections.quality[i].sharp}});
+                   {"sharp", f.reflections.quality[i].sharp},
+                   {"seen_in_residual", f.reflections.quality[i].residual}});
   }
   return out;
 }

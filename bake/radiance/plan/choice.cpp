@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSeenCounts = 8;       // as much as sharp: a hole is worse than a blur
 constexpr double kLeastGain = 1e-4;     // of all weight: what is not worth a map
-constexpr double kCloseEnough = 0.005;  // in the share of sharp samples: fewer pixels are preferred
+constexpr double kCloseEnough = 0.005;  // in a share of samples: fewer pixels are preferred
 
 Choice choose_at(const NeedTable& table, const ChoiceOptions& options, std::uint32_t resolution) {
   const std::size_t n = table.weights.size();
@@ -51,14 +51,21 @@ double pixels(const Choice& choice) {
 }  // namespace
 
 Choice choose_views(const NeedTable& table, const ChoiceOptions& options) {
-  Choice best;
-  bool best_reaches = false;
+  std::vector<Choice> choices;
+  double most_seen = 0;
   for (const std::uint32_t resolution : options.resolutions) {
-    Choice choice = choose_at(table, options, resolution);
-    const bool reaches = choice.seen >= options.seen && choice.sharp >= options.sharp;
-    const bool better = best.picks.empty() || (best_reaches ? reaches && pixels(choice) < pixels(best)
-                                                            : reaches || choice.sharp > best.sharp + kCloseEnough);
-    if (better) best = std::move(choice), best_reaches = reaches;
+    choices.push_back(choose_at(table, options, resolution));
+    most_seen = std::max(most_seen, choices.back().seen);
+  }
+  // What no choice reaches must not make every resolution fail.
+  const double seen = std::min(options.seen, most_seen - kCloseEnough);
+  const auto reaches = [&](const Choice& c) { return c.seen >= seen && c.sharp >= options.sharp; };
+  Choice best;
+  for (Choice& choice : choices) {
+    const bool better =
+        best.picks.empty() || (reaches(best) ? reaches(choice) && pixels(choice) < pixels(best)
+                                             : reaches(choice) || choice.sharp > best.sharp + kCloseEnough);
+    if (better) best = std::move(choice);
   }
   return best;
 }

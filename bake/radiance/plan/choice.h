@@ -12,7 +12,7 @@ struct ChoiceOptions {
   std::uint32_t max_maps = 8;
   std::vector<std::uint32_t> resolutions{64, 128, 256, 512, 1024};  // rising: the longer side of a map
   // Where both are reached no more is added: a little over what is promised, for eyes that planning has not met.
-  double seen = 0.9985, sharp = 0.98;
+  double seen = 0.9995, sharp = 0.985;
 };
 
 // What each candidate would need to show each sample sharp: pixels of the longer side, infinite where it does not see

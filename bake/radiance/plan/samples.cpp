@@ -12,10 +12,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kRounds = 32;   // of as many pairs as samples are asked for
-constexpr float kSameDistance = 2e-3f;  // relative: two rays that meet the same point
-constexpr float kNearestEye = 0.1f;     // metres: closer eyes would outweigh all others
-constexpr float kFlattest = 1e-3f;      // cosine at which surfaces are seen edge-on
+constexpr std::uint32_t kRounds = 32;    // of as many pairs as samples are asked for
+constexpr float kSameDistance = 2e-3f;   // relative: two rays that meet the same point
+constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel beside it
+constexpr float kNearestEye = 0.1f;      // metres: closer eyes would outweigh all others
+constexpr float kFlattest = 1e-3f;       // cosine at which surfaces are seen edge-on
 
 bool depth_is_enough(const SeenSurface&) {
   return false;
@@ -48,6 +49,21 @@ class SurfacePoints {
   const FoundReflector& found_;
   std::vector<double> area_until_;
 };
+
+// Whether one of the four pixels around the sample's place holds it.
+bool shows_in_residual(const RadianceMap& map, const ReflectedSample& s) {
+  if (s.image.w == 0) return false;
+  const Vec2 pixel = map_pixel(map, Vec3(s.image)) - 0.5f;
+  const float disparity = disparity_of(map, s.image.z);
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
+    const Vec2 at = glm::floor(pixel) + corner;
+    if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(map.width) || at.y >= static_cast<float>(map.height))
+      continue;
+    const std::size_t i = static_cast<std::size_t>(at.y) * map.width + static_cast<std::size_t>(at.x);
+    if (map.valid[i] == 1 && std::abs(map.disparity[i] - disparity) <= kSameDisparity * disparity) return true;
+  }
+  return false;
+}
 
 bool shows_sky(const Scene& scene) {
   return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
@@ -149,25 +165,38 @@ float needed_resolution(const Surroundings& surroundings, std::uint32_t reflecto
   return widest * std::max(size.x, size.y) / s.spacing;
 }
 
+namespace {
+
+enum Shown : std::uint8_t { kNot, kInResidual, kSeen, kSharp };
+
+Shown shown_by(const Surroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
+  if (map.residual) return shows_in_residual(map, s) ? kInResidual : kNot;
+  const float needed = needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s);
+  if (!std::isfinite(needed)) return kNot;
+  return needed <= static_cast<float>(std::max(map.width, map.height)) ? kSharp : kSeen;
+}
+
+}  // namespace
+
 ViewQuality judge_maps(const Surroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context) {
-  std::vector<std::uint8_t> found(samples.size());  // 1: seen, 2: sharp
+  std::vector<Shown> found(samples.size(), kNot);
   const Status status = parallel_for(context, "", samples.size(), [&](std::size_t i) {
-    for (const RadianceMap& map : maps) {
-      if (map.residual || found[i] == 2) continue;
-      const float needed = needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, samples[i]);
-      if (std::isfinite(needed))
-        found[i] =
-            needed <= static_cast<float>(std::max(map.width, map.height)) ? 2 : std::max<std::uint8_t>(found[i], 1);
-    }
+    for (const RadianceMap& map : maps)
+      if (found[i] != kSharp) found[i] = std::max(found[i], shown_by(surroundings, map, samples[i]));
   });
-  double total = 0, seen = 0, sharp = 0;
+  ViewQuality quality;
+  double total = 0;
   for (std::size_t i = 0; i < samples.size() && status; ++i) {
-    total += samples[i].weight;
-    seen += found[i] > 0 ? samples[i].weight : 0;
-    sharp += found[i] > 1 ? samples[i].weight : 0;
+    const double weight = samples[i].weight;
+    total += weight;
+    quality.seen += found[i] >= kInResidual ? weight : 0;
+    quality.sharp += found[i] == kSharp ? weight : 0;
+    quality.residual += found[i] == kInResidual ? weight : 0;
   }
-  return total > 0 ? ViewQuality{seen / total, sharp / total} : ViewQuality{};
+  if (total > 0)
+    for (double* share : {&quality.seen, &quality.sharp, &quality.residual}) *share /= total;
+  return quality;
 }
 
 }  // namespace oriel

@@ -34,8 +34,10 @@ float needed_resolution(const Surroundings& surroundings, std::uint32_t reflecto
 
 // Shares of the samples' weight.
 struct ViewQuality {
-  double seen = 0, sharp = 0;  // by any of the maps
+  double seen = 0, sharp = 0;  // by any of the maps; seen in residual maps too
+  double residual = 0;         // seen in residual maps alone
 };
+// Residual maps are captured.
 ViewQuality judge_maps(const Surroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context);
 

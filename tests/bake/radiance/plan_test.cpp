@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "bake/radiance/plan/residual.h"
 #include "bake/radiance/reproject.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/radiance/mirror_room.h"
@@ -206,6 +207,56 @@ TEST(PlannedViews, KeepTheMemory) {
     EXPECT_LE(bytes, limit);
     EXPECT_EQ(planned.plan.maps.empty(), limit < 100);
     ASSERT_EQ(planned.plan.omitted.size(), 1u);
+  }
+}
+
+// One map cannot see behind the furniture; its residual shows what lies there, on the surfaces where it lies, and is
+// not made where nothing is missing.
+TEST(Residuals, ShowWhatNoMapSees) {
+  const MirrorRoom empty;
+  for (const MirrorRoom& room : {furnished(), empty}) {
+    const bool has_furniture = room.scene.triangles.size() > empty.scene.triangles.size();
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    PlannedViewOptions options;
+    options.choice.max_maps = 1;
+    const auto eyes = eyes_in_room(1000);
+    Planned planned = plan_in(*accel, room, eyes, options);
+    const std::vector<FoundReflector> as_planned = planned.reflectors;
+    const Surroundings surroundings(*accel, as_planned, {});
+    Context context;
+    std::vector<RadianceMap>& maps = planned.plan.maps;
+    ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, maps));
+    const auto held_out = eyes_in_room(60, 1000);
+    const ViewQuality before = judge(*accel, planned, maps, held_out);
+    ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes, {}, context, planned.reflectors, maps));
+    const ViewQuality after = judge(*accel, planned, maps, held_out);
+    EXPECT_EQ(maps.size(), has_furniture ? 2u : 1u);
+    EXPECT_EQ(planned.reflectors[0].reflector.map_count, maps.size());
+    if (!has_furniture) continue;
+    std::printf("one map: seen %.2f %%, with its residual %.2f %%\n", 100 * before.seen, 100 * after.seen);
+    EXPECT_NEAR(after.seen - before.seen, after.residual, 1e-9);
+    EXPECT_LT(1 - after.seen, 0.5 * (1 - before.seen));
+    const RadianceMap &map = maps[1], &host = maps[0];
+    EXPECT_TRUE(map.residual);
+    EXPECT_EQ(map.eye, host.eye);
+    const Reflector& r = planned.reflectors[0].reflector;
+    for (std::size_t i = 0; i < map.valid.size(); ++i) {
+      if (map.valid[i] == 0) continue;
+      const Vec4 h = unproject(map, Vec2(i % map.width, i / map.width) + 0.5f, map.disparity[i]);
+      const Vec3 p = pack_from_reflector(r, Vec3(h) / h.w);
+      // A step from the point along each axis meets a surface of the colour that the pixel has.
+      bool on_surface = false;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-0.01f, 0.01f}) {
+          Vec3 origin = p, direction(0);
+          origin[axis] += side;
+          direction[axis] = -std::copysign(1.0f, side);
+          const Hit hit = accel->intersect({origin, direction, 0.02f});
+          on_surface = on_surface || (hit && room.outgoing()({hit}) == map.radiance[i]);
+        }
+      ASSERT_TRUE(on_surface) << p.x << " " << p.y << " " << p.z;
+    }
   }
 }
 
