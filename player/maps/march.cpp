@@ -108,7 +108,8 @@ MapHit march(const Relief& relief, const MapRay& ray) {
   if (!hit) return {};
   const float crossing =
       refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
-  return {ray.from + crossing * ray.direction, ray.disparity(crossing), 1 / (1 + hidden)};
+  return {ray.from + crossing * ray.direction, ray.disparity(crossing),
+          1 / (1 + kDistrust * hidden / static_cast<float>(std::max(relief.size.x, relief.size.y)))};
 }
 
 }  // namespace oriel

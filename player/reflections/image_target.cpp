@@ -46,7 +46,7 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   options.levels = gpu::mip_levels(w, h);
   target.sharp = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
   options.mag_filter = GL_LINEAR;
-  options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  options.min_filter = GL_LINEAR_MIPMAP_NEAREST;  // dozens of taps a pixel need no blend of levels
   target.filled = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
   gpu::TextureOptions linear;
   linear.min_filter = linear.mag_filter = GL_LINEAR;

@@ -199,7 +199,7 @@ const GpuKernel& GpuScene::kernel(std::int32_t index, KernelPlace place) {
     const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
     const KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
     at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
-    if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel, taps.rows);
+    if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel);
   }
   return at->second;
 }

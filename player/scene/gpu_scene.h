@@ -43,7 +43,7 @@ struct GpuKernel {
   gpu::Texture taps;
   int count = 1, rows = 1;  // as KernelTaps
   float median = 0;
-  gpu::Texture fits;  // LobeFit by incidence, a texel a row of the taps; none where the kernel has no fits
+  gpu::Texture fits;  // LobeFit by incidence, as upload_lobe_fits; none where the kernel has no fits
   bool blurs() const { return count > 1; }
 };
 

@@ -88,15 +88,16 @@ gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
   return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
 }
 
-gpu::Texture upload_lobe_fits(const BrdfKernel& kernel, int rows) {
+gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
+  constexpr int kRows = 33;
   std::vector<Vec4> texels;
-  for (int i = 0; i < rows; ++i) {
-    const double root = i / (rows - 1.0);
+  for (int i = 0; i < kRows; ++i) {
+    const double root = i / (kRows - 1.0);
     const SlicePosition at = find_slice(kernel, root * root);
     const LobeFit &a = kernel.fits[at.below], &b = kernel.fits[at.above];
     texels.push_back(glm::mix(Vec4(a.m11, a.m13, a.m22, a.m31), Vec4(b.m11, b.m13, b.m22, b.m31), at.share));
   }
-  return {gpu::kRgba32f, rows, 1, texels.data()};
+  return {gpu::kRgba32f, kRows, 1, texels.data()};
 }
 
 gpu::Texture upload_visibility(const Reflector& reflector) {

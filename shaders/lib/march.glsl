@@ -1,8 +1,9 @@
 // Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as player/maps/march.h, which tells
 // what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
 
-const float kConnected = 0.05;
-const float kTouching = 0.01;
+const float kConnected = 0.1;
+const float kTouching = 0.003;
+const float kDistrust = 128.0;
 const int kRangeLevels = 6;
 const int kMaxSteps = 96;
 
@@ -133,7 +134,7 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   if (!hit) return miss;
   float crossing =
       refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(at + 1.5, ray.length), surface);
-  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + hidden));
+  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + kDistrust * hidden / float(max(size.x, size.y))));
 }
 
 // 1 / distance along the ray from the mirrored eye to a hit. to_plane: distance to where the ray leaves the plane; pace: length

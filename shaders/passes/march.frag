@@ -3,7 +3,7 @@
 #include "lib/march.glsl"
 
 const int kMaps = 8;
-const float kEnough = 0.005;      // trust times weight after which no further map is asked
+const float kEnough = 0.05;       // trust after which no further map is asked
 const float kLeastWeight = 0.01;  // of a map whose own weight is 0
 const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
 
@@ -46,9 +46,9 @@ void main() {
   bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
   int count = inside ? u_count : min(u_count, 1);
   vec4 sum = vec4(0.0);
-  float total = 0.0;
+  float total = 0.0, trust = 0.0;
   for (int i = 0; i < count; ++i) {
-    if (i >= u_blended && total > kEnough) break;
+    if (i >= u_blended && trust > kEnough) break;
     vec4 map = u_maps[i];
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, v_on_plane, direction);
@@ -66,6 +66,7 @@ void main() {
     }
     sum += weight * light;
     total += weight;
+    trust = max(trust, hit.trust);
   }
   if (total > 0.0) o_light = sum / total;
 }

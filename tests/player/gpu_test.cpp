@@ -20,8 +20,9 @@ namespace {
 using gpu::Dialect;
 
 constexpr const char* kPasses[] = {
-    "depth",       "mask",        "scene",           "transparent", "reproject",        "march",
-    "screen/pull", "screen/push", "screen/convolve", "compose",     "screen/luminance", "screen/tonemap"};
+    "depth",         "reflector/mask", "reflector/emitters", "scene",           "transparent",       "reproject",
+    "march",         "screen/pull",    "screen/push",        "screen/convolve", "reflector/compose", "screen/luminance",
+    "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

@@ -1,3 +1,4 @@
+// A vertex of a reflector.
 layout(location = 0) in vec3 a_position;
 uniform mat4 u_clip_from_pack;
 invariant gl_Position;
