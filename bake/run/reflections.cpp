@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bake/radiance/capture.h"
+#include "bake/radiance/emitters/emitters.h"
 #include "bake/run/baked_light.h"
 
 namespace oriel {
@@ -13,6 +14,14 @@ constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 60, kHeldOutSamples
 std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
   std::vector<ReflectorMaterial> out;
   for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
+  return out;
+}
+
+// Those whose kernel blurs: closed forms need its lobe.
+std::vector<bool> glossy_materials(const MaterialMaps& maps) {
+  std::vector<bool> out;
+  for (const std::int32_t kernel : maps.kernel)
+    out.push_back(kernel >= 0 && maps.kernels[static_cast<std::size_t>(kernel)].size > 1);
   return out;
 }
 
@@ -71,6 +80,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Acce
   const auto outgoing = [&](const SeenSurface& seen) {
     return baked_radiance(accel.scene(), atlas, pack.lightmaps, seen);
   };
+  if (options.with_material)
+    ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
+                                      report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
   ORIEL_TRY_VOID(
       judge(surroundings, plan.maps, sample_eyes(region, kHeldOutEyes, context.seed + 1), context, report.quality));

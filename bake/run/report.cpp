@@ -67,9 +67,7 @@ Json reflectors_json(const BakeFacts& f) {
 
 double walkable_m2(const Pack& pack) {
   double area = 0;
-  for (const WalkGrid& grid : pack.walk_grids)
-    for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
-      if (grid.walkable(c)) area += double{grid.cell_m} * grid.cell_m;
+  for (const WalkGrid& grid : pack.walk_grids) area += grid.walkable_m2();
   return area;
 }
 

@@ -16,6 +16,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// As stored, valid pixels or not; 0 where there are none.
+double radiance_bytes_per_pixel(const PackIndex& index, const Pack& pack) {
+  double bytes = 0, pixels = 0;
+  for (const auto& section : index.sections)
+    if (section.kind == kRadianceMapSection) bytes += static_cast<double>(section.stored_bytes);
+  for (const auto& map : pack.radiance_maps) pixels += static_cast<double>(map.valid.size());
+  return pixels > 0 ? bytes / pixels : 0;
+}
+
 Json triple(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -80,7 +89,9 @@ Json reflectors_json(const Pack& pack) {
                    {"flatness_m", r.flatness_m},
                    {"elements", {r.elements_x, r.elements_y}},
                    {"first_map", r.first_map},
-                   {"map_count", r.map_count}});
+                   {"map_count", r.map_count},
+                   {"emitters", r.emitters},
+                   {"visibility_nodes", {r.visibility_x, r.visibility_y}}});
   return out;
 }
 
@@ -93,6 +104,7 @@ Json radiance_maps_json(const Pack& pack) {
                    {"height", map.height},
                    {"eye", triple(map.eye)},
                    {"has_emission", map.has_emission},
+                   {"residual", map.residual},
                    {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
                    {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
   }
@@ -113,6 +125,28 @@ Json materials_json(const Pack& pack) {
   return out;
 }
 
+Json emitters_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& e : pack.emitters) {
+    Json corners = Json::array();
+    for (const Vec3& corner : e.corners) corners.push_back(triple(corner));
+    out.push_back({{"corners", corners}, {"radiance", triple(e.radiance)}, {"two_sided", e.two_sided}});
+  }
+  return out;
+}
+
+Json walk_grids_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& g : pack.walk_grids)
+    out.push_back({{"lower", {g.lower.x, g.lower.y}},
+                   {"cell_m", g.cell_m},
+                   {"width", g.width},
+                   {"height", g.height},
+                   {"walkable_m2", g.walkable_m2()},
+                   {"eye_height_m", g.eye_height_m}});
+  return out;
+}
+
 Json small_maps_json(const Pack& pack, Json out) {
   out["textures"] = Json::array();
   for (const auto& t : pack.textures)
@@ -124,7 +158,8 @@ Json small_maps_json(const Pack& pack, Json out) {
                               {"cos_theta", k.cos_theta},
                               {"half_extent", k.half_extent},
                               {"energy_kept", k.energy_kept},
-                              {"incidences", k.slices.size()}});
+                              {"incidences", k.slices.size()},
+                              {"cosine_lobes", k.fits.size()}});
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
     out["fresnel_maps"].push_back(
@@ -154,6 +189,9 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["lightmaps"] = lightmaps_json(pack);
   out["reflectors"] = reflectors_json(pack);
   out["radiance_maps"] = radiance_maps_json(pack);
+  out["radiance_map_bytes_per_pixel"] = radiance_bytes_per_pixel(index, pack);
+  out["emitters"] = emitters_json(pack);
+  out["walk_grids"] = walk_grids_json(pack);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -204,7 +242,7 @@ void print_material_maps(const Pack& pack) {
     fmt::print("split reflectance: {} angles x {} roughnesses\n", split.angles, split.roughnesses);
 }
 
-void print_maps(const Pack& pack) {
+void print_maps(const PackIndex& index, const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
     const auto s = summarise(page);
@@ -214,15 +252,25 @@ void print_maps(const Pack& pack) {
   }
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const auto& r = pack.reflectors[i];
-    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}\n", i, r.name,
-               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map);
+    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}{}\n", i, r.name,
+               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map,
+               r.emitters.empty() ? "" : fmt::format(", {} emitters in closed form", r.emitters.size()));
   }
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const auto& map = pack.radiance_maps[i];
     const auto s = summarise(map);
-    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i,
+    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}{}\n", i,
                map.width, map.height, map.reflector,
-               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
+               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max,
+               map.residual ? ", residual" : "");
+  }
+  if (!pack.radiance_maps.empty())
+    fmt::print("{} radiance maps: {:.3g} bytes a pixel as stored\n", pack.radiance_maps.size(),
+               radiance_bytes_per_pixel(index, pack));
+  for (std::size_t i = 0; i < pack.walk_grids.size(); ++i) {
+    const auto& g = pack.walk_grids[i];
+    fmt::print("walk grid {}: {} x {} cells of {:.3g} m, {:.4g} m2 walkable, eyes {:.3g} m over the floor\n", i,
+               g.width, g.height, g.cell_m, g.walkable_m2(), g.eye_height_m);
   }
   print_material_maps(pack);
 }
@@ -239,7 +287,7 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
              pack.sky.b);
   print_sections(index);
   fmt::print("\n");
-  print_maps(pack);
+  print_maps(index, pack);
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());
   for (const auto& [name, text] : {std::pair("provenance", &pack.provenance), std::pair("plan", &pack.plan)})

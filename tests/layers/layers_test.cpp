@@ -52,8 +52,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});  // which viewpoints
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});         // where eyes can be
+  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});             // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
@@ -61,8 +62,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"],
-                       {"bake/plan", "bake/lux", "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "bake/radiance/emitters", "bake/radiance/plan",
+                                        "bake/walk", "formats/pack", "formats/image"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run"});  // a subcommand that needs no scene
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
