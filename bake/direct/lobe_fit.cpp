@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "bake/direct/lobe_light.h"
 #include "bake/trace/brdf/quadrature.h"
+#include "formats/lobes/lobe_light.h"
 
 namespace oriel {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <tuple>
 
-#include "bake/direct/clipped_polygon.h"
 #include "bake/trace/warp.h"
+#include "formats/lobes/clipped_polygon.h"
 
 namespace oriel {
 namespace {

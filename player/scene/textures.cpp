@@ -4,6 +4,7 @@
 #include <array>
 
 #include "formats/core/half.h"
+#include "formats/lobes/lobe_light.h"
 
 namespace oriel {
 namespace {
@@ -95,7 +96,8 @@ gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
     const double root = i / (kRows - 1.0);
     const SlicePosition at = find_slice(kernel, root * root);
     const LobeFit &a = kernel.fits[at.below], &b = kernel.fits[at.above];
-    texels.push_back(glm::mix(Vec4(a.m11, a.m13, a.m22, a.m31), Vec4(b.m11, b.m13, b.m22, b.m31), at.share));
+    texels.push_back(mix_lobes(in_mirror_frame(a, kernel.slices[at.below].cos_theta),
+                               in_mirror_frame(b, kernel.slices[at.above].cos_theta), static_cast<float>(at.share)));
   }
   return {gpu::kRgba32f, kRows, 1, texels.data()};
 }

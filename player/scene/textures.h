@@ -26,7 +26,7 @@ gpu::Texture upload_radiance_map(const RadianceMap& map);
 gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps);
 // A row an incidence, a texel a tap: mirror coordinates and width. Not filtered.
 gpu::Texture upload_kernel_taps(const KernelTaps& taps);
-// m11, m13, m22, m31 of the kernel's fits, linear between its slices; texel i of n is at cosθ = (i / (n-1))².
+// The kernel's fits in the frame of the mirror direction (formats/lobes); texel i of n is at cosθ = (i / (n-1))².
 gpu::Texture upload_lobe_fits(const BrdfKernel& kernel);
 // Reflector::visibility, emitter k's grid in rows k * visibility_y and on.
 gpu::Texture upload_visibility(const Reflector& reflector);

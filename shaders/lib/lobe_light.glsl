@@ -1,4 +1,4 @@
-// Polygons of light in glossy lobes, in closed form: the twin of bake/direct/lobe_light.h. Surface frame: z the normal, x the
+// Polygons of light in glossy lobes, in closed form: the twin of formats/lobes/lobe_light.h. Surface frame: z the normal, x the
 // projection of the direction towards the eye on the surface, y = z x x.
 
 // m11, m13, m22, m31 over m33 after the frame has turned by an angle of that cosine and sine: about y, z towards -x.
@@ -6,12 +6,13 @@ vec4 turned_lobe(vec4 m, float cosine, float sine) {
   return vec4(m.x * cosine + m.y * sine, m.y * cosine - m.x * sine, m.z, m.w * cosine + sine) / (cosine - m.w * sine);
 }
 
-// The inverse matrix (m11, m13, m22, m31 of LobeFit) at cos_theta between those at two incidences; `share` of the second.
-vec4 lobe_between(vec4 below, float cos_below, vec4 above, float cos_above, float cos_theta, float share) {
-  vec4 a = turned_lobe(below, cos_below, sqrt(max(0.0, 1.0 - cos_below * cos_below)));
-  vec4 b = turned_lobe(above, cos_above, sqrt(max(0.0, 1.0 - cos_above * cos_above)));
+// Inverse matrices in the frame of the mirror direction: between two of them, and back to the surface frame.
+vec4 mix_lobes(vec4 a, vec4 b, float share) {
   vec4 m = mix(a, b, share);
   m.z = a.z * b.z / (b.z + (a.z - b.z) * share);
+  return m;
+}
+vec4 lobe_in_surface_frame(vec4 m, float cos_theta) {
   return turned_lobe(m, cos_theta, -sqrt(max(0.0, 1.0 - cos_theta * cos_theta)));
 }
 

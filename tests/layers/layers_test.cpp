@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/image"] = core;
   m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = core;
-  m["formats/camera"] = assets;
+  m["formats/camera"] = m["formats/lobes"] = assets;
   m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
@@ -50,7 +50,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/atlas"].insert("bake/atlas/chart");
   m["bake/trace"].insert("bake/trace/brdf");
   m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
-  m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});        // what the stages that compute irradiance share
+  m["bake/direct"] =
+      plus(m["bake/trace"], {"bake/trace", "formats/lobes"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
@@ -72,7 +73,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/gpu"] = core;
   m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/pack", "player/maps"});
+  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps"});
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
   m["player/app"] =

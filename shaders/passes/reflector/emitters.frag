@@ -12,10 +12,14 @@ uniform sampler2D u_visibility;  // see visible_share()
 uniform ivec2 u_visibility_nodes;
 uniform vec2 u_lower;            // bounds of the reflector
 uniform vec2 u_upper;
-uniform sampler2D u_lobes;       // inverse matrices by incidence, rows as kernel_row()
+uniform sampler2D u_lobes;       // inverse matrices in the mirror direction's frame by incidence, rows as kernel_row()
 uniform int u_lobe_rows;
 uniform mat4 u_reflector_from_pack;
 layout(location = 0) out vec4 o_light;
+
+const float kLeastCosine = 1e-3;  // of the incidences that lobes are known for
+
+const float kLeastCosine = 1e-3;  // of the incidences that lobes are known for
 
 // What the lobe, of integral 1, shows of the emitters.
 vec3 emitters_in_lobe(float cos_theta) {
@@ -23,8 +27,9 @@ vec3 emitters_in_lobe(float cos_theta) {
   vec3 to_eye = mat3(u_reflector_from_pack) * (u_eye.xyz - v_position * u_eye.w);
   vec2 x = dot(to_eye.xy, to_eye.xy) > 0.0 ? normalize(to_eye.xy) : vec2(1.0, 0.0);
   vec2 row = kernel_row(cos_theta, u_lobe_rows);
-  vec4 inverse = texelFetch(u_lobes, ivec2(int(row.x), 0), 0);
-  inverse = mix(inverse, texelFetch(u_lobes, ivec2(min(int(row.x) + 1, u_lobe_rows - 1), 0), 0), row.y);
+  vec4 below = texelFetch(u_lobes, ivec2(int(row.x), 0), 0);
+  vec4 above = texelFetch(u_lobes, ivec2(min(int(row.x) + 1, u_lobe_rows - 1), 0), 0);
+  vec4 inverse = lobe_in_surface_frame(mix_lobes(below, above, row.y), max(cos_theta, kLeastCosine));
   vec3 sum = vec3(0.0);
   for (int k = 0; k < u_emitter_count; ++k) {
     float visible = visible_share(u_visibility, u_visibility_nodes, k, (place.xy - u_lower) / (u_upper - u_lower));

@@ -1,5 +1,5 @@
 // Polygons of light in glossy lobes: the closed form against quadrature, and the fits against the lobes themselves.
-#include "bake/direct/lobe_light.h"
+#include "formats/lobes/lobe_light.h"
 
 #include <gtest/gtest.h>
 
@@ -159,11 +159,13 @@ TEST(LobeFit, Interpolates) {
       const LobeFunction lobe = lobe_of(FacetModel::kGgx, alpha);
       const auto fit = [&](float c) { return fit_lobe(lobe, alpha, c); };
       const float below = cosine(i), above = cosine(i + 1), between = cosine(i + 0.5);
-      const LobeFit found = fit_between(fit(below), below, fit(above), above, between);
+      const Vec4 low = in_mirror_frame(fit(below), below), high = in_mirror_frame(fit(above), above);
+      const float amplitude = 0.5f * (fit(below).amplitude + fit(above).amplitude);
+      const LobeFit found = in_surface_frame(mix_lobes(low, high, 0.5f), between, amplitude);
       EXPECT_LE(fit_distance(lobe, alpha, between, found), fit_distance(lobe, alpha, between, fit(between)) + 0.03)
           << alpha << " " << between;
       EXPECT_NEAR(found.amplitude, fit(between).amplitude, 0.03);  // as of any albedo from nine incidences
-      const LobeFit same = fit_between(fit(below), below, fit(above), above, below);
+      const LobeFit same = in_surface_frame(mix_lobes(low, high, 0), below, 1);
       EXPECT_NEAR(same.m22, fit(below).m22, 1e-3f * same.m22);
       EXPECT_NEAR(same.m31, fit(below).m31, 1e-3f * (1 - same.m31));
     }

@@ -1,9 +1,9 @@
-#include "bake/direct/lobe_light.h"
+#include "formats/lobes/lobe_light.h"
 
 #include <algorithm>
 
-#include "bake/direct/clipped_polygon.h"
 #include "formats/core/check.h"
+#include "formats/lobes/clipped_polygon.h"
 
 namespace oriel {
 namespace {
@@ -14,9 +14,8 @@ Vec4 turned(const Vec4& m, float cosine, float sine) {
   return Vec4(m.x * cosine + m.y * sine, m.y * cosine - m.x * sine, m.z, m.w * cosine + sine) / m33;
 }
 
-// In the frame whose z is the mirror direction.
-Vec4 in_mirror_frame(const LobeFit& fit, float cos_theta) {
-  return turned({fit.m11, fit.m13, fit.m22, fit.m31}, cos_theta, std::sqrt(std::max(0.0f, 1 - cos_theta * cos_theta)));
+float sine_of(float cosine) {
+  return std::sqrt(std::max(0.0f, 1 - cosine * cosine));
 }
 
 }  // namespace
@@ -43,13 +42,19 @@ float reflected_polygon(const LobeFit& fit, std::span<const Vec3> corners) {
   return -fit.amplitude / kPi * polygon_vector(polygon).z;
 }
 
-LobeFit fit_between(const LobeFit& below, float cos_below, const LobeFit& above, float cos_above, float cos_theta) {
-  const float share = (std::sqrt(cos_theta) - std::sqrt(cos_below)) / (std::sqrt(cos_above) - std::sqrt(cos_below));
-  const Vec4 a = in_mirror_frame(below, cos_below), b = in_mirror_frame(above, cos_above);
+Vec4 in_mirror_frame(const LobeFit& fit, float cos_theta) {
+  return turned({fit.m11, fit.m13, fit.m22, fit.m31}, cos_theta, sine_of(cos_theta));
+}
+
+Vec4 mix_lobes(const Vec4& a, const Vec4& b, float share) {
   Vec4 m = glm::mix(a, b, share);
   m.z = a.z * b.z / (b.z + (a.z - b.z) * share);  // the width across, its inverse, follows the cosine
-  m = turned(m, cos_theta, -std::sqrt(std::max(0.0f, 1 - cos_theta * cos_theta)));
-  return {m.x, m.y, m.z, m.w, below.amplitude + (above.amplitude - below.amplitude) * share};
+  return m;
+}
+
+LobeFit in_surface_frame(const Vec4& matrix, float cos_theta, float amplitude) {
+  const Vec4 m = turned(matrix, cos_theta, -sine_of(cos_theta));
+  return {m.x, m.y, m.z, m.w, amplitude};
 }
 
 }  // namespace oriel

@@ -16,8 +16,13 @@ double lobe_density(const LobeFit& fit, const DVec3& w);
 // from it: positive, else negative.
 float reflected_polygon(const LobeFit& fit, std::span<const Vec3> corners);
 
-// The lobe at cos_theta between those at two incidences, cos_below < cos_above. The matrices are interpolated in the
-// frame of the mirror direction, where they hardly change: as they stand they would turn the lobe away from it.
-LobeFit fit_between(const LobeFit& below, float cos_below, const LobeFit& above, float cos_above, float cos_theta);
+// The inverse matrix (m11, m13, m22, m31, over m33) in the frame of the mirror direction of an eye at cos_theta: z
+// along it, y as in the surface frame. It hardly changes with incidence, so that it can be interpolated; as they stand,
+// the matrices of two incidences would turn a lobe between them away from the mirror direction.
+Vec4 in_mirror_frame(const LobeFit& fit, float cos_theta);
+// Between two such matrices.
+Vec4 mix_lobes(const Vec4& a, const Vec4& b, float share);
+// Back to the surface frame.
+LobeFit in_surface_frame(const Vec4& matrix, float cos_theta, float amplitude);
 
 }  // namespace oriel
