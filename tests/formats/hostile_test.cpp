@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "formats/light/light_at.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
 #include "formats/pack/writer.h"
@@ -266,6 +267,30 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(twice.file(), residual + "radiance map 2 is there twice");
 }
 
+TEST(Hostile, MoversAndTheirLight) {
+  const std::string mover = "section MOVR 0 (mover): ", field = "section PROB (light field): ";
+  constexpr std::size_t kKeys = 8 + 28;  // after the name and the rest pose
+  expect_refusal(with_raw(kMoverSection, 0, ~0u), mover + "its counts need more");
+  expect_refusal(with_raw(kMoverSection, kKeys, ~0u), mover + "its counts need more");
+  const Bytes raw = Forge::raw(Forge::from(tiny_file()).find(kMoverSection));
+  // Transfer: four u16, the error, 16 + 2 floats, 4 clusters, 4 weights.
+  const std::size_t transfer = raw.size() - (8 + 4 + 18 * 4 + 4 + 8);
+  expect_refusal(with_raw(kMoverSection, transfer, std::uint16_t{7}), mover + "element 0: found a transfer of 7 bands");
+  expect_refusal(with_raw(kMoverSection, transfer + 2, std::uint16_t{2}), "2 channels");
+  expect_refusal(with_raw(kMoverSection, transfer + 4, std::uint16_t{256}), mover + "its counts need more");
+  expect_refusal(with_raw(kMoverSection, transfer + 6, std::uint16_t{0}), "0 components");
+  expect_refusal(with_raw(kLightFieldSection, 0, 7u), field + "found 7 bands");
+  expect_refusal(with_raw(kLightFieldSection, 4, 65u), field + "found 2 bands and depth maps of 65 texels");
+  expect_refusal(with_raw(kLightFieldSection, 4, 64u), field + "its counts need more");
+  for (const std::size_t count : {52u, 56u, 60u})  // cells, probes, lights
+    expect_refusal(with_raw(kLightFieldSection, count, ~0u), field + "its counts need more");
+  const std::size_t valid = 64 + 9 * 36 + 8 * 12, halves = valid + 8 + 2 * 64 + 4;
+  expect_refusal(with_raw(kLightFieldSection, valid, std::uint8_t{2}), field + "found validity 2 of probe 0");
+  expect_refusal(with_raw(kLightFieldSection, halves - 4, 113), field + "found scale exponent 113");
+  expect_refusal(with_raw(kLightFieldSection, halves + 96, std::uint8_t{0x7c}), field + "found coefficient half 0x7c");
+  expect_refusal(with_record(kLightFieldSection, [](SectionRecord& r) { r.count = 2; }), field + "found 2 elements");
+}
+
 // Sections may come in any order: what a section adds to others does not depend on theirs.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
@@ -294,6 +319,9 @@ bool all_finite(const Pack& pack) {
     if (!finite(page.irradiance) || !finite(page.standard_error) || !finite(page.direction)) return false;
   for (const auto& map : pack.radiance_maps)
     if (!finite(map.radiance)) return false;
+  if (pack.light_field.bands > 0)  // the lookup meets what was accepted
+    for (const float v : light_at(pack.light_field, Vec3(0.3f)).sh)
+      if (!std::isfinite(v)) return false;
   for (const auto& kernel : pack.kernels)
     for (const auto& slice : kernel.slices)
       for (const double v : {0.0, 1.0})
