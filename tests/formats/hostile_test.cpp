@@ -248,7 +248,12 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(with_raw(kWalkSection, 16, 0u), walk + "element 0: found 0 x 2 texels");
   expect_refusal(with_raw(kWalkSection, 16, 32768u), walk + "its counts need more");
   expect_refusal(with_raw(kWalkSection, 24, std::uint8_t{2}), walk + "element 0: found floor 0 with walkable flag 2");
-  expect_refusal(with_raw(kWalkSection, 30 + 18, std::uint8_t{0x7f}), walk + "element 0: found floor");
+  Forge infinite = Forge::from(tiny_file());
+  Bytes floors = Forge::raw(infinite.find(kWalkSection));
+  floors[24 + 6 + 12] = std::byte{0x80};  // the third and the last byte of the first floor's height
+  floors[24 + 6 + 18] = std::byte{0x7f};
+  Forge::set_raw(infinite.find(kWalkSection), floors);
+  expect_refusal(infinite.file(), walk + "element 0: found floor inf with walkable flag 1 in cell 0");
   expect_refusal(with_raw(kEmitterSection, 0, std::uint8_t{5}), emitters + "element 0: found 5 corners");
   expect_refusal(with_raw(kEmitterSection, 1, std::uint8_t{2}), emitters + "element 0: found two-sided flag 2");
   expect_refusal(with_raw(kReflectorEmitterSection, 0, 1u), parts + "found reflector 1, expected less than 1");

@@ -68,7 +68,7 @@ const Break kBreaks[] = {
     {403, "RFLT", [](Pack& p) { p.reflectors[0].upper.x = -3; }},
     {404, "RFLT", [](Pack& p) { p.reflectors[0].area_m2 = -1; }},
     {405, "RFLT", [](Pack& p) { p.reflectors[0].indices[0] = 8; }},
-    {406, "RFLT", [](Pack& p) { p.reflectors[0].map_count = 3; }},
+    {406, "RFLT", [](Pack& p) { p.reflectors[0].map_count = 4; }},
     {407, "RFLT", [](Pack& p) { p.reflectors[0].elements_x = 0; }},
     {411, "RMAP 1", [](Pack& p) { p.radiance_maps[1].disparity.pop_back(); }},
     {412, "RMAP 1", [](Pack& p) { p.radiance_maps[1].reflector = 1; }},
