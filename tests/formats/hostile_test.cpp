@@ -7,51 +7,12 @@
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
 #include "formats/pack/writer.h"
-#include "tests/formats/forge.h"
-#include "tests/support/tiny_pack.h"
+#include "tests/formats/hostile.h"
 
 namespace oriel {
 namespace {
 
-using testing::Forge;
-
-Bytes tiny_file() {
-  auto bytes = encode_pack(testing::tiny_mapped_pack());
-  EXPECT_TRUE(bytes);
-  return *bytes;
-}
-
-std::string refusal(const Bytes& file) {
-  const auto pack = decode_pack(file);
-  if (pack) return "accepted";
-  EXPECT_EQ(pack.error().code, ErrorCode::kInvalid);
-  EXPECT_FALSE(pack.error().where.empty());
-  return pack.error().text();
-}
-
-void expect_refusal(const Bytes& file, const std::string& text) {
-  const std::string found = refusal(file);
-  EXPECT_NE(found.find(text), std::string::npos) << "found: " << found << "\nexpected: " << text;
-}
-
-// A file in whose table one field of one record was changed, and sealed again.
-template <class Change>
-Bytes with_record(std::uint32_t kind, const Change& change) {
-  Bytes file = tiny_file();
-  FileHeader header;
-  std::memcpy(&header, file.data(), sizeof(header));
-  for (std::uint32_t i = 0; i < header.section_count; ++i) {
-    SectionRecord record;
-    auto* place = file.data() + sizeof(FileHeader) + i * sizeof(SectionRecord);
-    std::memcpy(&record, place, sizeof(record));
-    if (record.kind != kind) continue;
-    change(record);
-    std::memcpy(place, &record, sizeof(record));
-    break;
-  }
-  Forge::seal(file);
-  return file;
-}
+using namespace testing;
 
 template <class Change>
 Bytes with_header(const Change& change) {
@@ -61,17 +22,6 @@ Bytes with_header(const Change& change) {
   change(header);
   std::memcpy(file.data(), &header, sizeof(header));
   return file;
-}
-
-// Writes value over the raw bytes of a section at offset.
-template <class T>
-Bytes with_raw(std::uint32_t kind, std::size_t offset, T value) {
-  Forge forge = Forge::from(tiny_file());
-  auto& section = forge.find(kind);
-  Bytes raw = Forge::raw(section);
-  std::memcpy(raw.data() + offset, &value, sizeof(value));
-  Forge::set_raw(section, raw);
-  return forge.file();
 }
 
 TEST(Hostile, ForgeItselfChangesNothing) {
@@ -270,30 +220,6 @@ TEST(Hostile, WhatReflectionsNeed) {
   Forge::set_raw(section, raw);
   section.record.count = 2;
   expect_refusal(twice.file(), residual + "radiance map 2 is there twice");
-}
-
-TEST(Hostile, MoversAndTheirLight) {
-  const std::string mover = "section MOVR 0 (mover): ", field = "section PROB (light field): ";
-  constexpr std::size_t kKeys = 8 + 28;  // after the name and the rest pose
-  expect_refusal(with_raw(kMoverSection, 0, ~0u), mover + "its counts need more");
-  expect_refusal(with_raw(kMoverSection, kKeys, ~0u), mover + "its counts need more");
-  const Bytes raw = Forge::raw(Forge::from(tiny_file()).find(kMoverSection));
-  // Transfer: four u16, the error, 16 + 2 floats, 4 clusters, 4 weights.
-  const std::size_t transfer = raw.size() - (8 + 4 + 18 * 4 + 4 + 8);
-  expect_refusal(with_raw(kMoverSection, transfer, std::uint16_t{7}), mover + "element 0: found a transfer of 7 bands");
-  expect_refusal(with_raw(kMoverSection, transfer + 2, std::uint16_t{2}), "2 channels");
-  expect_refusal(with_raw(kMoverSection, transfer + 4, std::uint16_t{256}), mover + "its counts need more");
-  expect_refusal(with_raw(kMoverSection, transfer + 6, std::uint16_t{0}), "0 components");
-  expect_refusal(with_raw(kLightFieldSection, 0, 7u), field + "found 7 bands");
-  expect_refusal(with_raw(kLightFieldSection, 4, 65u), field + "found 2 bands and depth maps of 65 texels");
-  expect_refusal(with_raw(kLightFieldSection, 4, 64u), field + "its counts need more");
-  for (const std::size_t count : {52u, 56u, 60u})  // cells, probes, lights
-    expect_refusal(with_raw(kLightFieldSection, count, ~0u), field + "its counts need more");
-  const std::size_t valid = 64 + 9 * 36 + 8 * 12, halves = valid + 8 + 2 * 64 + 4;
-  expect_refusal(with_raw(kLightFieldSection, valid, std::uint8_t{2}), field + "found validity 2 of probe 0");
-  expect_refusal(with_raw(kLightFieldSection, halves - 4, 113), field + "found scale exponent 113");
-  expect_refusal(with_raw(kLightFieldSection, halves + 96, std::uint8_t{0x7c}), field + "found coefficient half 0x7c");
-  expect_refusal(with_record(kLightFieldSection, [](SectionRecord& r) { r.count = 2; }), field + "found 2 elements");
 }
 
 // Sections may come in any order: what a section adds to others does not depend on theirs.
