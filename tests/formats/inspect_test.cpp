@@ -89,7 +89,8 @@ TEST_F(Inspect, InfoForPeople) {
   const Outcome info = run("info " + pack_.string());
   EXPECT_EQ(info.code, 0) << info.err;
   for (const char* text : {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
-                           "reflector 0: 'floor'", "radiance map 1: 6 x 4", "camera 'door'", "\"seed\": 7"})
+                           "reflector 0: 'floor'", "radiance map 1: 6 x 4", "camera 'door'",
+                           "mover 'door': 2 triangles", "light field: 1 x 1 x 1 cells, 7 of 8 probes", "\"seed\": 7"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
@@ -102,8 +103,10 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["provenance"]["seed"], 7);
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);
   EXPECT_NEAR(json["lightmaps"][0]["lux"]["max"].get<double>(), 155.9, 0.2);
-  EXPECT_EQ(json["radiance_maps"].size(), 2u);
-  EXPECT_EQ(json["sections"].size(), 20u);
+  EXPECT_EQ(json["movers"][0]["transfer"]["bytes_per_vertex"], 3);
+  EXPECT_EQ(json["light_field"]["bright_lights"].size(), 2u);
+  EXPECT_EQ(json["radiance_maps"].size(), 3u);
+  EXPECT_EQ(json["sections"].size(), 28u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 
