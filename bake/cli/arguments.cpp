@@ -21,8 +21,8 @@ constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the erro
 constexpr double kBestError = 1e-3;  // where only time limits the work
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", atlas = "auto", only,
-              estimator = "cached", error = "2%", time;
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, views = "planned:8", eyes = "walk",
+              directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", time;
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -106,15 +106,28 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--views", bake.views.views_per_element,
-                 "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
-      ->check(CLI::Range(1, 4096))
+  app.add_option(
+         "--views", texts.views,
+         "Viewpoints behind each reflector element (9 m²): planned:N are the at most N that show most of what eyes "
+         "see in it, hemisphere:N are spread evenly, as published")
+      ->capture_default_str();
+  app.add_option(
+         "--eyes", texts.eyes,
+         "Whose views reflections are planned for: walk (people on the floors that the cameras can walk to), box "
+         "(anywhere in the scene), or a file with lines of x y z")
+      ->capture_default_str();
+  app.add_option("--orders", bake.sight.orders,
+                 "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only")
+      ->check(CLI::Range(1, 16))
       ->capture_default_str();
   app.add_option("--map-resolution", bake.views.map_resolution,
-                 "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
+                 "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp (planned), or by the "
+                 "material's lobe")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--memory", texts.memory, "Limit of all radiance maps together; views are thinned out to keep it")
+  app.add_option(
+         "--memory", texts.memory,
+         "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it")
       ->check(checked(parse_bytes, "SIZE"))
       ->capture_default_str();
 }
@@ -123,6 +136,11 @@ Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
+  bake.planned.memory_bytes = bake.views.memory_bytes;
+  bake.planned.map_resolution = bake.views.map_resolution;
+  if (const Status views = parse_views(texts.views, bake); !views)
+    return fail(ErrorCode::kUsage, "--views", "{}", views.error().message);
+  ORIEL_TRY(bake.eyes, parse_eye_source(texts.eyes));
   bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;

@@ -34,15 +34,17 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, s
   return e * directional_ratio(sample_page(page, page.direction, atlas, triangle, barycentric), tilted, normal);
 }
 
-Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages, const Hit& hit,
-                    const Vec3& towards_eye) {
+Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages,
+                    const SeenSurface& seen) {
+  const Hit& hit = seen.hit;
+  const Vec3& towards_eye = seen.towards_eye;
   const SurfacePoint surface = surface_at(scene, hit, -towards_eye);
   const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
   if (material.unlit) return surface.shade.base_color;
-  Vec3 light = surface.emits ? surface.shade.emission : Vec3(0);
+  Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
   if (!hit.front) return light;  // lit backs have triangles of their own
   const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, towards_eye));
-  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + r;
+  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (seen.mirror ? Vec3(0) : r);
   const Vec3 normal = geometry_at(scene, hit, -towards_eye).normal;
   const Vec3 e = baked_irradiance(atlas, pages, hit.triangle, hit.barycentric, surface.normal, normal);
   return light + share / kPi * e;

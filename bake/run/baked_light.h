@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bake/atlas/atlas.h"
+#include "bake/radiance/sight.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
 
@@ -15,9 +16,10 @@ namespace oriel {
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
                       const Vec2& barycentric, const Vec3& tilted, const Vec3& normal);
 
-// Radiance that a hit surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
-// specular part as a wide lobe R E/π, and its own emission; backs reflect nothing. Constant cost: no further ray.
-Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages, const Hit& hit,
-                    const Vec3& towards_eye);
+// Radiance that a surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
+// specular part as a wide lobe R E/π unless it is a mirror whose reflection is followed, and its own emission where
+// that counts; backs reflect nothing. Constant cost: no further ray.
+Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages,
+                    const SeenSurface& seen);
 
 }  // namespace oriel

@@ -6,7 +6,6 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
-#include "bake/run/baked_light.h"
 #include "bake/run/report.h"
 #include "formats/core/color.h"
 
@@ -29,41 +28,6 @@ class Stopwatch {
  private:
   std::vector<StageTime>& times_;
 };
-
-std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
-  std::vector<ReflectorMaterial> out;
-  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
-  return out;
-}
-
-// Reflectors, their viewpoints and what is seen from them, into the pack.
-Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
-                        const MaterialMaps& materials, const AssembledMesh& mesh, Context& context, BakeResult& result,
-                        std::uint64_t& rays) {
-  const Scene& scene = accel.scene();
-  FoundReflectors found = find_reflectors(accel, reflector_materials(materials), options.reflectors);
-  ViewPlan plan = plan_views(scene, found.reflectors, options.views);
-  for (auto* lines : {&plan.omitted, &found.omitted})  // what reduces quality first
-    result.omissions.insert(result.omissions.end(), lines->begin(), lines->end());
-  if (found.reflectors.empty())
-    result.omissions.push_back(fmt::format(
-        "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
-        options.reflectors.max_roughness, options.reflectors.min_area_m2));
-  const auto outgoing = [&](const Hit& hit, const Vec3& towards_eye) {
-    return baked_radiance(scene, atlas, result.pack.lightmaps, hit, towards_eye);
-  };
-  std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY_VOID(capture_maps(accel, found.reflectors, outgoing, options.capture, context, plan.maps, &counted));
-  rays = counted;
-  result.pack.radiance_maps = std::move(plan.maps);
-  for (FoundReflector& f : found.reflectors) {
-    for (const std::uint32_t t : f.triangles)
-      for (std::uint32_t corner = 0; corner < 3; ++corner)
-        f.reflector.indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
-    result.pack.reflectors.push_back(std::move(f.reflector));
-  }
-  return {};
-}
 
 void warn_about_error(const BakeOptions& options, const RadiosityReport& report, Context& context) {
   const double asked = options.radiosity.error;
@@ -161,10 +125,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   ORIEL_TRY(MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
+  ReflectionReport reflections;
   if (options.with_radiance) {
-    ORIEL_TRY_VOID(timed("radiance", [&](std::uint64_t& rays) {
-      return bake_reflections(options, accel, atlas, materials, mesh, context, result, rays);
-    }));
+    ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
+                auto baked = bake_reflections(options, accel, atlas, materials, mesh, context, pack);
+                if (baked) rays = baked->rays;
+                return baked;
+              }));
+    result.omissions.insert(result.omissions.end(), reflections.omissions.begin(), reflections.omissions.end());
   } else {
     result.omissions.emplace_back("radiance maps: left out by --only");
   }
@@ -182,8 +150,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(),
-                         result.times.back().rays, options.radiosity.estimator == Estimator::kCached});
+  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
+                         options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;
 }

@@ -44,13 +44,38 @@ Json atlas_json(const Atlas& atlas) {
           {"time_limit_struck", r.time_limit_struck}};
 }
 
+// What each reflector's maps show to eyes that they were not planned for.
+Json reflectors_json(const BakeFacts& f) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < f.pack.reflectors.size(); ++i) {
+    const Reflector& r = f.pack.reflectors[i];
+    std::uint64_t pixels = 0;
+    for (std::uint32_t m = 0; m < r.map_count; ++m) {
+      const RadianceMap& map = f.pack.radiance_maps[r.first_map + m];
+      pixels += std::uint64_t{map.width} * map.height;
+    }
+    out.push_back({{"name", r.name},
+                   {"area_m2", r.area_m2},
+                   {"elements", r.elements_x * r.elements_y},
+                   {"maps", r.map_count},
+                   {"pixels", pixels},
+                   {"seen", f.reflections.quality[i].seen},
+                   {"sharp", f.reflections.quality[i].sharp}});
+  }
+  return out;
+}
+
+double walkable_m2(const Pack& pack) {
+  double area = 0;
+  for (const WalkGrid& grid : pack.walk_grids)
+    for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
+      if (grid.walkable(c)) area += double{grid.cell_m} * grid.cell_m;
+  return area;
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
-  Json reflectors = Json::array();
-  for (const Reflector& r : f.pack.reflectors)
-    reflectors.push_back(
-        {{"name", r.name}, {"area_m2", r.area_m2}, {"elements", r.elements_x * r.elements_y}, {"maps", r.map_count}});
   const Json json = {
       {"scene",
        {{"triangles", f.scene.triangles.size()},
@@ -80,7 +105,11 @@ std::string plan_json(const BakeFacts& f) {
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},
         {"incident_lm", rgb(f.radiosity.incident_lm)}}},
-      {"radiance", {{"reflectors", reflectors}, {"maps", f.pack.radiance_maps.size()}, {"rays", f.radiance_rays}}},
+      {"radiance",
+       {{"reflectors", reflectors_json(f)},
+        {"maps", f.pack.radiance_maps.size()},
+        {"walkable_m2", walkable_m2(f.pack)},
+        {"rays", f.reflections.rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
       {"omitted", f.omissions},
   };

@@ -3,6 +3,7 @@
 
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/pipeline.h"
+#include "bake/run/reflections.h"
 
 namespace oriel {
 
@@ -15,7 +16,7 @@ struct BakeFacts {
   const Pack& pack;
   const std::vector<std::string>& omissions;
   DVec3 emitted_lm{0};
-  std::uint64_t radiance_rays = 0;
+  const ReflectionReport& reflections;
   bool cached = true;  // the estimator
 };
 

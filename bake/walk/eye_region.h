@@ -1,0 +1,40 @@
+// Where eyes can be: what radiance maps are planned for.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "bake/walk/floor_plan.h"
+#include "formats/assets/walk_grid.h"
+
+namespace oriel {
+
+enum class EyeSource : std::uint8_t { kWalk, kBox, kFile };
+
+struct EyeOptions {
+  EyeSource source = EyeSource::kWalk;
+  std::vector<DVec3> points;  // kFile: world space, metres
+  WalkOptions walk;
+};
+
+struct EyeRegion {
+  std::vector<WalkGrid> grids;  // by storey; empty unless people walk
+  std::vector<Vec3> points;     // eyes that are given: of the scene's cameras and paths, or of a file; scene space
+  Vec3 lower{0}, upper{0};      // where neither grids nor points are: any place in this box
+  std::string note;             // why it is not what was asked for; empty where it is
+};
+
+// The floors that can be reached on foot from the scene's cameras and paths, or, where none stands on a floor, the
+// largest connected ones (those under a roof if there are any). A storey's grid spans less than the head room in
+// height. Without a floor: the scene's box, with a note. Error kStopped.
+Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options, Context& context);
+
+// `count` eyes, scene space: three quarters anywhere over the grids' cells, between 0.2 m under and over eye height,
+// the others at the given points, in turn. The same for the same seed; another seed gives others.
+std::vector<Vec3> sample_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed);
+
+// Lines of "x y z" in world space, metres; empty ones and those that start with # are skipped. Error kInvalid with
+// name:line.
+Result<std::vector<DVec3>> parse_eyes(std::string_view text, const std::string& name);
+
+}  // namespace oriel
