@@ -2,6 +2,7 @@
 // vertex of its compression by the number of clusters.
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "bake/scene/import.h"
 #include "bake/transfer/compress.h"
@@ -35,13 +36,15 @@ Status run(const char* file) {
   const TransferOptions options;
   std::atomic<std::uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t used = std::clock();
   ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options, context, &rays));
   const double seconds = seconds_since(start);
   std::printf(
-      "%zu vertices, %zu triangles, %d bands, %d bounces, %d channels: %.1f s, %.1f million rays, standard error "
+      "%zu vertices, %zu triangles, %d bands, %d bounces, %d channels: %.1f s (%.1f s of all processors), %.1f million "
+      "rays, standard error "
       "%.2f %%, coarse share %.3f\n",
       scene.positions.size(), scene.triangles.size(), options.bands, options.bounces, transfer.channels, seconds,
-      1e-6 * static_cast<double>(rays), 100 * transfer.standard_error, coarse_share(scene, transfer));
+      processor, 1e-6 * static_cast<double>(rays), 100 * transfer.standard_error, coarse_share(scene, transfer));
   return measure_clusters(transfer, context);
 }
 
