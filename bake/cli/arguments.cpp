@@ -23,7 +23,8 @@ constexpr double kBestError = 1e-3;  // where only time limits the work
 
 struct Texts {
   std::string texel = "10cm", memory = "128MiB", lightmap_memory, views = "planned:8", eyes = "walk",
-              directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", time;
+              directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", time,
+              transfer = "shadowed", probe = "1m";
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -101,7 +102,7 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option("--only", texts.only,
                  "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps "
-                 "behind reflectors), material (kernels)")
+                 "behind reflectors), material (kernels), transfer (movers, which stand still without it)")
       ->type_name("LIST");
   app.add_option("--max-reflectors", bake.reflectors.max_reflectors,
                  "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
@@ -133,8 +134,40 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
 }
 
+void add_mover_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+  app.add_option("--mover", bake.import.movers,
+                 "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or "
+                 "animates. May be repeated")
+      ->type_name("NODE")
+      ->take_all();
+  app.add_option("--sh-bands", bake.transfer.bands,
+                 "Bands of spherical harmonics of movers' transfer and of the light around them: their square is the "
+                 "number of coefficients")
+      ->check(CLI::Range(2, 6))
+      ->capture_default_str();
+  app.add_option("--transfer", texts.transfer,
+                 "Whether movers shade themselves: shadowed or unshadowed (as if every one was convex)")
+      ->check(CLI::IsMember({"shadowed", "unshadowed"}))
+      ->capture_default_str();
+  app.add_option("--transfer-bounces", bake.transfer.bounces, "Reflections between the parts of a mover")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  app.add_option("--clusters", bake.compress.clusters,
+                 "Clusters that a mover's transfer is compressed in: more lose less and cost the player more")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--probe", texts.probe,
+                 "Distance between the probes of the light that movers meet; they are a quarter as far apart where "
+                 "light changes")
+      ->check(checked(parse_length, "LENGTH"))
+      ->capture_default_str();
+}
+
 Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
+  ORIEL_TRY(bake.probes.spacing_m, parse_length(texts.probe));
+  bake.transfer.shadowed = texts.transfer == "shadowed";
+  if (!bake.transfer.shadowed) bake.transfer.bounces = 0;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
   bake.planned.memory_bytes = bake.views.memory_bytes;
@@ -171,14 +204,17 @@ Status resolve(const Texts& texts, Arguments& args) {
                   "needs --resolution N, the side of the page its coordinates are meant for");
   }
   if (!texts.only.empty()) {
-    bake.with_radiance = bake.with_material = false;
+    bake.with_radiance = bake.with_material = bake.with_transfer = false;
     for (const std::string& part : CLI::detail::split(texts.only, ',')) {
       if (part == "radiance")
         bake.with_radiance = true;
       else if (part == "material")
         bake.with_material = true;
+      else if (part == "transfer")
+        bake.with_transfer = true;
       else if (part != "radiosity")
-        return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance or material", part);
+        return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance, material or transfer",
+                    part);
     }
   }
   return {};
@@ -218,6 +254,7 @@ Arguments parse_arguments(int argc, char** argv) {
   add_radiosity_options(app, texts, args.bake);
   add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
+  add_mover_options(app, texts, args.bake);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);

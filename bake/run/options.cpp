@@ -183,6 +183,14 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"orders", o.sight.orders},
       {"map_resolution", o.views.map_resolution},
       {"map_memory", o.views.memory_bytes},
+      {"movers", o.import.movers},
+      {"transfer", o.with_transfer},
+      {"sh_bands", o.transfer.bands},
+      {"transfer_shadowed", o.transfer.shadowed},
+      {"transfer_bounces", o.transfer.bounces},
+      {"transfer_samples", o.transfer.samples},
+      {"clusters", o.compress.clusters},
+      {"probe_m", o.probes.spacing_m},
   };
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // names may hold any bytes
 }

@@ -11,6 +11,8 @@
 #include "bake/radiance/views.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/scene/import.h"
+#include "bake/transfer/compress.h"
+#include "bake/transfer/probes.h"
 #include "bake/walk/eye_region.h"
 
 namespace oriel {
@@ -35,6 +37,10 @@ struct BakeOptions {
   EyeOptions eyes;
   SightOptions sight;
   MaterialOptions material;
+  TransferOptions transfer;
+  CompressOptions compress;
+  ProbeOptions probes;        // bands: those of transfer
+  bool with_transfer = true;  // movers move; else they stand still in the scene
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
   double time_s = 0;  // for radiosity: stop refining after it; 0: no limit. The bytes then depend on the machine

@@ -6,6 +6,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
+#include "bake/run/movers.h"
 #include "bake/run/report.h"
 #include "formats/core/color.h"
 
@@ -98,6 +99,12 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   Stopwatch timed(result.times);
   ORIEL_TRY(ImportedScene imported,
             timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
+  std::vector<TakenMover> movers;
+  if (options.with_transfer) {
+    ORIEL_TRY(movers, take_movers(imported.scene));
+  } else if (!imported.scene.movers.empty()) {
+    result.omissions.emplace_back("movers: left out by --only; they stand still");
+  }
   ORIEL_TRY(const LitScene lit, light_sides(options, imported.scene, timed, context));
   const Scene& scene = imported.scene;
   const Accel& accel = lit.accel;
@@ -136,6 +143,17 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   } else {
     result.omissions.emplace_back("radiance maps: left out by --only");
   }
+  std::vector<MoverReport> mover_reports;
+  if (!movers.empty()) {
+    ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
+                return bake_movers(options, movers, materials, context, pack, rays);
+              }));
+    ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
+      return bake_light_field(options, {accel, lights, atlas}, movers, context, pack, rays);
+    }));
+  } else if (options.with_transfer) {
+    result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
+  }
   if (!options.with_material) {
     result.omissions.emplace_back("kernels: left out by --only");
     materials.kernels.clear();
@@ -151,7 +169,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
-                         options.radiosity.estimator == Estimator::kCached});
+                         mover_reports, options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;
 }

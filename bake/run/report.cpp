@@ -72,6 +72,26 @@ double walkable_m2(const Pack& pack) {
   return area;
 }
 
+Json movers_json(std::span<const MoverReport> movers) {
+  Json out = Json::array();
+  for (const MoverReport& m : movers)
+    out.push_back({{"name", m.name},
+                   {"vertices", m.vertices},
+                   {"transfer_standard_error", m.transfer_error},
+                   {"compression_error", m.compression_error},
+                   {"bytes_per_vertex", m.bytes_per_vertex},
+                   {"coarse_share", m.coarse_share}});
+  return out;
+}
+
+Json light_field_json(const LightField& field) {
+  if (field.bands == 0) return Json();
+  return {{"probes", field.probes.size()},
+          {"cell_m", rgb(field.cell_m)},
+          {"bright_lights", field.lights.size()},
+          {"standard_error", field.error}};
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
@@ -110,6 +130,8 @@ std::string plan_json(const BakeFacts& f) {
         {"walkable_m2", walkable_m2(f.pack)},
         {"rays", f.reflections.rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
+      {"movers", movers_json(f.movers)},
+      {"light_field", light_field_json(f.pack.light_field)},
       {"omitted", f.omissions},
   };
   return text_of(json);

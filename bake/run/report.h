@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/radiosity/lit_sides.h"
+#include "bake/run/movers.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/reflections.h"
 
@@ -17,6 +18,7 @@ struct BakeFacts {
   const std::vector<std::string>& omissions;
   DVec3 emitted_lm{0};
   const ReflectionReport& reflections;
+  std::span<const MoverReport> movers;
   bool cached = true;  // the estimator
 };
 

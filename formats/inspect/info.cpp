@@ -29,6 +29,11 @@ Json triple(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
+std::size_t valid_probes(const LightField& field) {
+  return static_cast<std::size_t>(
+      std::count_if(field.probes.begin(), field.probes.end(), [](const LightProbe& probe) { return probe.valid; }));
+}
+
 Json sections_json(const PackIndex& index) {
   Json out = Json::array();
   for (const auto& section : index.sections) {
@@ -109,6 +114,35 @@ Json radiance_maps_json(const Pack& pack) {
                    {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
   }
   return out;
+}
+
+Json movers_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const Mover& m : pack.movers)
+    out.push_back({{"name", m.name},
+                   {"vertices", m.mesh.positions.size()},
+                   {"triangles", m.mesh.indices.size() / 3},
+                   {"position", triple(m.rest.position)},
+                   {"keys", m.keys.size()},
+                   {"transfer",
+                    {{"bands", m.transfer.bands},
+                     {"channels", m.transfer.channels},
+                     {"clusters", m.transfer.clusters},
+                     {"components", m.transfer.components},
+                     {"bytes_per_vertex", m.transfer.bytes_per_vertex()},
+                     {"relative_error", m.transfer.error}}}});
+  return out;
+}
+
+Json light_field_json(const LightField& field) {
+  if (field.bands == 0) return Json();
+  Json lights = Json::array();
+  for (const BrightLight& light : field.lights) lights.push_back(light.name);
+  return {{"bands", field.bands},           {"cells", {field.size[0], field.size[1], field.size[2]}},
+          {"cell_m", triple(field.cell_m)}, {"lower", triple(field.lower)},
+          {"probes", field.probes.size()},  {"valid_probes", valid_probes(field)},
+          {"depth_side", field.depth_side}, {"relative_standard_error", field.error},
+          {"bright_lights", lights}};
 }
 
 Json materials_json(const Pack& pack) {
@@ -192,6 +226,8 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["radiance_map_bytes_per_pixel"] = radiance_bytes_per_pixel(index, pack);
   out["emitters"] = emitters_json(pack);
   out["walk_grids"] = walk_grids_json(pack);
+  out["movers"] = movers_json(pack);
+  out["light_field"] = light_field_json(pack.light_field);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -275,6 +311,19 @@ void print_maps(const PackIndex& index, const Pack& pack) {
   print_material_maps(pack);
 }
 
+void print_movers(const Pack& pack) {
+  for (const Mover& m : pack.movers)
+    fmt::print(
+        "mover '{}': {} triangles, {} keys, transfer of {} bands in {} clusters, {} bytes a vertex, error {:.2g} %\n",
+        m.name, m.mesh.indices.size() / 3, m.keys.size(), m.transfer.bands, m.transfer.clusters,
+        m.transfer.bytes_per_vertex(), 100 * m.transfer.error);
+  const LightField& field = pack.light_field;
+  if (field.bands > 0)
+    fmt::print("light field: {} x {} x {} cells, {} of {} probes valid, {} bands, {} bright lights, noise {:.2g} %\n",
+               field.size[0], field.size[1], field.size[2], valid_probes(field), field.probes.size(), field.bands,
+               field.lights.size(), 100 * field.error);
+}
+
 void print_text(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
   const Bounds bounds = bounds_of(pack.mesh);
   const Vec3 size = bounds.upper - bounds.lower;
@@ -288,6 +337,7 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   print_sections(index);
   fmt::print("\n");
   print_maps(index, pack);
+  print_movers(pack);
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());
   for (const auto& [name, text] : {std::pair("provenance", &pack.provenance), std::pair("plan", &pack.plan)})

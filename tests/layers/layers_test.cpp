@@ -32,6 +32,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
+  m["formats/pack/sections"] = plus(assets, {"formats/pack", "formats/pack/encoding"});  // what lies inside each
   m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
   m["formats/inspect"] = plus(assets, {"formats/pack", "formats/image"});
   m["bake/jobs"] = core;

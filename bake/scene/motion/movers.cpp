@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <numeric>
 
 namespace oriel {
@@ -156,6 +157,20 @@ std::vector<Image> images_of(const Scene& scene, const std::vector<Image>& all) 
   return images;
 }
 
+// Gives movers copies of the materials that they share with what stands still: later stages change those.
+void part_materials(Scene& scene) {
+  std::vector<char> stands(scene.materials.size());
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover < 0) stands[surface.material] = 1;
+  std::map<std::uint32_t, std::uint32_t> copies;
+  for (Surface& surface : scene.surfaces) {
+    if (surface.mover < 0 || !stands[surface.material]) continue;
+    const auto [copy, added] = copies.try_emplace(surface.material, static_cast<std::uint32_t>(scene.materials.size()));
+    if (added) scene.materials.push_back(SceneMaterial(scene.materials[surface.material]));
+    surface.material = copy->second;
+  }
+}
+
 Scene object_scene(const Scene& scene, std::size_t mover) {
   Scene object;
   object.materials = scene.materials;
@@ -229,6 +244,7 @@ Result<std::vector<TakenMover>> take_movers(Scene& scene) {
     return invalid("scene",
                    "found movers only, expected something that stands still: light is baked for that; mark fewer nodes "
                    "as movers");
+  part_materials(scene);
   for (std::size_t i = 0; i < scene.movers.size(); ++i) taken.push_back({scene.movers[i], object_scene(scene, i)});
   Scene rest;
   for (const Surface& surface : scene.surfaces)

@@ -23,8 +23,8 @@ Result<MoverNodes> find_movers(const gltf::Document& document, std::span<const N
 Status place_movers(const gltf::Document& document, std::span<const NodePose> poses, const MoverNodes& movers,
                     std::span<const Animation> animations, Scene& scene, Context& context);
 
-// A mover apart from the scene: its surfaces in object space. Materials and images keep their indices; images that it
-// does not use are empty.
+// A mover apart from the scene: its surfaces in object space. Materials and images have the scene's indices, which gets
+// copies of those materials that movers share with it; images that it does not use are empty.
 struct TakenMover {
   SceneMover mover;
   Scene scene;

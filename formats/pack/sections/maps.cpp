@@ -19,13 +19,6 @@ float largest_channel(std::span<const Vec3> values) {
   return largest;
 }
 
-Status get_scale_exponent(ByteReader& in, int& exponent) {
-  exponent = in.get<std::int32_t>();
-  if (exponent < kMinScaleExponent || exponent > kMaxScaleExponent)
-    return invalid("", "found scale exponent {}, expected {} to {}", exponent, kMinScaleExponent, kMaxScaleExponent);
-  return {};
-}
-
 void put_halves(ByteWriter& out, std::span<const Vec3> values) {
   const int exponent = scale_exponent(largest_channel(values), 11);
   const float scale = std::ldexp(1.0f, -exponent);
