@@ -6,7 +6,7 @@
 #include "bake/trace/albedo.h"
 #include "bake/transfer/probes.h"
 #include "formats/core/octahedral.h"
-#include "formats/core/sh.h"
+#include "formats/sh/sh.h"
 
 namespace oriel {
 namespace {

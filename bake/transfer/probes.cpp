@@ -5,7 +5,7 @@
 #include <map>
 
 #include "bake/jobs/parallel.h"
-#include "formats/core/sh.h"
+#include "formats/sh/sh.h"
 
 namespace oriel {
 namespace {

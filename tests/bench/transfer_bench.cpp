@@ -39,10 +39,10 @@ Status run(const char* file) {
   const std::clock_t used = std::clock();
   ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options, context, &rays));
   const double seconds = seconds_since(start);
+  const double processor = static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC;
   std::printf(
       "%zu vertices, %zu triangles, %d bands, %d bounces, %d channels: %.1f s (%.1f s of all processors), %.1f million "
-      "rays, standard error "
-      "%.2f %%, coarse share %.3f\n",
+      "rays, standard error %.2f %%, coarse share %.3f\n",
       scene.positions.size(), scene.triangles.size(), options.bands, options.bounces, transfer.channels, seconds,
       processor, 1e-6 * static_cast<double>(rays), 100 * transfer.standard_error, coarse_share(scene, transfer));
   return measure_clusters(transfer, context);

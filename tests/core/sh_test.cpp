@@ -1,5 +1,5 @@
-// formats/core/sh.h: against closed forms, against themselves, and against published coefficients.
-#include "formats/core/sh.h"
+// formats/sh/sh.h: against closed forms, against themselves, and against published coefficients.
+#include "formats/sh/sh.h"
 
 #include <gtest/gtest.h>
 

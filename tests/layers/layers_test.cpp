@@ -18,16 +18,16 @@ const fs::path kRoot = ORIEL_SOURCE_DIR;
 // Each folder and the folders it may include, besides itself: docs/architecture.md draws the same arrows.
 const std::map<std::string, std::set<std::string>> kArrows = [] {
   const std::set<std::string> core{"formats/core"};
-  const std::set<std::string> assets{"formats/core", "formats/assets"};
+  const std::set<std::string> assets{"formats/core", "formats/sh", "formats/assets"};
   const auto plus = [](std::set<std::string> a, const std::set<std::string>& b) {
     a.insert(b.begin(), b.end());
     return a;
   };
   std::map<std::string, std::set<std::string>> m;
   m["formats/core"] = {};
-  m["formats/image"] = core;
+  m["formats/sh"] = m["formats/image"] = core;
   m["formats/metrics"] = plus(core, {"formats/image"});
-  m["formats/assets"] = core;
+  m["formats/assets"] = plus(core, {"formats/sh"});
   m["formats/camera"] = m["formats/lobes"] = assets;
   m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
@@ -69,7 +69,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/emitters",
                                         "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
-  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run"});  // a subcommand that needs no scene
+  m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
+  m["bake/run"].insert("bake/run/stages");
+  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/walk"] = plus(assets, {"formats/camera"});

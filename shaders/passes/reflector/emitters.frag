@@ -19,8 +19,6 @@ layout(location = 0) out vec4 o_light;
 
 const float kLeastCosine = 1e-3;  // of the incidences that lobes are known for
 
-const float kLeastCosine = 1e-3;  // of the incidences that lobes are known for
-
 // What the lobe, of integral 1, shows of the emitters.
 vec3 emitters_in_lobe(float cos_theta) {
   vec3 place = (u_reflector_from_pack * vec4(v_position, 1.0)).xyz;

@@ -5,7 +5,7 @@
 
 #include "bake/trace/path.h"
 #include "formats/core/octahedral.h"
-#include "formats/core/sh.h"
+#include "formats/sh/sh.h"
 #include "formats/light/light_at.h"
 #include "tests/bake/support/scene_parts.h"
 

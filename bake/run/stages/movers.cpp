@@ -1,6 +1,6 @@
-#include "bake/run/movers.h"
+#include "bake/run/stages/movers.h"
 
-#include "bake/run/baked_light.h"
+#include "bake/run/stages/baked_light.h"
 
 namespace oriel {
 namespace {

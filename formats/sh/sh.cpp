@@ -1,4 +1,4 @@
-#include "formats/core/sh.h"
+#include "formats/sh/sh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <cstdlib>
 
 #include "formats/core/check.h"
-#include "formats/core/sh.h"
+#include "formats/sh/sh.h"
 
 namespace oriel {
 namespace {

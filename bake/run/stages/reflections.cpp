@@ -1,11 +1,11 @@
-#include "bake/run/reflections.h"
+#include "bake/run/stages/reflections.h"
 
 #include <limits>
 
 #include "bake/radiance/capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
-#include "bake/run/baked_light.h"
+#include "bake/run/stages/baked_light.h"
 
 namespace oriel {
 namespace {
