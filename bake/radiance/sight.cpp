@@ -23,14 +23,13 @@ bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t t
 }
 
 Surroundings::Surroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options)
-    : accel_(accel), reflectors_(reflectors), options_(options), mirror_of_(accel.scene().triangles.size()) {
+    : accel_(accel), reflectors_(reflectors), options_(options), reflector_of_(accel.scene().triangles.size()) {
   for (std::uint32_t r = 0; r < reflectors.size(); ++r)
-    if (reflectors[r].roughness <= options.max_chain_roughness)
-      for (const std::uint32_t t : reflectors[r].triangles) mirror_of_[t] = r + 1;
+    for (const std::uint32_t t : reflectors[r].triangles) reflector_of_[t] = r + 1;
 }
 
-const FoundReflector* Surroundings::mirror_at(std::uint32_t triangle) const {
-  return mirror_of_[triangle] > 0 ? &reflectors_[mirror_of_[triangle] - 1] : nullptr;
+const FoundReflector* Surroundings::reflector_at(std::uint32_t triangle) const {
+  return reflector_of_[triangle] > 0 ? &reflectors_[reflector_of_[triangle] - 1] : nullptr;
 }
 
 class Surroundings::Walk {
@@ -82,15 +81,22 @@ class Surroundings::Walk {
       const Vec3 through = straight_transmittance(point, cosine);
       const bool passes = max_component(through) >= kSeeThrough;
       if (!passes) note_depth(hit, p, back);
-      if (point.coverage > 0 && !back) visit_({hit, -ray_.direction, throughput_ * point.coverage, false});
+      if (point.coverage > 0 && !back)
+        visit_({.hit = hit, .towards_eye = -ray_.direction, .throughput = throughput_ * point.coverage});
       throughput_ *= through;
       return !passes;
     }
-    const FoundReflector* mirror = back || orders_left_ == 0 ? nullptr : in_.mirror_at(hit.triangle);
+    const FoundReflector* reflector = back ? nullptr : in_.reflector_at(hit.triangle);
+    const bool narrow = reflector && reflector->roughness <= in_.options_.max_chain_roughness;
+    const FoundReflector* mirror = narrow && orders_left_ > 0 ? reflector : nullptr;
     const Vec3 r = mirror ? reflectance(shade_point(scene_, hit.triangle, hit.barycentric), cosine) : Vec3(0);
     if (max_component(r) < in_.options_.min_chain_reflectance) mirror = nullptr;
     if (!mirror || max_component(r) < kImage) note_depth(hit, p, back);
-    const bool goes_on = !back && visit_({hit, -ray_.direction, throughput_, mirror != nullptr});
+    const bool goes_on = !back && visit_({.hit = hit,
+                                          .towards_eye = -ray_.direction,
+                                          .throughput = throughput_,
+                                          .mirror = mirror != nullptr,
+                                          .glossy = reflector && !narrow});
     if (!mirror || (depth_known_ && !goes_on)) return true;
     bounce(*mirror, r, p);
     return false;

@@ -22,6 +22,7 @@ struct SeenSurface {
   Vec3 throughput{1};    // share of its light that reaches the reflector, coverage included
   bool mirror = false;   // what it reflects follows, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
+  bool glossy = false;   // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
 };
 
 struct Sight {
@@ -56,12 +57,13 @@ class Surroundings {
 
  private:
   class Walk;
-  const FoundReflector* mirror_at(std::uint32_t triangle) const;
+  // The reflector that the triangle belongs to; null: none.
+  const FoundReflector* reflector_at(std::uint32_t triangle) const;
 
   const Accel& accel_;
   std::span<const FoundReflector> reflectors_;
   SightOptions options_;
-  std::vector<std::uint32_t> mirror_of_;  // by triangle: 1 + index of the planar mirror that it belongs to; 0: none
+  std::vector<std::uint32_t> reflector_of_;  // by triangle: 1 + index; 0: none
 };
 
 // Whether the triangle, or its twin, is among the reflector's.

@@ -129,15 +129,16 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   warn_about_error(options, radiosity.report, context);
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
+  const BakedScene baked{accel, lights, atlas, pack.lightmaps};
   ORIEL_TRY(MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   ReflectionReport reflections;
   if (options.with_radiance) {
     ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
-                auto baked = bake_reflections(options, accel, atlas, materials, mesh, context, pack);
-                if (baked) rays = baked->rays;
-                return baked;
+                auto made = bake_reflections(options, baked, materials, mesh, context, pack);
+                if (made) rays = made->rays;
+                return made;
               }));
     result.omissions.insert(result.omissions.end(), reflections.omissions.begin(), reflections.omissions.end());
   } else {
@@ -148,9 +149,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
     ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
                 return bake_movers(options, movers, materials, context, pack, rays);
               }));
-    ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
-      return bake_light_field(options, {accel, lights, atlas}, movers, context, pack, rays);
-    }));
+    ORIEL_TRY_VOID(timed(
+        "probes", [&](std::uint64_t& rays) { return bake_light_field(options, baked, movers, context, pack, rays); }));
   } else if (options.with_transfer) {
     result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }

@@ -219,6 +219,22 @@ Vec3 wide_direction(const Scene& scene, const Hit& hit, const SceneMaterial& mat
   return in_tangent_frame.x * t + in_tangent_frame.y * tangent.w * glm::cross(normal, t);
 }
 
+// Light from lamps and by one sampled lobe; on_diffuse: may be null.
+Vec3 reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                   std::uint64_t& rays, const OnDiffuse* on_diffuse) {
+  if (!surface.reflects) return Vec3(0);
+  const Shading shading(surface, wo);
+  Vec3 light = sample_lights_bsdf(t, surface, shading, sampler, rays);
+  const float u = sampler.next1();
+  const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
+  if (!sample || sample->lobe == Lobe::kTransmission) return light;
+  const Vec3 direction = shading.above(sample->wi);
+  const Ray ray{spawn_origin(surface, direction), direction};
+  const float pdf = sample->delta ? 0 : shading.pdf(direction);
+  const PathLight rest = Walk(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
+  return light + rest.emitted + rest.sky + rest.scattered;
+}
+
 }  // namespace
 
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
@@ -271,17 +287,14 @@ PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first,
 
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
-  if (!surface.reflects) return Vec3(0);
-  const Shading shading(surface, wo);
-  Vec3 light = sample_lights_bsdf(t, surface, shading, sampler, rays);
-  const float u = sampler.next1();
-  const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
-  if (!sample || sample->lobe == Lobe::kTransmission) return light;
-  const Vec3 direction = shading.above(sample->wi);
-  const Ray ray{spawn_origin(surface, direction), direction};
-  const float pdf = sample->delta ? 0 : shading.pdf(direction);
-  const PathLight rest = Walk(t, sampler, rays).follow(ray, pdf, 1, sample->weight);
-  return light + rest.emitted + rest.sky + rest.scattered;
+  return reflect_light(t, surface, wo, sampler, rays, nullptr);
+}
+
+Vec3 specular_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                    std::uint64_t& rays, const OnDiffuse& on_diffuse) {
+  SurfacePoint specular = surface;
+  specular.shade.diffuse = specular.shade.transmission = Vec3(0);
+  return reflect_light(t, specular, wo, sampler, rays, &on_diffuse);
 }
 
 IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surface, Sampler& sampler,

@@ -81,6 +81,11 @@ PathLight trace_to_diffuse(const Transport& transport, const Ray& ray, const Hit
 Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 
+// The part of it that leaves by specular lobes. Diffuse reflection met on the way is left to the caller as in
+// trace_to_diffuse(); the surface's own is not told.
+Vec3 specular_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                    std::uint64_t& rays, const OnDiffuse& on_diffuse);
+
 // One estimate of the irradiance at a point, lux: light sampling and a cosine-distributed ray, combined by MIS.
 struct IrradianceSample {
   Vec3 direct{0};    // straight from emitters

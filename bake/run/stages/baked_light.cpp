@@ -5,8 +5,9 @@
 #include "bake/trace/albedo.h"
 
 namespace oriel {
-
 namespace {
+
+constexpr std::uint32_t kLobeSamples = 32;
 
 // One of a page's arrays at a point, bilinear.
 Vec3 sample_page(const LightmapPage& page, const std::vector<Vec3>& texels, const Atlas& atlas, std::uint32_t triangle,
@@ -22,6 +23,40 @@ Vec3 sample_page(const LightmapPage& page, const std::vector<Vec3>& texels, cons
   return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
 }
 
+// Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
+Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface, bool wide_lobe) {
+  const Scene& scene = baked.accel.scene();
+  if (scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material].unlit)
+    return surface.shade.base_color;
+  const Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
+  if (!seen.hit.front) return light;  // lit backs have triangles of their own
+  const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye));
+  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (wide_lobe ? r : Vec3(0));
+  const Vec3 normal = geometry_at(scene, seen.hit, -seen.towards_eye).normal;
+  const Vec3 e =
+      baked_irradiance(baked.atlas, baked.pages, surface.triangle, surface.barycentric, surface.normal, normal);
+  return light + share / kPi * e;
+}
+
+// What the specular lobes send towards the eye.
+Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint64_t seed,
+                std::uint64_t& rays) {
+  const Transport transport{baked.accel, baked.lights, {}};
+  const UVec2 place = glm::floatBitsToUint(surface.barycentric);
+  const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
+  Vec3 sum(0);
+  const OnDiffuse add = [&](const DiffuseVertex& v) {
+    if (!v.front) return;
+    const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
+    sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, v.triangle, v.barycentric, normal, normal);
+  };
+  for (std::uint32_t i = 0; i < kLobeSamples; ++i) {
+    Sampler sampler(seed, stream, i);
+    sum += specular_light(transport, surface, towards_eye, sampler, rays, add);
+  }
+  return sum / float{kLobeSamples};
+}
+
 }  // namespace
 
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
@@ -34,20 +69,15 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, s
   return e * directional_ratio(sample_page(page, page.direction, atlas, triangle, barycentric), tilted, normal);
 }
 
-Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages,
-                    const SeenSurface& seen) {
-  const Hit& hit = seen.hit;
-  const Vec3& towards_eye = seen.towards_eye;
-  const SurfacePoint surface = surface_at(scene, hit, -towards_eye);
-  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
-  if (material.unlit) return surface.shade.base_color;
-  Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
-  if (!hit.front) return light;  // lit backs have triangles of their own
-  const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, towards_eye));
-  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (seen.mirror ? Vec3(0) : r);
-  const Vec3 normal = geometry_at(scene, hit, -towards_eye).normal;
-  const Vec3 e = baked_irradiance(atlas, pages, hit.triangle, hit.barycentric, surface.normal, normal);
-  return light + share / kPi * e;
+Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
+  return shown_light(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye), !seen.mirror);
+}
+
+Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint64_t seed,
+                               std::uint64_t& rays) {
+  if (!seen.glossy) return baked_radiance(baked, seen);
+  const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye);
+  return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, seed, rays);
 }
 
 }  // namespace oriel

@@ -16,10 +16,22 @@ namespace oriel {
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
                       const Vec2& barycentric, const Vec3& tilted, const Vec3& normal);
 
+// What is lit and shows: `lights`, `atlas` and `pages` are those of the accelerator's scene.
+struct BakedScene {
+  const Accel& accel;
+  const LightSet& lights;
+  const Atlas& atlas;
+  std::span<const LightmapPage> pages;
+};
+
 // Radiance that a surface sends towards the eye, cd/m², by the player's shading equation: (1 - max R) kd/π E, the
 // specular part as a wide lobe R E/π unless it is a mirror whose reflection is followed, and its own emission where
 // that counts; backs reflect nothing. Constant cost: no further ray.
-Vec3 baked_radiance(const Scene& scene, const Atlas& atlas, std::span<const LightmapPage> pages,
-                    const SeenSurface& seen);
+Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
+
+// The same, but glossy reflectors show what their lobe does: its light is traced until it meets diffuse surfaces, on
+// average over 32 paths. So a mirror shows the highlights in a polished floor. Adds to `rays`.
+Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint64_t seed,
+                               std::uint64_t& rays);
 
 }  // namespace oriel

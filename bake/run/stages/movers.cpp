@@ -113,7 +113,7 @@ Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std
                         Context& context, Pack& pack, std::uint64_t& rays) {
   const Scene& scene = baked.accel.scene();
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3& towards_eye, bool with_emission) {
-    return baked_radiance(scene, baked.atlas, pack.lightmaps, {hit, towards_eye, Vec3(1), false, with_emission});
+    return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye, .emission = with_emission});
   };
   ProbeOptions probes = options.probes;
   probes.bands = options.transfer.bands;

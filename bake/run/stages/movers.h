@@ -3,8 +3,8 @@
 
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
+#include "bake/run/stages/baked_light.h"
 #include "bake/scene/motion/movers.h"
-#include "bake/trace/lights.h"
 
 namespace oriel {
 
@@ -15,13 +15,6 @@ struct MoverReport {
   float compression_error = 0;  // relative
   int bytes_per_vertex = 0;
   float coarse_share = 0;  // of the surface whose vertices are too far apart for what shades them
-};
-
-// What is lit and shows: `lights` and `atlas` are those of the accelerator's scene.
-struct BakedScene {
-  const Accel& accel;
-  const LightSet& lights;
-  const Atlas& atlas;
 };
 
 // Transfer of every mover, compressed, into pack.movers; the summaries of the materials that only movers have into

@@ -67,9 +67,10 @@ Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps
 
 }  // namespace
 
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
                                           const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
                                           Pack& pack) {
+  const Accel& accel = baked.accel;
   ReflectionReport report;
   ORIEL_TRY(EyeRegion region, find_eye_region(accel, options.eyes, context));
   if (!region.note.empty()) report.omissions.push_back(region.note);
@@ -78,14 +79,17 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Acce
             reflectors_for(options, accel, materials, eyes, context, report.omissions));
   ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
+  std::atomic<std::uint64_t> rays{0};
   const auto outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance(accel.scene(), atlas, pack.lightmaps, seen);
+    std::uint64_t lobe_rays = 0;
+    const Vec3 radiance = baked_radiance_with_lobes(baked, seen, context.seed, lobe_rays);
+    if (lobe_rays > 0) rays += lobe_rays;
+    return radiance;
   };
   if (options.with_material)
     ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
                                       report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
-  std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, plan.maps, &rays));
   report.rays = rays;
   if (options.view_scheme == ViewScheme::kPlanned)

@@ -4,6 +4,7 @@
 #include "bake/radiance/plan/samples.h"
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
+#include "bake/run/stages/baked_light.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -16,7 +17,7 @@ struct ReflectionReport {
 
 // Finds the eye region and the reflectors, plans and captures their maps, all into the pack, whose lightmaps are there.
 // Error kStopped.
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
                                           const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
                                           Pack& pack);
 

@@ -1,0 +1,74 @@
+// What surfaces show of the baked light.
+#include "bake/run/stages/baked_light.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/radiance/mirror_room.h"
+
+namespace oriel {
+namespace {
+
+// A room whose walls send out 3.5 cd/m² wherever one looks: 3 of their own, and half of π lux.
+struct EvenRoom : test::MirrorRoom {
+  Atlas atlas;
+  std::vector<LightmapPage> pages{1};
+
+  explicit EvenRoom(float roughness) : MirrorRoom(1, roughness) {
+    for (std::size_t m = 1; m < scene.materials.size(); ++m) {
+      scene.materials[m].specular = 0;
+      scene.materials[m].emission = Vec3(3);
+    }
+    atlas.page.assign(scene.triangles.size(), 0);
+    atlas.uv.assign(scene.triangles.size(), {});
+    pages[0].width = pages[0].height = 1;
+    pages[0].irradiance.assign(1, Vec3(kPi));
+  }
+};
+
+// So a reflector sends out its reflectance times that, whatever its lobe and the direction.
+TEST(BakedLight, LobesShowTheirReflectanceInAnEvenRoom) {
+  for (const float roughness : {0.15f, 0.35f, 0.7f}) {
+    const EvenRoom room(roughness);
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    const LightSet lights(room.scene);
+    const BakedScene baked{*accel, lights, room.atlas, room.pages};
+    for (const float cosine : {1.0f, 0.6f, 0.2f}) {
+      const Vec3 towards_eye(std::sqrt(1 - cosine * cosine), 0, cosine);
+      double sum = 0;
+      std::uint64_t rays = 0;
+      constexpr int kPoints = 64;
+      for (int i = 0; i < kPoints; ++i) {
+        const Vec3 on(1.2f + 0.02f * static_cast<float>(i), 1.5f, test::kMirrorInset);
+        const Hit hit = accel->intersect({on + 0.1f * towards_eye, -towards_eye});
+        ASSERT_TRUE(hit);
+        SeenSurface seen{hit, towards_eye};
+        seen.glossy = true;
+        sum += baked_radiance_with_lobes(baked, seen, 7, rays).g;
+      }
+      const Vec3 r = reflectance(shade_point(room.scene, room.scene.triangles.size() - 1, Vec2(0.3f)), cosine);
+      EXPECT_NEAR(sum / kPoints, 3.5 * r.g, 0.01 * 3.5) << roughness << " " << cosine;
+      EXPECT_GE(rays, std::uint64_t{kPoints} * 32);
+    }
+  }
+}
+
+// Those that are followed add nothing of their lobe, others show it as wide: R E/π.
+TEST(BakedLight, MirrorsAndWideLobesTraceNothing) {
+  const EvenRoom room(0);
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const LightSet lights(room.scene);
+  const BakedScene baked{*accel, lights, room.atlas, room.pages};
+  const Hit hit = accel->intersect({{2, 1.5f, 1}, {0, 0, -1}});
+  ASSERT_TRUE(hit);
+  std::uint64_t rays = 0;
+  SeenSurface seen{hit, Vec3(0, 0, 1)};
+  EXPECT_NEAR(baked_radiance_with_lobes(baked, seen, 7, rays).g, 0.9f, 0.01f);
+  seen.mirror = true;
+  EXPECT_EQ(baked_radiance_with_lobes(baked, seen, 7, rays), Vec3(0));
+  EXPECT_EQ(rays, 0u);
+}
+
+}  // namespace
+}  // namespace oriel
