@@ -99,6 +99,27 @@ Json radiance_maps_json(const Pack& pack) {
   return out;
 }
 
+// Curved reflectors and what surrounds them.
+Json curved_reflectors_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& r : pack.curved_reflectors)
+    out.push_back(
+        {{"name", r.name}, {"material", r.material}, {"surround_map", r.map}, {"triangles", r.indices.size() / 3}});
+  return out;
+}
+
+Json surround_maps_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& map : pack.surround_maps) {
+    const auto s = summarise(map);
+    out.push_back({{"size", map.size},
+                   {"centre", triple(map.centre)},
+                   {"texels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
+                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
+  }
+  return out;
+}
+
 Json materials_json(const Pack& pack) {
   Json out = Json::array();
   for (const auto& m : pack.materials)
@@ -154,6 +175,8 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["lightmaps"] = lightmaps_json(pack);
   out["reflectors"] = reflectors_json(pack);
   out["radiance_maps"] = radiance_maps_json(pack);
+  out["curved_reflectors"] = curved_reflectors_json(pack);
+  out["surround_maps"] = surround_maps_json(pack);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -223,6 +246,19 @@ void print_maps(const Pack& pack) {
     fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i,
                map.width, map.height, map.reflector,
                100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
+  }
+  for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
+    const auto& r = pack.curved_reflectors[i];
+    fmt::print("curved reflector {}: '{}', {} triangles, material {}, surround map {}\n", i, r.name,
+               r.indices.size() / 3, r.material, r.map);
+  }
+  for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
+    const auto& map = pack.surround_maps[i];
+    const auto s = summarise(map);
+    fmt::print(
+        "surround map {}: {} x {} around ({:.4g}, {:.4g}, {:.4g}), {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n",
+        i, map.size, map.size, map.centre.x, map.centre.y, map.centre.z,
+        100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
   }
   print_material_maps(pack);
 }

@@ -102,8 +102,8 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["provenance"]["seed"], 7);
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);
   EXPECT_NEAR(json["lightmaps"][0]["lux"]["max"].get<double>(), 155.9, 0.2);
-  EXPECT_EQ(json["radiance_maps"].size(), 2u);
-  EXPECT_EQ(json["sections"].size(), 20u);
+  EXPECT_EQ(json["radiance_maps"].size(), 3u);
+  EXPECT_EQ(json["sections"].size(), 28u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 
