@@ -7,6 +7,7 @@
 #include "bake/atlas/atlas.h"
 #include "bake/material/materials.h"
 #include "bake/radiance/capture.h"
+#include "bake/radiance/curved/curved_reflectors.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
 #include "bake/radiosity/radiosity.h"
@@ -27,6 +28,7 @@ struct BakeOptions {
   ReflectorOptions reflectors;
   ViewOptions views;
   CaptureOptions capture;
+  CurvedOptions curved;
   MaterialOptions material;
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
@@ -36,12 +37,37 @@ std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
   return out;
 }
 
+std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> indices;
+  for (const std::uint32_t t : triangles)
+    for (std::uint32_t corner = 0; corner < 3; ++corner)
+      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+  return indices;
+}
+
+// Shiny surfaces that are not planar, and what surrounds them, into the pack.
+Status bake_curved_reflections(const BakeOptions& options, const Accel& accel, std::span<const std::uint32_t> triangles,
+                               std::span<const ReflectorMaterial> materials, const AssembledMesh& mesh,
+                               const OutgoingRadiance& outgoing, Context& context, BakeResult& result,
+                               std::atomic<std::uint64_t>& rays) {
+  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, options.curved);
+  result.omissions.insert(result.omissions.end(), found.omitted.begin(), found.omitted.end());
+  ORIEL_TRY_VOID(capture_surroundings(accel, found, outgoing, context, &rays));
+  for (FoundCurvedReflector& f : found.reflectors) {
+    f.reflector.indices = mesh_indices(mesh, f.triangles);
+    result.pack.curved_reflectors.push_back(std::move(f.reflector));
+  }
+  result.pack.surround_maps = std::move(found.maps);
+  return {};
+}
+
 // Reflectors, their viewpoints and what is seen from them, into the pack.
 Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
                         const MaterialMaps& materials, const AssembledMesh& mesh, Context& context, BakeResult& result,
                         std::uint64_t& rays) {
   const Scene& scene = accel.scene();
-  FoundReflectors found = find_reflectors(accel, reflector_materials(materials), options.reflectors);
+  const std::vector<ReflectorMaterial> lobes = reflector_materials(materials);
+  FoundReflectors found = find_reflectors(accel, lobes, options.reflectors);
   ViewPlan plan = plan_views(scene, found.reflectors, options.views);
   for (auto* lines : {&plan.omitted, &found.omitted})  // what reduces quality first
     result.omissions.insert(result.omissions.end(), lines->begin(), lines->end());
@@ -54,12 +80,12 @@ Status bake_reflections(const BakeOptions& options, const Accel& accel, const At
   };
   std::atomic<std::uint64_t> counted{0};
   ORIEL_TRY_VOID(capture_maps(accel, found.reflectors, outgoing, options.capture, context, plan.maps, &counted));
+  ORIEL_TRY_VOID(
+      bake_curved_reflections(options, accel, found.unplanar, lobes, mesh, outgoing, context, result, counted));
   rays = counted;
   result.pack.radiance_maps = std::move(plan.maps);
   for (FoundReflector& f : found.reflectors) {
-    for (const std::uint32_t t : f.triangles)
-      for (std::uint32_t corner = 0; corner < 3; ++corner)
-        f.reflector.indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+    f.reflector.indices = mesh_indices(mesh, f.triangles);
     result.pack.reflectors.push_back(std::move(f.reflector));
   }
   return {};

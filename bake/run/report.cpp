@@ -49,8 +49,18 @@ Json atlas_json(const Atlas& atlas) {
 std::string plan_json(const BakeFacts& f) {
   Json reflectors = Json::array();
   for (const Reflector& r : f.pack.reflectors)
-    reflectors.push_back(
-        {{"name", r.name}, {"area_m2", r.area_m2}, {"elements", r.elements_x * r.elements_y}, {"maps", r.map_count}});
+    reflectors.push_back({{"name", r.name},
+                          {"kind", "planar"},
+                          {"why", fmt::format("within {:.2g} m of a plane", r.flatness_m)},
+                          {"area_m2", r.area_m2},
+                          {"elements", r.elements_x * r.elements_y},
+                          {"maps", r.map_count}});
+  for (const CurvedReflector& r : f.pack.curved_reflectors)
+    reflectors.push_back({{"name", r.name},
+                          {"kind", "curved"},
+                          {"why", "curved, or flat in pieces too small for planar reflectors"},
+                          {"triangles", r.indices.size() / 3},
+                          {"map_size", f.pack.surround_maps[r.map].size}});
   const Json json = {
       {"scene",
        {{"triangles", f.scene.triangles.size()},
@@ -80,7 +90,11 @@ std::string plan_json(const BakeFacts& f) {
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},
         {"incident_lm", rgb(f.radiosity.incident_lm)}}},
-      {"radiance", {{"reflectors", reflectors}, {"maps", f.pack.radiance_maps.size()}, {"rays", f.radiance_rays}}},
+      {"radiance",
+       {{"reflectors", reflectors},
+        {"maps", f.pack.radiance_maps.size()},
+        {"surround_maps", f.pack.surround_maps.size()},
+        {"rays", f.radiance_rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
       {"omitted", f.omissions},
   };

@@ -50,14 +50,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});  // where eyes can be
+  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});  // shiny surfaces that no plane holds
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});           // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/lux", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"],
+                       {"bake/plan", "bake/radiance/curved", "bake/lux", "bake/walk", "formats/pack", "formats/image"});
   m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
   m["player/gpu"] = core;
   m["player/walk"] = assets;
