@@ -47,6 +47,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
+  ORIEL_TRY(renderer->curved_pass_, CurvedPass::create(device.dialect));
   ORIEL_TRY(renderer->display_, DisplayPass::create(device.dialect));
   ORIEL_TRY_VOID(gpu::check_gl("compiling shaders"));
   return renderer;
@@ -115,6 +116,28 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   return {};
 }
 
+// Gives the see-through ones, whose light is added once the scene is drawn.
+std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, const View& view,
+                                                             const FrameOptions& options,
+                                                             std::set<std::uint32_t>& reflective, FrameStats& stats) {
+  std::vector<const GpuCurvedReflector*> see_through;
+  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
+    if (!may_be_visible(frustum, reflector.bounds)) continue;
+    if (scene.is_transparent(reflector.material)) {
+      curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
+      see_through.push_back(&reflector);
+    } else {
+      // Any number will do: it says that the pixel holds S already.
+      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(kReflectorBits), kReflectorBits, options,
+                              stats);
+      reflective.insert(reflector.material);
+    }
+  }
+  return see_through;
+}
+
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
   if (options.white > 0 || !needs_white(scene)) return options.white;
   ORIEL_TRY(const std::optional<float> ev100, meter());
@@ -146,6 +169,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
     reflective.insert(candidate.reflector->material);
   }
+  const auto see_through = draw_curved(scene, view, options, reflective, stats);
   if (shows_scene(options.show)) {
     scene_pass_.draw_opaque(scene, view, weights_of(options.show), reflective, stats);
     ORIEL_TRY(const float white, white_for(scene, options));
@@ -154,6 +178,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
   }
+  for (const GpuCurvedReflector* reflector : see_through)
+    curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
   return stats;
 }

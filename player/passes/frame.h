@@ -8,6 +8,7 @@
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
 #include "player/reflections/convolve_pass.h"
+#include "player/reflections/curved_pass.h"
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/reproject_pass.h"
@@ -45,6 +46,9 @@ class Renderer {
                                     FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
+  // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
+  std::vector<const GpuCurvedReflector*> draw_curved(GpuScene& scene, const View& view, const FrameOptions& options,
+                                                     std::set<std::uint32_t>& reflective, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;
@@ -54,6 +58,7 @@ class Renderer {
   ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
+  CurvedPass curved_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;

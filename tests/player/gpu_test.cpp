@@ -19,7 +19,7 @@ namespace {
 using gpu::Dialect;
 
 constexpr const char* kPasses[] = {
-    "depth",       "mask",        "scene",           "transparent", "reproject",        "march",
+    "depth",       "mask",        "scene",           "transparent", "reproject",        "march",         "curved/light",
     "screen/pull", "screen/push", "screen/convolve", "compose",     "screen/luminance", "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
