@@ -15,6 +15,9 @@ Scene make_cornell();
 // window, C lit only through its doorway. Closed; 20 to 60 thousand triangles; a 600-frame walk.
 Scene make_gallery();
 
+// A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
+Scene make_studio();
+
 struct HouseOptions {
   std::uint64_t triangles = 100'000;
   int reflectors = 5;
