@@ -93,7 +93,7 @@ Scene make_studio() {
   add_balls(scene);
   add_lamp(scene);
   scene.cameras.push_back({"balls", Vec3(2.1f, 1.1f, 4.6f), Vec3(1.8f, 0.4f, 2), 0.7f});
-  scene.cameras.push_back({"mirror ball", Vec3(1.9f, 0.9f, 3.2f), Vec3(1.3f, 0.4f, 2), 0.75f});
+  scene.cameras.push_back({"ball", Vec3(1.9f, 0.9f, 3.2f), Vec3(1.3f, 0.4f, 2), 0.75f});
   scene.cameras.push_back({"lamp", Vec3(2.2f, 1.2f, 2.4f), Vec3(3.2f, 0.8f, 1), 0.8f});
   return scene;
 }

@@ -21,6 +21,7 @@ struct Reference {
   Scene scene;
   ReferenceFrame frame;
   std::vector<char> mirror;  // pixels whose first surface is a mirror
+  std::vector<char> gloss;   // or rougher metal
 };
 
 class Frames : public testing::Test {
@@ -70,6 +71,7 @@ class Frames : public testing::Test {
         const SceneMaterial* m =
             hit ? &r.scene.materials[r.scene.surfaces[r.scene.triangle_surface[hit.triangle]].material] : nullptr;
         r.mirror.push_back(m && m->roughness == 0 && m->metallic == 1 && hit.front);
+        r.gloss.push_back(m && m->roughness > 0 && m->metallic == 1 && hit.front);
       }
     return r;
   }
@@ -120,6 +122,21 @@ TEST_F(Frames, GalleryDiffuseAndMirrorAgreeWithTheReference) {
       test::psnr_srgb(play("gallery", "mirror", "all"), r.frame.total, static_cast<float>(0.18 / mean), r.mirror);
   std::printf("gallery mirror: PSNR %.1f dB over %ld pixels\n", psnr, static_cast<long>(pixels));
   EXPECT_GE(psnr, 25);
+}
+
+TEST_F(Frames, StudioBallsAgreeWithTheReference) {
+  bake("studio", "--samples 256");
+  const Reference r = reference("studio", "balls", 256);
+  double mean = 0;
+  for (const Vec3& v : r.frame.total) mean += luminance(v) / static_cast<double>(r.frame.total.size());
+  const FloatImage frame = play("studio", "balls", "all");
+  for (const auto& [name, mask] : {std::pair("mirror", &r.mirror), std::pair("glossy", &r.gloss)}) {
+    const auto pixels = std::count(mask->begin(), mask->end(), 1);
+    ASSERT_GT(pixels, kWidth * kHeight / 50) << name;
+    const double psnr = test::psnr_srgb(frame, r.frame.total, static_cast<float>(0.18 / mean), *mask);
+    std::printf("studio, %s metal: PSNR %.1f dB over %ld pixels\n", name, psnr, static_cast<long>(pixels));
+    EXPECT_GE(psnr, 25) << name;
+  }
 }
 
 }  // namespace
