@@ -50,7 +50,9 @@ Status bake_curved_reflections(const BakeOptions& options, const Accel& accel, s
                                std::span<const ReflectorMaterial> materials, const AssembledMesh& mesh,
                                const OutgoingRadiance& outgoing, Context& context, BakeResult& result,
                                std::atomic<std::uint64_t>& rays) {
-  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, options.curved);
+  CurvedOptions curved = options.curved;
+  curved.memory_bytes = std::min(curved.memory_bytes, options.views.memory_bytes / 4);
+  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, curved);
   result.omissions.insert(result.omissions.end(), found.omitted.begin(), found.omitted.end());
   ORIEL_TRY_VOID(capture_surroundings(accel, found, outgoing, context, &rays));
   for (FoundCurvedReflector& f : found.reflectors) {

@@ -1,6 +1,7 @@
 #include "player/maps/surround_march.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "formats/core/octahedral.h"
 
@@ -29,10 +30,12 @@ Distances distance_at(const SurroundPyramid& map, const Vec3& direction) {
 // A ray by the angle to its direction.
 class Arc {
  public:
-  Arc(const SurroundPyramid& map, const Vec3& side, const Vec3& direction, float h)
-      : map_(map), side_(side), direction_(direction), h_(h) {}
+  Arc(const SurroundPyramid& map, const Vec3& side, const Vec3& direction, float h, float along)
+      : map_(map), side_(side), direction_(direction), h_(h), along_(along) {}
 
-  Vec3 way(float angle) const { return std::cos(angle) * direction_ + std::sin(angle) * side_; }
+  SurroundHit point(float angle) const {
+    return {way(angle), 1 / std::max(h_ * std::cos(angle) / std::sin(angle) - along_, 1e-6f * h_)};
+  }
   // How far the ray lies before the surface: h over its distance minus h over the surface's.
   float before(float angle) const { return std::sin(angle) - distance_at(map_, way(angle)).filtered * h_; }
   bool meets(float angle) const {
@@ -40,8 +43,8 @@ class Arc {
     return std::abs(surface - std::sin(angle)) <= kSurroundConnected * std::sin(angle);
   }
 
-  // Between low, before the surface, and high, behind it: halved, then by false position.
-  float crossing(float low, float high) const {
+  // Between low, before the surface, and high, behind it: halved, then by false position. Both close in.
+  float crossing(float& low, float& high) const {
     for (int k = 0; k < kSurroundHalvings; ++k) {
       const float middle = 0.5f * (low + high);
       (before(middle) <= 0 ? high : low) = middle;
@@ -51,9 +54,11 @@ class Arc {
   }
 
  private:
+  Vec3 way(float angle) const { return std::cos(angle) * direction_ + std::sin(angle) * side_; }
+
   const SurroundPyramid& map_;
   Vec3 side_, direction_;
-  float h_;
+  float h_, along_;
 };
 
 }  // namespace
@@ -63,7 +68,8 @@ SurroundHit march_surroundings(const SurroundPyramid& map, const Vec3& origin, c
   const Vec3 nearest = origin - along * direction;
   const float h = glm::length(nearest), from_centre = glm::length(origin);
   if (h > 1e-5f * from_centre) {
-    const Arc arc(map, nearest / h, direction, h);
+    const Arc arc(map, nearest / h, direction, h, along);
+    std::optional<SurroundHit> beside;  // where the ray was hidden last
     float begin = std::atan2(h, along);
     if (from_centre * map.range.x < 1) begin = std::min(begin, std::asin(std::min(h * map.range.x, 1.0f)));
     const float end = std::asin(std::min(h * map.range.y, 1.0f));
@@ -75,14 +81,17 @@ SurroundHit march_surroundings(const SurroundPyramid& map, const Vec3& origin, c
       const float at = glm::mix(begin, end, static_cast<float>(i) / static_cast<float>(steps));
       const bool behind = arc.before(at) <= 0;
       if (in_front && behind) {
-        const float hit = arc.crossing(last, at);
-        if (arc.meets(hit)) return {arc.way(hit), 1 / std::max(h * std::cos(hit) / std::sin(hit) - along, 1e-6f * h)};
+        float low = last, high = at;
+        const float hit = arc.crossing(low, high);
+        if (arc.meets(hit)) return arc.point(hit);
+        beside = arc.point(std::min(low + kSurroundBeside / static_cast<float>(map.size), begin));
         in_front = false;
       } else if (!behind) {
         in_front = true;
       }
       last = at;
     }
+    if (!in_front && beside) return *beside;
   }
   const float w = distance_at(map, direction).nearest;
   return {direction, w > 0 ? 1 / std::max(1 / w - along, 1e-3f / w) : 0};

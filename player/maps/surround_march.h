@@ -14,14 +14,17 @@ inline constexpr int kSurroundSteps = 24;
 inline constexpr int kSurroundHalvings = 4;  // of the step in which the ray passes behind the surface
 // A ray that passes behind a surface by more than this share of the distance is hidden by it and does not hit it.
 inline constexpr float kSurroundConnected = 0.25f;
+// Radians times texels by which a hidden ray steps back to see past what hides it: two texels, which filters mix.
+inline constexpr float kSurroundBeside = 4;
 
 struct SurroundHit {
   Vec3 direction{0, 0, 1};     // unit, from the centre to what is hit
   float inverse_distance = 0;  // 1/m along the ray; 0: sky
 };
 
-// The ray from `origin` (relative to the map's centre) along `direction` (unit). Where it meets no surface that the map
-// shows, it takes what lies in its direction from the centre.
+// The ray from `origin` (relative to the map's centre) along `direction` (unit). One that is hidden to its
+// end takes what is seen beside the thing that hides it: the ground behind it. Where it meets nothing at all, it takes
+// what lies in its direction from the centre.
 SurroundHit march_surroundings(const SurroundPyramid& map, const Vec3& origin, const Vec3& direction);
 
 }  // namespace oriel

@@ -5,6 +5,7 @@
 const int kSurroundSteps = 24;
 const int kSurroundHalvings = 4;
 const float kSurroundConnected = 0.25;
+const float kSurroundBeside = 4.0;
 
 // Inverse distance of the surface seen from the centre; nearest texel in y.
 vec2 surround_distance(sampler2D inverse_distance, int size, vec3 direction) {
@@ -13,11 +14,17 @@ vec2 surround_distance(sampler2D inverse_distance, int size, vec3 direction) {
   return vec2(textureLod(inverse_distance, uv, 0.0).r, texelFetch(inverse_distance, texel, 0).r);
 }
 
+// The point of the arc at an angle to the ray's direction: xyz the direction from the centre, w the inverse distance along the ray.
+vec4 arc_point(vec3 side, vec3 direction, float h, float along, float angle) {
+  return vec4(cos(angle) * direction + sin(angle) * side, 1.0 / max(h * cos(angle) / sin(angle) - along, 1e-6 * h));
+}
+
 // What the ray meets: xyz the direction from the centre, unit; w the inverse distance along the ray, 0 for the sky.
 vec4 march_surroundings(sampler2D inverse_distance, int size, vec2 range, vec3 origin, vec3 direction) {
   float along = dot(origin, direction);
   vec3 nearest = origin - along * direction;
   float h = length(nearest), from_centre = length(origin);
+  vec4 beside = vec4(0.0);  // where the ray was hidden last
   if (h > 1e-5 * from_centre) {
     vec3 side = nearest / h;
     float begin = atan(h, along);
@@ -43,16 +50,17 @@ vec4 march_surroundings(sampler2D inverse_distance, int size, vec2 range, vec3 o
         float over = sin(low) - surround_distance(inverse_distance, size, at_low).x * h;
         float under = surround_distance(inverse_distance, size, at_high).x * h - sin(high);
         float hit = over + under > 0.0 ? mix(low, high, clamp(over / (over + under), 0.0, 1.0)) : high;
-        way = cos(hit) * direction + sin(hit) * side;
-        float surface = surround_distance(inverse_distance, size, way).y * h;
-        if (abs(surface - sin(hit)) <= kSurroundConnected * sin(hit))
-          return vec4(way, 1.0 / max(h * cos(hit) / sin(hit) - along, 1e-6 * h));
+        vec4 met = arc_point(side, direction, h, along, hit);
+        float surface = surround_distance(inverse_distance, size, met.xyz).y * h;
+        if (abs(surface - sin(hit)) <= kSurroundConnected * sin(hit)) return met;
+        beside = arc_point(side, direction, h, along, min(low + kSurroundBeside / float(size), begin));
         in_front = false;
       } else if (!behind) {
         in_front = true;
       }
       before = at;
     }
+    if (!in_front && beside.w > 0.0) return beside;
   }
   float w = surround_distance(inverse_distance, size, direction).y;
   return vec4(direction, w > 0.0 ? 1.0 / max(1.0 / w - along, 1e-3 / w) : 0.0);

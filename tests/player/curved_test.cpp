@@ -171,6 +171,19 @@ TEST(SurroundMarch, PassesBehindWhatIsNear) {
   EXPECT_LT(glm::length(hit.direction - glm::normalize(expected)), 0.05f);
 }
 
+// One that is hidden to its end sees the ground beside what hides it, and does not take that for what it hits.
+TEST(SurroundMarch, SeesPastWhatHidesIt) {
+  SurroundMap map = room_map({0, 1.5f, 0}, 128, wall_light);
+  for (std::size_t i = 0; i < map.valid.size(); ++i) {  // all that lies towards +x is 0.5 m away
+    const Vec2 at = (Vec2(i % 128, i / 128) + 0.5f) / 128.0f * 2.0f - 1.0f;
+    if (glm::normalize(direction_from_octahedral(at)).x > 0.3f) map.inverse_distance[i] = 2;
+  }
+  const SurroundHit hit = march_surroundings(make_surround_pyramid(map), {0, 0, -0.8f}, {1, 0, 0});
+  EXPECT_LT(hit.direction.x, 0.3f);
+  EXPECT_GT(hit.direction.x, 0.2f);
+  EXPECT_LT(hit.direction.z, -0.9f);
+}
+
 // Light of a level is the mean of the texels below, borders go on over the edges, gaps are filled.
 TEST(SurroundPyramid, LevelsBordersAndGaps) {
   SurroundMap map;
@@ -207,7 +220,9 @@ using CurvedFrames = FrameTest;
 // The shader's march gives what the one on the CPU gives.
 TEST_F(CurvedFrames, MarchAlikeOnBothSides) {
   const Ball ball;
-  const SurroundMap map = room_map(ball.centre, 128, wall_light);
+  SurroundMap map = room_map(ball.centre, 128, wall_light);
+  for (std::size_t i = 0; i < map.valid.size(); ++i)
+    if (i % 128 > 80 && i / 128 % 32 > 12) map.inverse_distance[i] = 1.5f;  // near things that hide some of it
   const SurroundPyramid pyramid = make_surround_pyramid(map);
   const SurroundTextures textures = upload_surround_map(map);
   std::vector<Vec4> origins, directions;
