@@ -40,7 +40,7 @@ class Arc {
   float before(float angle) const { return std::sin(angle) - distance_at(map_, way(angle)).filtered * h_; }
   bool meets(float angle) const {
     const float surface = distance_at(map_, way(angle)).nearest * h_;
-    return std::abs(surface - std::sin(angle)) <= kSurroundConnected * std::sin(angle);
+    return std::abs(surface - std::sin(angle)) <= kSurroundThickness * std::sin(angle);
   }
 
   // Between low, before the surface, and high, behind it: halved, then by false position. Both close in.
@@ -76,7 +76,7 @@ SurroundHit march_surroundings(const SurroundPyramid& map, const Vec3& origin, c
     const int steps =
         std::clamp(static_cast<int>(std::ceil((begin - end) * 0.5f * static_cast<float>(map.size))), 1, kSurroundSteps);
     float last = begin;
-    bool in_front = arc.before(begin) >= -kSurroundConnected * std::sin(begin);
+    bool in_front = arc.before(begin) >= -kSurroundThickness * std::sin(begin);
     for (int i = 1; i <= steps && begin > end; ++i) {
       const float at = glm::mix(begin, end, static_cast<float>(i) / static_cast<float>(steps));
       const bool behind = arc.before(at) <= 0;

@@ -12,8 +12,9 @@ namespace oriel {
 
 inline constexpr int kSurroundSteps = 24;
 inline constexpr int kSurroundHalvings = 4;  // of the step in which the ray passes behind the surface
-// A ray that passes behind a surface by more than this share of the distance is hidden by it and does not hit it.
-inline constexpr float kSurroundConnected = 0.25f;
+// Things are taken for half as thick as they are far away: a ray that passes behind one by less hits a side of it that
+// the map does not see, and shows its rim; one that passes farther behind is hidden by it.
+inline constexpr float kSurroundThickness = 0.5f;
 // Radians times texels by which a hidden ray steps back to see past what hides it: two texels, which filters mix.
 inline constexpr float kSurroundBeside = 4;
 

@@ -4,7 +4,7 @@
 
 const int kSurroundSteps = 24;
 const int kSurroundHalvings = 4;
-const float kSurroundConnected = 0.25;
+const float kSurroundThickness = 0.5;
 const float kSurroundBeside = 4.0;
 
 // Inverse distance of the surface seen from the centre; nearest texel in y.
@@ -33,7 +33,7 @@ vec4 march_surroundings(sampler2D inverse_distance, int size, vec2 range, vec3 o
     int steps = clamp(int(ceil((begin - end) * 0.5 * float(size))), 1, kSurroundSteps);
     float before = begin;
     vec3 way = cos(begin) * direction + sin(begin) * side;
-    bool in_front = surround_distance(inverse_distance, size, way).x * h <= sin(begin) * (1.0 + kSurroundConnected);
+    bool in_front = surround_distance(inverse_distance, size, way).x * h <= sin(begin) * (1.0 + kSurroundThickness);
     for (int i = 1; i <= steps && begin > end; ++i) {
       float at = mix(begin, end, float(i) / float(steps));
       way = cos(at) * direction + sin(at) * side;
@@ -52,7 +52,7 @@ vec4 march_surroundings(sampler2D inverse_distance, int size, vec2 range, vec3 o
         float hit = over + under > 0.0 ? mix(low, high, clamp(over / (over + under), 0.0, 1.0)) : high;
         vec4 met = arc_point(side, direction, h, along, hit);
         float surface = surround_distance(inverse_distance, size, met.xyz).y * h;
-        if (abs(surface - sin(hit)) <= kSurroundConnected * sin(hit)) return met;
+        if (abs(surface - sin(hit)) <= kSurroundThickness * sin(hit)) return met;
         beside = arc_point(side, direction, h, along, min(low + kSurroundBeside / float(size), begin));
         in_front = false;
       } else if (!behind) {
