@@ -61,14 +61,14 @@ struct Palette {
   std::uint32_t ceiling, warm_white, sage, sand, terracotta, outside, lining;
 };
 
-Palette make_palette(Scene& scene) {
+Palette make_palette(Scene& scene, float floor_roughness) {
   scene.textures = {dark_tiles(512), oak_planks(512)};
   const auto diffuse = [&](std::string name, const Vec3& color) { return add_diffuse(scene, std::move(name), color); };
   Palette p{};
   Material tiles;
   tiles.name = "polished tiles";
   tiles.base_color = Vec3(1);
-  tiles.roughness = 0.1f;
+  tiles.roughness = floor_roughness;
   tiles.specular = 1;
   tiles.texture = 0;
   p.tiles = add_material(scene, std::move(tiles));
@@ -198,10 +198,10 @@ void add_cameras(Scene& scene) {
 
 }  // namespace
 
-Scene make_gallery() {
+Scene make_gallery(const GalleryOptions& options) {
   Scene scene;
   scene.name = "Gallery";
-  const Palette palette = make_palette(scene);
+  const Palette palette = make_palette(scene, options.floor_roughness);
   add_building(scene, palette);
   add_lights(scene);
   add_window(scene);

@@ -13,7 +13,10 @@ Scene make_cornell();
 
 // Three connected rooms of a small museum: A with fluted columns and a polished floor, B with a mirror, stairs and a
 // window, C lit only through its doorway. Closed; 20 to 60 thousand triangles; a 600-frame walk.
-Scene make_gallery();
+struct GalleryOptions {
+  float floor_roughness = 0.1f;  // of the tiles, [0, 1]
+};
+Scene make_gallery(const GalleryOptions& options = {});
 
 // A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
 Scene make_studio();

@@ -14,7 +14,8 @@ struct Arguments {
   std::string scene;
   std::string output;
   oriel::sample::HouseOptions house;
-  bool has_house_options = false;
+  oriel::sample::GalleryOptions gallery;
+  bool has_house_options = false, has_gallery_options = false;
   oriel::sample::SkyOptions sky;
   std::string sky_output;
 };
@@ -26,7 +27,7 @@ int report(const oriel::Error& error) {
 
 oriel::Result<oriel::sample::Scene> make_scene(const Arguments& arguments) {
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
-  if (arguments.scene == "gallery") return oriel::sample::make_gallery();
+  if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
   if (arguments.scene == "studio") return oriel::sample::make_studio();
   return oriel::sample::make_house(arguments.house);
 }
@@ -35,6 +36,10 @@ int run(const Arguments& arguments) {
   if (arguments.scene != "house" && arguments.has_house_options) {
     return report({oriel::ErrorCode::kUsage, "found --triangles or --reflectors, expected them with house only",
                    arguments.scene});
+  }
+  if (arguments.scene != "gallery" && arguments.has_gallery_options) {
+    return report(
+        {oriel::ErrorCode::kUsage, "found --floor-roughness, expected it with gallery only", arguments.scene});
   }
   const auto scene = make_scene(arguments);
   if (!scene) return report(scene.error());
@@ -85,8 +90,7 @@ int main(int argc, char** argv) {
       "oriel-scenes"};
   Arguments arguments;
   app.add_option("scene", arguments.scene,
-                 "Which scene: the Cornell box, a museum of three rooms, a two-storey house, a "
-                 "room with curved metal")
+                 "Which scene: the Cornell box, a museum of three rooms, a two-storey house, a room with curved metal")
       ->check(CLI::IsMember({"cornell", "gallery", "house", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
   const auto* triangles = app.add_option("--triangles", arguments.house.triangles,
@@ -95,6 +99,10 @@ int main(int argc, char** argv) {
   const auto* reflectors = app.add_option("--reflectors", arguments.house.reflectors,
                                           "house: planar reflectors (mirrors, polished floors, table tops), 0 to 36")
                                ->capture_default_str();
+  const auto* roughness = app.add_option("--floor-roughness", arguments.gallery.floor_roughness,
+                                         "gallery: of the polished tiles, whose lobe is as wide as its square")
+                              ->check(CLI::Range(0.0f, 1.0f))
+                              ->capture_default_str();
   const auto* sky = add_sky(app, arguments);
   try {
     app.parse(argc, argv);
@@ -104,6 +112,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(oriel::ErrorCode::kUsage);
   }
+  arguments.has_gallery_options = roughness->count() > 0;
   arguments.has_house_options = triangles->count() > 0 || reflectors->count() > 0;
   try {
     return sky->parsed() ? run_sky(arguments) : run(arguments);

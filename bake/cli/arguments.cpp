@@ -1,6 +1,7 @@
 #include "bake/cli/arguments.h"
 
 #include "bake/cli/lux_arguments.h"
+#include "bake/cli/render_arguments.h"
 #include "bake/run/version.h"
 
 namespace oriel {
@@ -21,8 +22,9 @@ constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the erro
 constexpr double kBestError = 1e-3;  // where only time limits the work
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", lightmap_memory, directional = "auto", atlas = "auto", only,
-              estimator = "cached", error = "2%", time;
+  std::string texel = "10cm", memory = "128MiB", lightmap_memory, views = "planned:8", eyes = "walk",
+              directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", time,
+              transfer = "shadowed", probe = "1m";
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option* texel_option = nullptr;
@@ -100,29 +102,79 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
 void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option("--only", texts.only,
                  "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps "
-                 "behind reflectors), material (kernels)")
+                 "behind reflectors), material (kernels), transfer (movers, which stand still without it)")
       ->type_name("LIST");
   app.add_option("--max-reflectors", bake.reflectors.max_reflectors,
                  "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--views", bake.views.views_per_element,
-                 "Viewpoints on the hemisphere behind each reflector element: more show less parallax error")
-      ->check(CLI::Range(1, 4096))
+  app.add_option(
+         "--views", texts.views,
+         "Viewpoints behind each reflector element (9 m²): planned:N are the at most N that show most of what eyes "
+         "see in it, hemisphere:N are spread evenly, as published")
+      ->capture_default_str();
+  app.add_option(
+         "--eyes", texts.eyes,
+         "Whose views reflections are planned for: walk (people on the floors that the cameras can walk to), box "
+         "(anywhere in the scene), or a file with lines of x y z")
+      ->capture_default_str();
+  app.add_option("--orders", bake.sight.orders,
+                 "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only")
+      ->check(CLI::Range(1, 16))
       ->capture_default_str();
   app.add_option("--map-resolution", bake.views.map_resolution,
-                 "Longer side of a radiance map in pixels; 0 chooses by the material's lobe")
+                 "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp (planned), or by the "
+                 "material's lobe")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--memory", texts.memory, "Limit of all radiance maps together; views are thinned out to keep it")
+  app.add_option(
+         "--memory", texts.memory,
+         "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it")
       ->check(checked(parse_bytes, "SIZE"))
+      ->capture_default_str();
+}
+
+void add_mover_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
+  app.add_option("--mover", bake.import.movers,
+                 "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or "
+                 "animates. May be repeated")
+      ->type_name("NODE")
+      ->take_all();
+  app.add_option("--sh-bands", bake.transfer.bands,
+                 "Bands of spherical harmonics of movers' transfer and of the light around them: their square is the "
+                 "number of coefficients")
+      ->check(CLI::Range(2, 6))
+      ->capture_default_str();
+  app.add_option("--transfer", texts.transfer,
+                 "Whether movers shade themselves: shadowed or unshadowed (as if every one was convex)")
+      ->check(CLI::IsMember({"shadowed", "unshadowed"}))
+      ->capture_default_str();
+  app.add_option("--transfer-bounces", bake.transfer.bounces, "Reflections between the parts of a mover")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  app.add_option("--clusters", bake.compress.clusters,
+                 "Clusters that a mover's transfer is compressed in: more lose less and cost the player more")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--probe", texts.probe,
+                 "Distance between the probes of the light that movers meet; they are a quarter as far apart where "
+                 "light changes")
+      ->check(checked(parse_length, "LENGTH"))
       ->capture_default_str();
 }
 
 Status resolve(const Texts& texts, Arguments& args) {
   BakeOptions& bake = args.bake;
+  ORIEL_TRY(bake.probes.spacing_m, parse_length(texts.probe));
+  bake.transfer.shadowed = texts.transfer == "shadowed";
+  if (!bake.transfer.shadowed) bake.transfer.bounces = 0;
   ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
+  bake.planned.memory_bytes = bake.views.memory_bytes;
+  bake.planned.map_resolution = bake.views.map_resolution;
+  if (const Status views = parse_views(texts.views, bake); !views)
+    return fail(ErrorCode::kUsage, "--views", "{}", views.error().message);
+  ORIEL_TRY(bake.eyes, parse_eye_source(texts.eyes));
   bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;
@@ -152,14 +204,17 @@ Status resolve(const Texts& texts, Arguments& args) {
                   "needs --resolution N, the side of the page its coordinates are meant for");
   }
   if (!texts.only.empty()) {
-    bake.with_radiance = bake.with_material = false;
+    bake.with_radiance = bake.with_material = bake.with_transfer = false;
     for (const std::string& part : CLI::detail::split(texts.only, ',')) {
       if (part == "radiance")
         bake.with_radiance = true;
       else if (part == "material")
         bake.with_material = true;
+      else if (part == "transfer")
+        bake.with_transfer = true;
       else if (part != "radiosity")
-        return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance or material", part);
+        return fail(ErrorCode::kUsage, "--only", "found '{}', expected radiosity, radiance, material or transfer",
+                    part);
     }
   }
   return {};
@@ -183,6 +238,7 @@ Arguments parse_arguments(int argc, char** argv) {
   Texts texts;
   SharedTexts shared;
   LuxTexts lux_texts;
+  RenderTexts render_texts;
   MaterialTexts material_texts;
   CLI::App app(
       "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
@@ -198,14 +254,17 @@ Arguments parse_arguments(int argc, char** argv) {
   add_radiosity_options(app, texts, args.bake);
   add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
+  add_mover_options(app, texts, args.bake);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
+  const CLI::App* render = add_render(app, render_texts, shared, args);
   add_material(app, material_texts, args.material);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     args.wants_lux = lux->parsed();
+    args.render.wanted = render->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -214,7 +273,9 @@ Arguments parse_arguments(int argc, char** argv) {
   Status resolved = resolve_shared(shared, args);
   if (resolved) resolved = resolve_material(material_texts, args.material);
   if (resolved && !args.material.wanted)
-    resolved = args.wants_lux ? resolve_lux(lux_texts, args) : resolve(texts, args);
+    resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
+               : args.render.wanted ? resolve_render(render_texts, args)
+                                    : resolve(texts, args);
   if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
     args.exit_code = 1;

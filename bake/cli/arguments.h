@@ -1,18 +1,29 @@
 // The command line of oriel-bake.
 #pragma once
 
-#include "bake/cli/material_arguments.h"
+#include "bake/cli/material/material_arguments.h"
 #include "bake/cli/progress.h"
+#include "bake/reference/reference.h"
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
 
 namespace oriel {
+
+struct RenderArguments {
+  bool wanted = false;  // the subcommand was asked for
+  std::filesystem::path scene, output;
+  std::string camera;  // as written; empty: the scene's first
+  ImportOptions import;
+  ReferenceOptions frame{.width = 1280, .height = 720, .samples = 256};
+  bool reproducible = false;  // the same pixels on every CPU type
+};
 
 struct Arguments {
   BakeOptions bake;
   bool wants_lux = false;  // the subcommand: measure `lux` instead of baking `bake`
   MeasureJob lux;
   std::filesystem::path lux_output;  // empty: stdout
+  RenderArguments render;            // the subcommand `render` instead, where wanted
   MaterialArguments material;        // the subcommand `material` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;

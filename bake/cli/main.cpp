@@ -1,4 +1,4 @@
-// oriel-bake: a glTF scene into one .oriel pack, or into a table of illuminance.
+// oriel-bake: a glTF scene into one .oriel pack, into a table of illuminance, or into a path-traced frame.
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "bake/cli/arguments.h"
+#include "bake/cli/render_arguments.h"
 #include "bake/lux/table.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
@@ -141,9 +141,14 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   try {
     if (args.material.wanted) return run_material(args.material);
+    if (args.render.wanted) {
+      ORIEL_TRY_VOID(check_output(args.render.output, inputs_of(args.render.scene, args.render.import)));
+      return run_render(args.render, context);
+    }
     return args.wants_lux ? run_lux(args, context) : run_bake(args, context, printer);
   } catch (const std::bad_alloc&) {
     if (args.wants_lux) return fail(ErrorCode::kRuntime, "", "not enough memory: try a larger spacing of --grid");
+    if (args.render.wanted) return fail(ErrorCode::kRuntime, "", "not enough memory: try a smaller --size");
     return fail(ErrorCode::kRuntime, "",
                 "not enough memory: try a larger --texel, fewer --views or a smaller --memory");
   } catch (const std::exception& error) {
@@ -160,7 +165,9 @@ int main_of_bake(int argc, char** argv) {
   ProgressPrinter printer(args.style);
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
-  install_signal_handlers(context, args.wants_lux ? args.lux_output : args.bake.output);
+  install_signal_handlers(context, args.wants_lux       ? args.lux_output
+                                   : args.render.wanted ? args.render.output
+                                                        : args.bake.output);
   const Status status = run(args, context, printer);
   ::alarm(0);
   return status ? 0 : print_error(status.error(), args.style, printer);

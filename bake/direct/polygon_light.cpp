@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bake/trace/warp.h"
+#include "formats/lobes/clipped_polygon.h"
 
 namespace oriel {
 namespace {
@@ -29,36 +30,6 @@ float incidence(const Receiver& r, const Vec3& direction) {
 }
 
 namespace {
-
-// Lambert's edge vector: the angle under which the edge is seen, along the normal of the plane through eye and edge.
-Vec3 edge_vector(const Vec3& a, const Vec3& b) {
-  const Vec3 normal = glm::cross(a, b);
-  const float sine = glm::length(normal);
-  return sine > 0 ? normal * (std::atan2(sine, glm::dot(a, b)) / sine) : Vec3(0);
-}
-
-// A triangle clipped by up to two planes through the eye.
-struct ClippedPolygon {
-  std::array<Vec3, 6> v;
-  int count = 0;
-};
-
-ClippedPolygon clip(const ClippedPolygon& in, const Vec3& n) {
-  ClippedPolygon out;
-  for (int i = 0; i < in.count; ++i) {
-    const Vec3 &a = in.v[i], &b = in.v[i + 1 == in.count ? 0 : i + 1];
-    const float da = glm::dot(a, n), db = glm::dot(b, n);
-    if (da >= 0) out.v[out.count++] = a;
-    if ((da > 0 && db < 0) || (da < 0 && db > 0)) out.v[out.count++] = a + (b - a) * (da / (da - db));
-  }
-  return out;
-}
-
-Vec3 polygon_vector(const ClippedPolygon& p) {
-  Vec3 sum(0);
-  for (int i = 0; i < p.count; ++i) sum += edge_vector(p.v[i], p.v[i + 1 == p.count ? 0 : i + 1]);
-  return 0.5f * sum;
-}
 
 // Signed: positive where the receiver is on the front side.
 float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver& r) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bake/direct/lobe_fit.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -140,9 +141,9 @@ void add_slices(BrdfKernel& kernel, const SliceOptions& options) {
   const std::uint32_t count = std::max(options.count, 2u);
   kernel.slice_size = std::max(options.size | 1u, 3u);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double root = i / (count - 1.0);
-    kernel.slices.push_back(
-        make_slice(lobe, kernel.alpha, std::max(root * root, static_cast<double>(kGrazingCosine)), options));
+    const double root = i / (count - 1.0), cos_theta = std::max(root * root, static_cast<double>(kGrazingCosine));
+    kernel.slices.push_back(make_slice(lobe, kernel.alpha, cos_theta, options));
+    kernel.fits.push_back(fit_lobe(lobe, kernel.alpha, cos_theta));
   }
 }
 

@@ -4,25 +4,32 @@
 #include <functional>
 
 #include "bake/jobs/context.h"
-#include "bake/radiance/views.h"
+#include "bake/radiance/sight.h"
 
 namespace oriel {
 
-// Radiance (cd/m²) that leaves a hit surface towards the eye (unit vector from the hit). Called from any thread.
-using OutgoingRadiance = std::function<Vec3(const Hit&, const Vec3& towards_eye)>;
+// Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput. Called from any thread.
+using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 
-struct CaptureOptions {
-  bool has_emission = true;  // outgoing includes emission: recorded in the maps
+// The light without what is negative or not finite.
+Vec3 usable_light(const Vec3& c);
+
+// What a ray from a reflector's plane sees (Surroundings::look), with its light: finite, not negative, 0 where nothing
+// usable is seen. The reflector's emitters do not shine.
+struct SeenLight {
+  Sight sight;
+  Vec3 radiance{0};  // cd/m²
 };
+SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
+              const Vec3& from, const Vec3& direction);
 
-// Fills the pixels of maps planned by plan_views (formats/assets/radiance_map.h says how): one ray through each pixel's
-// centre, so that colour and depth belong to the same point. Surfaces that let at least half of the light pass in
-// some channel are walked through; what they hide and show is weighted by their transmittance, and depth is that of
-// what lies behind. The reflector's own triangles are never hit. The back of a one-sided surface keeps its depth, with
-// radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Adds to `rays` (may be null). The same
-// bytes for any number of threads. Error kStopped.
-Status capture_maps(const Accel& accel, std::span<const FoundReflector> reflectors, const OutgoingRadiance& outgoing,
-                    const CaptureOptions& options, Context& context, std::vector<RadianceMap>& maps,
-                    std::atomic<std::uint64_t>* rays = nullptr);
+// Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): one ray through each pixel's
+// centre, so that colour and depth belong to the same point, as Surroundings::look has them: what transmitting surfaces
+// hide and show is weighted by their transmittance, and mirrors add what they reflect. The reflector's own triangles
+// are never hit. The back of a one-sided surface keeps its depth, with radiance 0 and valid 0. Radiance that is not
+// finite or negative counts as 0. Maps of a reflector that lists emitters have no emission of those. Adds to `rays`
+// (may be null). The same bytes for any number of threads. Error kStopped.
+Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
+                    std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays = nullptr);
 
 }  // namespace oriel

@@ -39,6 +39,7 @@ struct FoundReflector {
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
   float reflectance = 0;                 // as compared with min_reflectance
   float roughness = 0;
+  std::vector<std::uint32_t> emitters;  // triangles whose own light its maps leave out, ascending
 };
 
 struct FoundReflectors {

@@ -2,66 +2,18 @@
 
 #include <algorithm>
 
-#include "bake/radiance/rectangle.h"
 #include "bake/radiance/reproject.h"
 
 namespace oriel {
 namespace {
 
 constexpr double kLowestRing = 75 * kPiD / 180;  // from the pole: views closer to the plane see it edge-on
-constexpr double kMinCoverage = 1e-3;            // of an element by the reflector's polygons
-constexpr std::uint32_t kMinShortSide = 8, kMinResolution = 16;
-
-struct Element {
-  Vec2 lower, upper;
-};
-
-// The elements that the reflector's triangles cover, row by row.
-std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& found, const ElementGrid& grid) {
-  const Reflector& r = found.reflector;
-  const Vec2 step = (r.upper - r.lower) / Vec2(grid.x, grid.y);
-  std::vector<Element> elements;
-  for (std::uint32_t y = 0; y < grid.y; ++y)
-    for (std::uint32_t x = 0; x < grid.x; ++x) {
-      const Vec2 lower = r.lower + step * Vec2(x, y);
-      elements.push_back({lower, Vec2(x + 1 == grid.x ? r.upper.x : lower.x + step.x,
-                                      y + 1 == grid.y ? r.upper.y : lower.y + step.y)});
-    }
-  std::vector<double> covered(elements.size());
-  for (const std::uint32_t t : found.triangles) {
-    std::array<DVec2, 3> triangle;
-    for (int corner = 0; corner < 3; ++corner)
-      triangle[corner] = DVec2(reflector_from_pack(r, scene.positions[scene.triangles[t][corner]]));
-    const DVec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
-    const DVec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      const DVec2 lower(elements[i].lower), upper(elements[i].upper);
-      if (high.x > lower.x && high.y > lower.y && low.x < upper.x && low.y < upper.y)
-        covered[i] += clipped_area(triangle, lower, upper);
-    }
-  }
-  std::vector<Element> out;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const DVec2 size(elements[i].upper - elements[i].lower);
-    if (covered[i] > kMinCoverage * size.x * size.y) out.push_back(elements[i]);
-  }
-  return out;
-}
+constexpr std::uint32_t kMinResolution = 16;
 
 bool outside(const Scene& scene, const Vec3& p, float margin) {
   for (int i = 0; i < 3; ++i)
     if (p[i] < scene.lower[i] - margin || p[i] > scene.upper[i] + margin) return true;
   return false;
-}
-
-IVec2 map_size(const Element& element, std::uint32_t resolution) {
-  const Vec2 size = element.upper - element.lower;
-  const float longer = std::max(size.x, size.y);
-  const auto pixels = [&](float side) {
-    return static_cast<int>(
-        std::clamp<long>(std::lround(resolution * side / longer), std::min(kMinShortSide, resolution), resolution));
-  };
-  return {pixels(size.x), pixels(size.y)};
 }
 
 struct Planner {
@@ -83,22 +35,22 @@ struct Planner {
     for (const Element& element : elements[r]) {
       const Vec3 centre(0.5f * (element.lower + element.upper), 0);
       const float radius = 0.5f * glm::length(element.upper - element.lower);
-      const IVec2 size = map_size(element, resolution(r, divisor));
+      const UVec2 size = map_size(element, resolution(r, divisor));
       for (const Vec3& direction : directions) {
         const Vec3 eye = centre + radius * direction;
         if (outside(scene, pack_from_reflector(reflectors[r].reflector, mirrored(eye)), radius)) {
           ++skipped;
           continue;
         }
-        bytes += kMapBytesPerPixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+        bytes += kMapBytesPerPixel * std::uint64_t{size.x} * size.y;
         if (!maps) continue;
         RadianceMap map;
         map.reflector = static_cast<std::uint32_t>(r);
         map.eye = eye;
         map.lower = element.lower;
         map.upper = element.upper;
-        map.width = static_cast<std::uint32_t>(size.x);
-        map.height = static_cast<std::uint32_t>(size.y);
+        map.width = size.x;
+        map.height = size.y;
         maps->push_back(std::move(map));
       }
     }
@@ -142,20 +94,6 @@ Fit fit_memory(const Planner& planner, std::vector<std::string>& omitted) {
 }
 
 }  // namespace
-
-ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_elements) {
-  const DVec2 s = glm::max(DVec2(size), DVec2(1e-30));
-  double side = std::clamp<double>(element_m, 1e-30, 1e30);
-  const double limit = std::max(1u, max_elements);
-  // From a side that cannot be too large for the limit, so that the loop is short for any size.
-  side = std::max({side, s.x / limit * 0.999, s.y / limit * 0.999});
-  for (;;) {
-    const DVec2 counts = glm::max(glm::ceil(s / side - 1e-6), DVec2(1));
-    if (counts.x * counts.y <= limit)
-      return {static_cast<std::uint32_t>(counts.x), static_cast<std::uint32_t>(counts.y)};
-    side *= 1.02;
-  }
-}
 
 std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
   std::vector<Vec3> directions{{0, 0, -1}};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/radiance/reflectors.h"
+#include "bake/radiance/elements.h"
 
 namespace oriel {
 
@@ -14,17 +14,10 @@ struct ViewOptions {
   std::uint32_t max_elements = 16;  // per reflector: larger ones get larger elements
   std::uint32_t views_per_element = 16;
   std::uint32_t map_resolution = 0;  // longer side of a map, pixels; 0: by the lobe (resolution_for)
-  std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps as captured, kMapBytesPerPixel each
+  std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps, kMapBytesPerPixel each
 };
 
-inline constexpr std::uint64_t kMapBytesPerPixel = 17;  // radiance 12, disparity 4, validity 1
-
-// Elements over bounds of that size: as few as keep both sides within element_m, or within the smallest larger side
-// that needs no more than max_elements. Both counts are at least 1.
-struct ElementGrid {
-  std::uint32_t x = 1, y = 1;
-};
-ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_elements);
+inline constexpr std::uint64_t kMapBytesPerPixel = 4;  // of a map in a pack, at most (docs/format.md)
 
 // Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points
 // at about the same spacing. Exactly `count` of them, at least 1.

@@ -9,7 +9,8 @@ namespace {
 // Copies vertices on demand, one for each (scene vertex, lightmap uv) pair.
 class VertexSplitter {
  public:
-  VertexSplitter(const Scene& scene, Mesh& mesh) : scene_(scene), mesh_(mesh), first_(scene.positions.size(), kNone) {
+  VertexSplitter(const Scene& scene, AssembledMesh& out)
+      : scene_(scene), mesh_(out.mesh), scene_vertex_(out.scene_vertex), first_(scene.positions.size(), kNone) {
     for (const SceneMaterial& material : scene.materials) mapped_ |= material.normal_texture.image >= 0;
   }
 
@@ -18,6 +19,7 @@ class VertexSplitter {
       if (mesh_.lightmap_uvs[at] == lightmap_uv) return at;
     const auto added = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.push_back(scene_.positions[v]);
+    scene_vertex_.push_back(v);
     mesh_.normals.push_back(scene_.normals[v]);
     mesh_.uvs.push_back(texture_uv(material.base_color_texture, v));
     mesh_.lightmap_uvs.push_back(lightmap_uv);
@@ -42,6 +44,7 @@ class VertexSplitter {
 
   const Scene& scene_;
   Mesh& mesh_;
+  std::vector<std::uint32_t>& scene_vertex_;
   std::vector<std::uint32_t> first_, next_;  // a list of copies by scene vertex
   bool mapped_ = false;                      // some material has a normal map
 };
@@ -89,7 +92,7 @@ AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas) {
   Mesh& mesh = out.mesh;
   mesh.origin = scene.origin;
   out.first_index.resize(scene.triangles.size());
-  VertexSplitter splitter(scene, mesh);
+  VertexSplitter splitter(scene, out);
   for (const Surface& surface : scene.surfaces) {
     // One part a page: a surface's charts may lie on several.
     std::map<std::int32_t, std::vector<std::uint32_t>> by_page;

@@ -9,7 +9,8 @@ namespace oriel {
 
 struct AssembledMesh {
   Mesh mesh;
-  std::vector<std::uint32_t> first_index;  // by scene triangle: its three entries in mesh.indices start here
+  std::vector<std::uint32_t> scene_vertex;  // by mesh vertex: into the scene's vertex arrays
+  std::vector<std::uint32_t> first_index;   // by scene triangle: its three entries in mesh.indices start here
 };
 
 // Vertices are split where lightmap coordinates part; parts are runs of one surface on one page, in the scene's order.

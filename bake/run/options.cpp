@@ -4,6 +4,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "formats/core/file.h"
 #include "formats/core/text.h"
 
 namespace oriel {
@@ -29,6 +30,16 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
 
 const char* directional_name(Directional directional) {
   return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
+}
+
+const char* eye_source_name(EyeSource source) {
+  return source == EyeSource::kWalk ? "walk" : source == EyeSource::kBox ? "box" : "file";
+}
+
+nlohmann::ordered_json eye_points(const EyeOptions& eyes) {
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (const DVec3& p : eyes.points) points.push_back({p.x, p.y, p.z});
+  return points;
 }
 
 }  // namespace
@@ -59,6 +70,35 @@ Result<double> parse_fraction(const std::string& text) {
   if (error == std::errc() && std::isfinite(value) && value > 0 && (unit.empty() || unit == "%"))
     return unit.empty() ? value : value / 100;
   return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 2% or 0.02", text);
+}
+
+Status parse_views(const std::string& text, BakeOptions& options) {
+  const std::size_t colon = text.find(':');
+  const std::string scheme = text.substr(0, colon);
+  std::uint32_t count = scheme == "planned" ? options.planned.choice.max_maps : options.views.views_per_element;
+  if (colon != std::string::npos) {
+    const auto [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size()) count = 0;
+  }
+  if ((scheme != "planned" && scheme != "hemisphere") || count < 1 || count > 4096)
+    return fail(ErrorCode::kUsage, "",
+                "found '{}', expected planned or hemisphere with a number from 1 to 4096, such as planned:8", text);
+  options.view_scheme = scheme == "planned" ? ViewScheme::kPlanned : ViewScheme::kHemisphere;
+  (scheme == "planned" ? options.planned.choice.max_maps : options.views.views_per_element) = count;
+  return {};
+}
+
+Result<EyeOptions> parse_eye_source(const std::string& text) {
+  EyeOptions eyes;
+  if (text == "walk") return eyes;
+  if (text == "box") {
+    eyes.source = EyeSource::kBox;
+    return eyes;
+  }
+  ORIEL_TRY(const Bytes file, read_file(text));
+  eyes.source = EyeSource::kFile;
+  ORIEL_TRY(eyes.points, parse_eyes({reinterpret_cast<const char*>(file.data()), file.size()}, text));
+  return eyes;
 }
 
 Result<Vec3> parse_color(const std::string& text) {
@@ -135,9 +175,22 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"max_reflector_roughness", o.reflectors.max_roughness},
       {"min_reflector_area_m2", o.reflectors.min_area_m2},
       {"element_m", o.views.element_m},
-      {"views_per_element", o.views.views_per_element},
+      {"views", o.view_scheme == ViewScheme::kPlanned ? "planned" : "hemisphere"},
+      {"views_per_element",
+       o.view_scheme == ViewScheme::kPlanned ? o.planned.choice.max_maps : o.views.views_per_element},
+      {"eyes", eye_source_name(o.eyes.source)},
+      {"eye_points", eye_points(o.eyes)},
+      {"orders", o.sight.orders},
       {"map_resolution", o.views.map_resolution},
       {"map_memory", o.views.memory_bytes},
+      {"movers", o.import.movers},
+      {"transfer", o.with_transfer},
+      {"sh_bands", o.transfer.bands},
+      {"transfer_shadowed", o.transfer.shadowed},
+      {"transfer_bounces", o.transfer.bounces},
+      {"transfer_samples", o.transfer.samples},
+      {"clusters", o.compress.clusters},
+      {"probe_m", o.probes.spacing_m},
   };
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // names may hold any bytes
 }

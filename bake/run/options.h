@@ -6,17 +6,23 @@
 
 #include "bake/atlas/atlas.h"
 #include "bake/material/materials.h"
-#include "bake/radiance/capture.h"
 #include "bake/radiance/curved/curved_reflectors.h"
+#include "bake/radiance/plan/planned_views.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/scene/import.h"
+#include "bake/transfer/compress.h"
+#include "bake/transfer/probes.h"
+#include "bake/walk/eye_region.h"
 
 namespace oriel {
 
 // Whether the lightmap holds directions: where a normal map wants them, always, never.
 enum class Directional { kAuto, kOn, kOff };
+
+// Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
+enum class ViewScheme { kPlanned, kHemisphere };
 
 struct BakeOptions {
   std::filesystem::path scene;   // .glb or .gltf
@@ -26,10 +32,17 @@ struct BakeOptions {
   RadiosityOptions radiosity;  // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
-  ViewOptions views;
-  CaptureOptions capture;
+  ViewScheme view_scheme = ViewScheme::kPlanned;
+  PlannedViewOptions planned;
+  ViewOptions views;  // of hemispheres
+  EyeOptions eyes;
+  SightOptions sight;
   CurvedOptions curved;
   MaterialOptions material;
+  TransferOptions transfer;
+  CompressOptions compress;
+  ProbeOptions probes;        // bands: those of transfer
+  bool with_transfer = true;  // movers move; else they stand still in the scene
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
   double time_s = 0;  // for radiosity: stop refining after it; 0: no limit. The bytes then depend on the machine
@@ -44,6 +57,11 @@ Result<std::uint64_t> parse_bytes(const std::string& text);
 Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.
 Result<double> parse_fraction(const std::string& text);
+// "planned", "planned:8", "hemisphere" or "hemisphere:64": the number is that of maps of a reflector element, 1 to
+// 4096, and set in planned and views. Error kUsage.
+Status parse_views(const std::string& text, BakeOptions& options);
+// "walk", "box", or a file for parse_eyes(), which is read. Errors kUsage, kIo, kInvalid.
+Result<EyeOptions> parse_eye_source(const std::string& text);
 // "100" (grey) or "90,95,100" (linear Rec. 709), >= 0. Error kUsage.
 Result<Vec3> parse_color(const std::string& text);
 // What --sky takes, "0", "2000", "90,95,100" or "sky.exr", as ImportOptions::sky or ::sky_file. Error kUsage.

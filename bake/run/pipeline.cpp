@@ -4,10 +4,9 @@
 #include <chrono>
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
-#include "bake/run/baked_light.h"
+#include "bake/run/stages/movers.h"
 #include "bake/run/report.h"
 #include "formats/core/color.h"
 
@@ -30,68 +29,6 @@ class Stopwatch {
  private:
   std::vector<StageTime>& times_;
 };
-
-std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
-  std::vector<ReflectorMaterial> out;
-  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
-  return out;
-}
-
-std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
-  std::vector<std::uint32_t> indices;
-  for (const std::uint32_t t : triangles)
-    for (std::uint32_t corner = 0; corner < 3; ++corner)
-      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
-  return indices;
-}
-
-// Shiny surfaces that are not planar, and what surrounds them, into the pack.
-Status bake_curved_reflections(const BakeOptions& options, const Accel& accel, std::span<const std::uint32_t> triangles,
-                               std::span<const ReflectorMaterial> materials, const AssembledMesh& mesh,
-                               const OutgoingRadiance& outgoing, Context& context, BakeResult& result,
-                               std::atomic<std::uint64_t>& rays) {
-  CurvedOptions curved = options.curved;
-  curved.memory_bytes = std::min(curved.memory_bytes, options.views.memory_bytes / 4);
-  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, curved);
-  result.omissions.insert(result.omissions.end(), found.omitted.begin(), found.omitted.end());
-  ORIEL_TRY_VOID(capture_surroundings(accel, found, outgoing, context, &rays));
-  for (FoundCurvedReflector& f : found.reflectors) {
-    f.reflector.indices = mesh_indices(mesh, f.triangles);
-    result.pack.curved_reflectors.push_back(std::move(f.reflector));
-  }
-  result.pack.surround_maps = std::move(found.maps);
-  return {};
-}
-
-// Reflectors, their viewpoints and what is seen from them, into the pack.
-Status bake_reflections(const BakeOptions& options, const Accel& accel, const Atlas& atlas,
-                        const MaterialMaps& materials, const AssembledMesh& mesh, Context& context, BakeResult& result,
-                        std::uint64_t& rays) {
-  const Scene& scene = accel.scene();
-  const std::vector<ReflectorMaterial> lobes = reflector_materials(materials);
-  FoundReflectors found = find_reflectors(accel, lobes, options.reflectors);
-  ViewPlan plan = plan_views(scene, found.reflectors, options.views);
-  for (auto* lines : {&plan.omitted, &found.omitted})  // what reduces quality first
-    result.omissions.insert(result.omissions.end(), lines->begin(), lines->end());
-  if (found.reflectors.empty())
-    result.omissions.push_back(fmt::format(
-        "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
-        options.reflectors.max_roughness, options.reflectors.min_area_m2));
-  const auto outgoing = [&](const Hit& hit, const Vec3& towards_eye) {
-    return baked_radiance(scene, atlas, result.pack.lightmaps, hit, towards_eye);
-  };
-  std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY_VOID(capture_maps(accel, found.reflectors, outgoing, options.capture, context, plan.maps, &counted));
-  ORIEL_TRY_VOID(
-      bake_curved_reflections(options, accel, found.unplanar, lobes, mesh, outgoing, context, result, counted));
-  rays = counted;
-  result.pack.radiance_maps = std::move(plan.maps);
-  for (FoundReflector& f : found.reflectors) {
-    f.reflector.indices = mesh_indices(mesh, f.triangles);
-    result.pack.reflectors.push_back(std::move(f.reflector));
-  }
-  return {};
-}
 
 void warn_about_error(const BakeOptions& options, const RadiosityReport& report, Context& context) {
   const double asked = options.radiosity.error;
@@ -162,6 +99,12 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   Stopwatch timed(result.times);
   ORIEL_TRY(ImportedScene imported,
             timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
+  std::vector<TakenMover> movers;
+  if (options.with_transfer) {
+    ORIEL_TRY(movers, take_movers(imported.scene));
+  } else if (!imported.scene.movers.empty()) {
+    result.omissions.emplace_back("movers: left out by --only; they stand still");
+  }
   ORIEL_TRY(const LitScene lit, light_sides(options, imported.scene, timed, context));
   const Scene& scene = imported.scene;
   const Accel& accel = lit.accel;
@@ -189,12 +132,27 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   ORIEL_TRY(MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
+  ReflectionReport reflections;
   if (options.with_radiance) {
-    ORIEL_TRY_VOID(timed("radiance", [&](std::uint64_t& rays) {
-      return bake_reflections(options, accel, atlas, materials, mesh, context, result, rays);
-    }));
+    ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
+                auto baked = bake_reflections(options, accel, atlas, materials, mesh, context, pack);
+                if (baked) rays = baked->rays;
+                return baked;
+              }));
+    result.omissions.insert(result.omissions.end(), reflections.omissions.begin(), reflections.omissions.end());
   } else {
     result.omissions.emplace_back("radiance maps: left out by --only");
+  }
+  std::vector<MoverReport> mover_reports;
+  if (!movers.empty()) {
+    ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
+                return bake_movers(options, movers, materials, context, pack, rays);
+              }));
+    ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
+      return bake_light_field(options, {accel, lights, atlas}, movers, context, pack, rays);
+    }));
+  } else if (options.with_transfer) {
+    result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }
   if (!options.with_material) {
     result.omissions.emplace_back("kernels: left out by --only");
@@ -210,8 +168,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(),
-                         result.times.back().rays, options.radiosity.estimator == Estimator::kCached});
+  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
+                         mover_reports, options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, imported.inputs);
   return result;
 }

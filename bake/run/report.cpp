@@ -44,23 +44,65 @@ Json atlas_json(const Atlas& atlas) {
           {"time_limit_struck", r.time_limit_struck}};
 }
 
+// Planar ones with what their maps show to eyes that they were not planned for.
+Json reflectors_json(const BakeFacts& f) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < f.pack.reflectors.size(); ++i) {
+    const Reflector& r = f.pack.reflectors[i];
+    std::uint64_t pixels = 0;
+    for (std::uint32_t m = 0; m < r.map_count; ++m) {
+      const RadianceMap& map = f.pack.radiance_maps[r.first_map + m];
+      pixels += std::uint64_t{map.width} * map.height;
+    }
+    out.push_back({{"name", r.name},
+                   {"kind", "planar"},
+                   {"why", fmt::format("within {:.2g} m of a plane", r.flatness_m)},
+                   {"area_m2", r.area_m2},
+                   {"elements", r.elements_x * r.elements_y},
+                   {"maps", r.map_count},
+                   {"pixels", pixels},
+                   {"seen", f.reflections.quality[i].seen},
+                   {"sharp", f.reflections.quality[i].sharp},
+                   {"seen_in_residual", f.reflections.quality[i].residual}});
+  }
+  for (const CurvedReflector& r : f.pack.curved_reflectors)
+    out.push_back({{"name", r.name},
+                   {"kind", "curved"},
+                   {"why", "curved, or flat in pieces too small for planar reflectors"},
+                   {"triangles", r.indices.size() / 3},
+                   {"map_size", f.pack.surround_maps[r.map].size}});
+  return out;
+}
+
+double walkable_m2(const Pack& pack) {
+  double area = 0;
+  for (const WalkGrid& grid : pack.walk_grids) area += grid.walkable_m2();
+  return area;
+}
+
+Json movers_json(std::span<const MoverReport> movers) {
+  Json out = Json::array();
+  for (const MoverReport& m : movers)
+    out.push_back({{"name", m.name},
+                   {"vertices", m.vertices},
+                   {"transfer_standard_error", m.transfer_error},
+                   {"compression_error", m.compression_error},
+                   {"bytes_per_vertex", m.bytes_per_vertex},
+                   {"coarse_share", m.coarse_share}});
+  return out;
+}
+
+Json light_field_json(const LightField& field) {
+  if (field.bands == 0) return Json();
+  return {{"probes", field.probes.size()},
+          {"cell_m", rgb(field.cell_m)},
+          {"bright_lights", field.lights.size()},
+          {"standard_error", field.error}};
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
-  Json reflectors = Json::array();
-  for (const Reflector& r : f.pack.reflectors)
-    reflectors.push_back({{"name", r.name},
-                          {"kind", "planar"},
-                          {"why", fmt::format("within {:.2g} m of a plane", r.flatness_m)},
-                          {"area_m2", r.area_m2},
-                          {"elements", r.elements_x * r.elements_y},
-                          {"maps", r.map_count}});
-  for (const CurvedReflector& r : f.pack.curved_reflectors)
-    reflectors.push_back({{"name", r.name},
-                          {"kind", "curved"},
-                          {"why", "curved, or flat in pieces too small for planar reflectors"},
-                          {"triangles", r.indices.size() / 3},
-                          {"map_size", f.pack.surround_maps[r.map].size}});
   const Json json = {
       {"scene",
        {{"triangles", f.scene.triangles.size()},
@@ -91,11 +133,14 @@ std::string plan_json(const BakeFacts& f) {
         {"relative_standard_error", f.radiosity.relative_error},
         {"incident_lm", rgb(f.radiosity.incident_lm)}}},
       {"radiance",
-       {{"reflectors", reflectors},
+       {{"reflectors", reflectors_json(f)},
         {"maps", f.pack.radiance_maps.size()},
         {"surround_maps", f.pack.surround_maps.size()},
-        {"rays", f.radiance_rays}}},
+        {"walkable_m2", walkable_m2(f.pack)},
+        {"rays", f.reflections.rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
+      {"movers", movers_json(f.movers)},
+      {"light_field", light_field_json(f.pack.light_field)},
       {"omitted", f.omissions},
   };
   return text_of(json);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "bake/radiosity/lit_sides.h"
+#include "bake/run/stages/movers.h"
 #include "bake/run/pipeline.h"
+#include "bake/run/stages/reflections.h"
 
 namespace oriel {
 
@@ -15,7 +17,8 @@ struct BakeFacts {
   const Pack& pack;
   const std::vector<std::string>& omissions;
   DVec3 emitted_lm{0};
-  std::uint64_t radiance_rays = 0;
+  const ReflectionReport& reflections;
+  std::span<const MoverReport> movers;
   bool cached = true;  // the estimator
 };
 

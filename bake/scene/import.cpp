@@ -6,6 +6,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/scene/images.h"
 #include "bake/scene/light/lighting.h"
+#include "bake/scene/motion/movers.h"
 #include "bake/scene/repair.h"
 #include "bake/scene/viewpoints.h"
 #include "bake/scene/warning_group.h"
@@ -180,10 +181,16 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
   ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
   out.scene.materials = document.materials;
-  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, accessors, budget, out.scene, context));
+  ORIEL_TRY(const MoverNodes movers, find_movers(document, poses, options.movers, context));
+  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, movers.of_node, accessors, budget, out.scene, context));
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
-  ORIEL_TRY_VOID(place_viewpoints(document, poses, accessors, out.scene, context));
+  std::vector<std::uint32_t> moving = movers.nodes;
+  for (const NodePose& pose : poses)
+    if (document.nodes[pose.node].camera >= 0) moving.push_back(pose.node);
+  ORIEL_TRY(const std::vector<Animation> animations, load_animations(document, moving, accessors, context));
+  ORIEL_TRY_VOID(place_viewpoints(document, poses, animations, out.scene, context));
+  ORIEL_TRY_VOID(place_movers(document, poses, movers, animations, out.scene, context));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
   ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(context));
   warn_of_topology(out.scene, context);

@@ -16,6 +16,7 @@ struct ImportOptions {
   float sky_scale = 1;                 // cd/m² per unit of that file
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
+  std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
   bool double_sided = false;           // every material reflects and emits on both sides, whatever the file says
   // Node (or light) name and IES file: the profile of its point or spot light.
   std::vector<std::pair<std::string, std::filesystem::path>> ies;

@@ -301,7 +301,8 @@ Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<con
 }
 
 Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes, std::span<const NodePose> poses,
-                    gltf::AccessorReader& accessors, gltf::MemoryBudget& budget, Scene& scene, Context& context) {
+                    std::span<const std::int32_t> mover_of_node, gltf::AccessorReader& accessors,
+                    gltf::MemoryBudget& budget, Scene& scene, Context& context) {
   ORIEL_TRY(const std::vector<Instance> instances, find_instances(document, meshes, poses, accessors, budget));
   ORIEL_TRY_VOID(reserve(document, meshes, instances, budget, scene));
   ORIEL_TRY(scene.origin, find_origin(document, meshes, instances));
@@ -320,6 +321,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
       surface.mesh_name = mesh.name;
+      surface.mover = mover_of_node[instance.node];
       surface.material =
           of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
       placer.place(mesh.primitives[i], instance.world_from_mesh, std::move(surface));

@@ -8,6 +8,7 @@
 #include "bake/scene/optics/metals.h"
 #include "formats/assets/camera.h"
 #include "formats/assets/material.h"
+#include "formats/assets/mover.h"
 #include "formats/core/vec.h"
 
 namespace oriel {
@@ -76,6 +77,15 @@ struct Surface {
   std::uint32_t first_triangle = 0, triangle_count = 0;  // into Scene::triangles
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces
   bool has_uv1 = false;
+  std::int32_t mover = -1;  // into Scene::movers; -1: it stands still
+};
+
+// What moves as one rigid object. Object space: the node's origin, the world's directions turned as the node is; its
+// scale is in the vertices.
+struct SceneMover {
+  std::string name;
+  MoverPose rest;              // scene_from_object, as its surfaces lie in the scene
+  std::vector<MoverKey> keys;  // of its animation; empty: none moves it
 };
 
 enum class LightType : std::uint8_t { kPoint, kSpot, kDirectional };
@@ -133,6 +143,7 @@ struct Scene {
   // front the ray meets.
   std::vector<std::uint32_t> twin;
   std::vector<Surface> surfaces;
+  std::vector<SceneMover> movers;
   std::vector<SceneMaterial> materials;
   std::vector<Image> images;
   std::vector<Light> lights;

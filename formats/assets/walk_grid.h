@@ -23,6 +23,11 @@ struct WalkGrid {
     const Vec2 at = lower + (Vec2(cell % width, cell / width) + 0.5f) * cell_m;
     return {at.x, floor_y[cell] + eye_height_m, at.y};
   }
+  double walkable_m2() const {
+    std::size_t cells = 0;
+    for (std::size_t c = 0; c < floor_y.size(); ++c) cells += walkable(c);
+    return static_cast<double>(cells) * cell_m * cell_m;
+  }
 };
 
 }  // namespace oriel

@@ -16,8 +16,20 @@ namespace oriel {
 Status write_exr(const std::filesystem::path& path, const FloatImage& image,
                  const std::map<std::string, std::string>& attributes = {});
 
+// Several pictures of one size in one file: the layer "" has the plain channels, the layer "specular" has specular.R and
+// so on, as compositors show them.
+struct LayeredImage {
+  std::map<std::string, FloatImage> layers;
+  std::map<std::string, std::string> attributes;
+};
+// The same of layers; the one without a name must be there. Errors also: kInvalid for layers that differ in size.
+Status write_exr(const std::filesystem::path& path, const LayeredImage& image);
+
 // Reads R, G, B (and A) or Y of a flat, single-part file of any pixel type and compression. Other channels are left
 // out. Errors: kIo; kInvalid for deep and multi-part files, subsampled or missing channels, broken files.
 Result<FloatImage> read_exr(const std::filesystem::path& path);
+
+// Reads every layer that has R, G, B (and A) or Y, and the string attributes. Errors: the same.
+Result<LayeredImage> read_layered_exr(const std::filesystem::path& path);
 
 }  // namespace oriel

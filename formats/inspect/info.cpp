@@ -6,6 +6,7 @@
 
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
+#include "formats/inspect/info_reflections.h"
 #include "formats/inspect/summary.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
@@ -16,8 +17,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json triple(const Vec3& v) {
-  return {v.x, v.y, v.z};
+std::size_t valid_probes(const LightField& field) {
+  return static_cast<std::size_t>(
+      std::count_if(field.probes.begin(), field.probes.end(), [](const LightProbe& probe) { return probe.valid; }));
 }
 
 Json sections_json(const PackIndex& index) {
@@ -71,53 +73,33 @@ Json lightmaps_json(const Pack& pack) {
   return out;
 }
 
-Json reflectors_json(const Pack& pack) {
+Json movers_json(const Pack& pack) {
   Json out = Json::array();
-  for (const auto& r : pack.reflectors)
-    out.push_back({{"name", r.name},
-                   {"material", r.material},
-                   {"area_m2", r.area_m2},
-                   {"flatness_m", r.flatness_m},
-                   {"elements", {r.elements_x, r.elements_y}},
-                   {"first_map", r.first_map},
-                   {"map_count", r.map_count}});
+  for (const Mover& m : pack.movers)
+    out.push_back({{"name", m.name},
+                   {"vertices", m.mesh.positions.size()},
+                   {"triangles", m.mesh.indices.size() / 3},
+                   {"position", triple(m.rest.position)},
+                   {"keys", m.keys.size()},
+                   {"transfer",
+                    {{"bands", m.transfer.bands},
+                     {"channels", m.transfer.channels},
+                     {"clusters", m.transfer.clusters},
+                     {"components", m.transfer.components},
+                     {"bytes_per_vertex", m.transfer.bytes_per_vertex()},
+                     {"relative_error", m.transfer.error}}}});
   return out;
 }
 
-Json radiance_maps_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& map : pack.radiance_maps) {
-    const auto s = summarise(map);
-    out.push_back({{"reflector", map.reflector},
-                   {"width", map.width},
-                   {"height", map.height},
-                   {"eye", triple(map.eye)},
-                   {"has_emission", map.has_emission},
-                   {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
-                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
-  }
-  return out;
-}
-
-// Curved reflectors and what surrounds them.
-Json curved_reflectors_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& r : pack.curved_reflectors)
-    out.push_back(
-        {{"name", r.name}, {"material", r.material}, {"surround_map", r.map}, {"triangles", r.indices.size() / 3}});
-  return out;
-}
-
-Json surround_maps_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& map : pack.surround_maps) {
-    const auto s = summarise(map);
-    out.push_back({{"size", map.size},
-                   {"centre", triple(map.centre)},
-                   {"texels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
-                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
-  }
-  return out;
+Json light_field_json(const LightField& field) {
+  if (field.bands == 0) return Json();
+  Json lights = Json::array();
+  for (const BrightLight& light : field.lights) lights.push_back(light.name);
+  return {{"bands", field.bands},           {"cells", {field.size[0], field.size[1], field.size[2]}},
+          {"cell_m", triple(field.cell_m)}, {"lower", triple(field.lower)},
+          {"probes", field.probes.size()},  {"valid_probes", valid_probes(field)},
+          {"depth_side", field.depth_side}, {"relative_standard_error", field.error},
+          {"bright_lights", lights}};
 }
 
 Json materials_json(const Pack& pack) {
@@ -145,7 +127,8 @@ Json small_maps_json(const Pack& pack, Json out) {
                               {"cos_theta", k.cos_theta},
                               {"half_extent", k.half_extent},
                               {"energy_kept", k.energy_kept},
-                              {"incidences", k.slices.size()}});
+                              {"incidences", k.slices.size()},
+                              {"cosine_lobes", k.fits.size()}});
   out["fresnel_maps"] = Json::array();
   for (const auto& f : pack.fresnel_maps)
     out["fresnel_maps"].push_back(
@@ -173,10 +156,9 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["sky"] = triple(pack.sky);
   out["materials"] = materials_json(pack);
   out["lightmaps"] = lightmaps_json(pack);
-  out["reflectors"] = reflectors_json(pack);
-  out["radiance_maps"] = radiance_maps_json(pack);
-  out["curved_reflectors"] = curved_reflectors_json(pack);
-  out["surround_maps"] = surround_maps_json(pack);
+  add_reflections(index, pack, out);
+  out["movers"] = movers_json(pack);
+  out["light_field"] = light_field_json(pack.light_field);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -227,7 +209,7 @@ void print_material_maps(const Pack& pack) {
     fmt::print("split reflectance: {} angles x {} roughnesses\n", split.angles, split.roughnesses);
 }
 
-void print_maps(const Pack& pack) {
+void print_maps(const PackIndex& index, const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
     const auto s = summarise(page);
@@ -235,32 +217,21 @@ void print_maps(const Pack& pack) {
                page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
                page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
   }
-  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
-    const auto& r = pack.reflectors[i];
-    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}\n", i, r.name,
-               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map);
-  }
-  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
-    const auto& map = pack.radiance_maps[i];
-    const auto s = summarise(map);
-    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n", i,
-               map.width, map.height, map.reflector,
-               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
-  }
-  for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
-    const auto& r = pack.curved_reflectors[i];
-    fmt::print("curved reflector {}: '{}', {} triangles, material {}, surround map {}\n", i, r.name,
-               r.indices.size() / 3, r.material, r.map);
-  }
-  for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
-    const auto& map = pack.surround_maps[i];
-    const auto s = summarise(map);
-    fmt::print(
-        "surround map {}: {} x {} around ({:.4g}, {:.4g}, {:.4g}), {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n",
-        i, map.size, map.size, map.centre.x, map.centre.y, map.centre.z,
-        100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
-  }
+  print_reflections(index, pack);
   print_material_maps(pack);
+}
+
+void print_movers(const Pack& pack) {
+  for (const Mover& m : pack.movers)
+    fmt::print(
+        "mover '{}': {} triangles, {} keys, transfer of {} bands in {} clusters, {} bytes a vertex, error {:.2g} %\n",
+        m.name, m.mesh.indices.size() / 3, m.keys.size(), m.transfer.bands, m.transfer.clusters,
+        m.transfer.bytes_per_vertex(), 100 * m.transfer.error);
+  const LightField& field = pack.light_field;
+  if (field.bands > 0)
+    fmt::print("light field: {} x {} x {} cells, {} of {} probes valid, {} bands, {} bright lights, noise {:.2g} %\n",
+               field.size[0], field.size[1], field.size[2], valid_probes(field), field.probes.size(), field.bands,
+               field.lights.size(), 100 * field.error);
 }
 
 void print_text(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
@@ -275,7 +246,8 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
              pack.sky.b);
   print_sections(index);
   fmt::print("\n");
-  print_maps(pack);
+  print_maps(index, pack);
+  print_movers(pack);
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());
   for (const auto& [name, text] : {std::pair("provenance", &pack.provenance), std::pair("plan", &pack.plan)})

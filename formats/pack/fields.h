@@ -4,6 +4,7 @@
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
 #include "formats/core/vec.h"
+#include "formats/pack/encoding/quantise.h"
 #include "formats/pack/layout.h"
 
 namespace oriel {
@@ -46,6 +47,14 @@ Status get_choice(ByteReader& in, const char* what, std::uint8_t last, T& value)
   const auto code = in.get<std::uint8_t>();
   if (code > last) return invalid("", "found {} {}, expected 0 to {}", what, code, last);
   value = static_cast<T>(code);
+  return {};
+}
+
+// What values were divided by before they became halves: 2 to this.
+inline Status get_scale_exponent(ByteReader& in, int& exponent) {
+  exponent = in.get<std::int32_t>();
+  if (exponent < kMinScaleExponent || exponent > kMaxScaleExponent)
+    return invalid("", "found scale exponent {}, expected {} to {}", exponent, kMinScaleExponent, kMaxScaleExponent);
   return {};
 }
 

@@ -97,9 +97,11 @@ inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
+inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
+inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 25> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -125,6 +127,8 @@ inline constexpr std::array<SectionKind, 25> kSectionKinds = {{
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},
+    {kMoverSection, "mover", true, false, true},
+    {kLightFieldSection, "light field", true, false, false},
 }};
 
 // nullptr for a kind that this version does not know.

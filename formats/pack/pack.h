@@ -8,9 +8,11 @@
 #include "formats/assets/camera.h"
 #include "formats/assets/emitter.h"
 #include "formats/assets/fresnel_map.h"
+#include "formats/assets/light_field.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
+#include "formats/assets/mover.h"
 #include "formats/assets/radiance_map.h"
 #include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
@@ -50,6 +52,8 @@ struct Pack {
   std::vector<Camera> cameras;
   std::vector<CameraPath> paths;
   std::vector<WalkGrid> walk_grids;  // by storey
+  std::vector<Mover> movers;
+  LightField light_field;  // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;
 };
 

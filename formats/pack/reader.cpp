@@ -109,6 +109,13 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, parts.reflector_emitters);
     case kWalkSection:
       return decode_list(in, section, pack.walk_grids);
+    case kMoverSection:
+      return decode_list(in, section, pack.movers);
+    case kLightFieldSection:
+      ORIEL_TRY_VOID(one_element_only(section));
+      if (auto status = decode(in, pack.light_field); !status && in.ok())
+        return invalid(section.label, "{}", status.error().message);
+      return check_end(in, section);
     case kSplitSection:
       ORIEL_TRY_VOID(one_element_only(section));
       if (auto status = decode(in, pack.split_reflectance); !status && in.ok())

@@ -67,6 +67,8 @@ void encode(ByteWriter& out, const Emitter& emitter);
 void encode(ByteWriter& out, const ReflectorEmitters& part);
 void encode(ByteWriter& out, const ResidualMap& residual);
 void encode(ByteWriter& out, const KernelFits& fits);
+void encode(ByteWriter& out, const Mover& mover);
+void encode(ByteWriter& out, const LightField& field);
 
 // Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
 // the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes
@@ -92,5 +94,7 @@ Status decode(ByteReader& in, Emitter& emitter);
 Status decode(ByteReader& in, ReflectorEmitters& part);
 Status decode(ByteReader& in, ResidualMap& residual);
 Status decode(ByteReader& in, KernelFits& fits);
+Status decode(ByteReader& in, Mover& mover);
+Status decode(ByteReader& in, LightField& field);
 
 }  // namespace oriel

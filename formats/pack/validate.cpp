@@ -13,8 +13,7 @@ bool optional_index(std::int32_t index, std::size_t size) {
   return index == -1 || (index >= 0 && static_cast<std::size_t>(index) < size);
 }
 
-void validate_parts(const Pack& pack, IssueList& list) {
-  const Mesh& mesh = pack.mesh;
+void validate_parts(const Pack& pack, const Mesh& mesh, IssueList& list) {
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const MeshPart& part = mesh.parts[i];
     if (part.first_index % 3 != 0 || part.index_count % 3 != 0)
@@ -81,9 +80,12 @@ void validate_json(int number, std::uint32_t kind, const std::string& text, Issu
 }  // namespace
 
 void validate_mesh(const Pack& pack, IssueList& list) {
-  const Mesh& mesh = pack.mesh;
-  const std::size_t n = mesh.positions.size();
   list.in_section(kMeshSection);
+  validate_mesh(pack, pack.mesh, list);
+}
+
+void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list) {
+  const std::size_t n = mesh.positions.size();
   const bool mapped = !mesh.normal_uvs.empty() || !mesh.tangents.empty();
   if (mesh.normals.size() != n || mesh.uvs.size() != n || mesh.lightmap_uvs.size() != n ||
       (!mesh.colors.empty() && mesh.colors.size() != n) ||
@@ -119,7 +121,7 @@ void validate_mesh(const Pack& pack, IssueList& list) {
   list.each(
       106, "indices", mesh.indices, [n](std::uint32_t i) { return i < n; },
       [](std::uint32_t i) { return fmt::format("{}", i); }, fmt::format("less than {}", n).c_str());
-  validate_parts(pack, list);
+  validate_parts(pack, mesh, list);
   if (mesh.indices.empty()) list.warning(111, "has no triangles");
 }
 
@@ -209,6 +211,8 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_split_reflectance(pack, list);
   validate_cameras(pack, list);
   validate_walk_grids(pack, list);
+  validate_movers(pack, list);
+  validate_light_field(pack, list);
   validate_unknown(pack, list);
   return std::move(list.issues);
 }

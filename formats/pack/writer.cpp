@@ -175,6 +175,12 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kCameraSection, pack.cameras);
   list.add_list(kPathSection, pack.paths);
   list.add_list(kWalkSection, pack.walk_grids);
+  list.add_each(kMoverSection, pack.movers);
+  if (pack.light_field.bands > 0) {
+    ByteWriter field;
+    encode(field, pack.light_field);
+    list.add(kLightFieldSection, 1, field.take());
+  }
   for (const auto& unknown : pack.unknown) list.add_unknown(unknown);
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 namespace oriel {
@@ -13,7 +14,8 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --list                              which cameras and paths it has\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror -o mirror.png\n"
     "  oriel-play gallery.oriel --offscreen --camera all -o pictures\n"
-    "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n";
+    "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
+    "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n";
 
 constexpr const char* kFooter =
     "In the window:\n"
@@ -23,7 +25,8 @@ constexpr const char* kFooter =
     "  1 … 9          cameras        P      play the path         F12    screenshot\n"
     "  + -            exposure       X      automatic exposure    M      next stage of --show\n\n"
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
-    "            4 failed at run time (no OpenGL 3.3, no display), 130 stopped by the user";
+    "            4 failed at run time (no OpenGL 3.3, no display), 5 further from the reference than --max-flip,\n"
+    "            130 stopped by the user";
 
 std::string parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
@@ -69,14 +72,16 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(stages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
-  const std::map<std::string, Reflections> modes{
-      {"march", Reflections::kMarch}, {"points", Reflections::kPoints}, {"off", Reflections::kOff}};
+  const std::map<std::string, Reflections> modes{{"march", Reflections::kMarch},
+                                                 {"points", Reflections::kPoints},
+                                                 {"geometry", Reflections::kGeometry},
+                                                 {"off", Reflections::kOff}};
   app.add_option(
          "--reflections", out.frame.reflections,
          "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et "
-         "al. published it, or nothing")
+         "al. published it, the mirrored scene drawn again, or nothing")
       ->transform(CLI::CheckedTransformer(modes).description(""))
-      ->type_name("march|points|off")
+      ->type_name("march|points|geometry|off")
       ->default_str("march");
   app.add_option("--maps", out.frame.maps_per_element,
                  "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 "
@@ -89,6 +94,14 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(selections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
+  const std::map<std::string, Blur> blurs{
+      {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
+  app.add_option("--blur", out.frame.blur,
+                 "K's width in the image: by the distance of what is reflected, one for all distances as Bastos et al. "
+                 "published it (of the reflector's mean one), or as sharp as a mirror")
+      ->transform(CLI::CheckedTransformer(blurs).description(""))
+      ->type_name("distance|constant|off")
+      ->default_str("distance");
   const std::map<std::string, KernelPlace> places{{"lobe", KernelPlace::kLobe}, {"centred", KernelPlace::kCentred}};
   app.add_option("--kernel", out.frame.kernel,
                  "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as "
@@ -109,6 +122,17 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       "comparing frames");
 }
 
+void add_compare_options(CLI::App& app, PlayArguments& out) {
+  app.add_option("--compare", out.reference,
+                 "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
+                 "reflectors; -o is then the picture of reference, frame and FLIP side by side")
+      ->type_name("FILE.exr");
+  app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
+  app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("X");
+}
+
 void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("pack", out.pack, "The .oriel pack")->required()->type_name("PACK");
   app.add_flag("--list", out.list, "Print the cameras and paths of the pack, and stop");
@@ -118,8 +142,9 @@ void add_options(CLI::App& app, PlayArguments& out) {
          [&out](const std::string& text) {
            const std::string complaint = parse_size(text, out.width, out.height);
            if (!complaint.empty()) throw CLI::ValidationError("--size", complaint);
+           out.sized = true;
          },
-         "Pixels of the window or the picture")
+         "Pixels of the window or the picture; with --compare the reference's, or a whole multiple that is averaged")
       ->type_name("WxH")
       ->default_str("1280x720");
   app.add_option(
@@ -132,20 +157,42 @@ void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("-o,--output", out.output,
                  "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")
       ->type_name("FILE|DIR");
+  add_compare_options(app, out);
   app.add_option("--format", out.format, "Of the files written to a folder")
       ->check(CLI::IsMember({"png", "exr"}))
       ->type_name("png|exr")
       ->capture_default_str();
-  app.add_option("--frames", out.frames, "Close the window after so many frames: for tests and timings")
+  app.add_option(
+         "--frames", out.frames,
+         "Close the window after so many frames. Offscreen: draw each camera so often and report the median time, or "
+         "so many frames along --path")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
+  app.add_option("--path", out.path,
+                 "Offscreen: frames along this path of the pack instead of cameras; prints how they flicker")
+      ->type_name("NAME");
+  app.add_option("--stats", out.stats, "Offscreen: time each pass and write times and counts as JSON")
+      ->type_name("FILE");
   app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");
 }
 
 std::string contradiction(const PlayArguments& out) {
-  if (out.offscreen && !out.list && out.output.empty()) return "--offscreen draws into files: -o FILE is missing";
+  const bool measures = !out.stats.empty() || !out.path.empty();
+  const bool compares = !out.reference.empty();
+  if (compares && !out.offscreen) return "--compare needs --offscreen";
+  if (compares && measures) return "--compare draws one frame: leave --path and --stats out";
+  if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
+  if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
+    return "--compare takes one camera";
+  if (compares && measures) return "--compare takes neither --path nor --stats";
+  if (compares && out.frame.show != Show::kAll) return "--compare draws the stages that it needs: leave --show out";
+  if (compares && !out.output.empty() && std::filesystem::path(out.output).extension() != ".png")
+    return "--compare writes its picture as .png";
+  if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
+    return "--offscreen draws into files: -o FILE is missing";
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
-  if (out.offscreen && out.frames > 0) return "--frames is for the window, not for --offscreen";
+  if (!out.offscreen && measures) return "--path and --stats need --offscreen";
+  if (!out.path.empty() && !out.cameras.empty()) return "found both --path and --camera, expected one of them";
   if (!out.offscreen && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all"))) {
     return "several cameras need --offscreen";
   }

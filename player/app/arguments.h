@@ -17,13 +17,19 @@ struct PlayArguments {
   bool list = false;
   bool offscreen = false;
   int width = 1280, height = 720;
+  bool sized = false;                // --size was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::optional<float> ev100;        // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   FrameOptions frame;
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
-  int frames = -1;             // the window closes after so many; -1: never
+  std::string reference;       // compare with this file of `oriel-bake render` instead of drawing into files
+  std::string json;            // file for the comparison's numbers
+  std::optional<double> max_flip;
+  int frames = -1;    // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
+  std::string path;   // offscreen: frames along it instead of cameras
+  std::string stats;  // a file for what the frames cost
   bool gl_debug = false;
 };
 

@@ -2,12 +2,13 @@
 #include <cstdio>
 #include <exception>
 
+#include "formats/camera/path.h"
 #include "formats/pack/reader.h"
 #include "player/app/arguments.h"
+#include "player/app/compare.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window.h"
-#include "player/walk/path.h"
 
 namespace {
 using namespace oriel;
@@ -28,6 +29,7 @@ Status play(const PlayArguments& arguments) {
     list_cameras(pack);
     return {};
   }
+  if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);
   return arguments.offscreen ? play_offscreen(std::move(pack), arguments) : play_in_window(std::move(pack), arguments);
 }
 

@@ -1,15 +1,19 @@
 #include "player/app/offscreen.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <set>
 
+#include "formats/camera/camera_spec.h"
+#include "formats/camera/path.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
+#include "player/app/frame_record.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
 #include "player/passes/frame.h"
-#include "player/walk/camera_spec.h"
+#include "player/walk/zone.h"
 
 namespace oriel {
 namespace {
@@ -39,6 +43,34 @@ std::string file_name(const std::string& camera, std::set<std::string>& taken) {
   return unique;
 }
 
+Status make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) return fail(ErrorCode::kIo, path.string(), "cannot make the folder: {}", error.message());
+  return {};
+}
+
+// Frames at even times over the path; files only where a folder was given.
+Result<std::vector<Shot>> path_shots(const GpuScene& scene, const PlayArguments& arguments) {
+  const auto& paths = scene.pack().paths;
+  const auto path = std::find_if(paths.begin(), paths.end(), [&](const auto& p) { return p.name == arguments.path; });
+  if (path == paths.end()) {
+    return fail(ErrorCode::kUsage, "--path " + arguments.path, "found no path of that name; --list shows them");
+  }
+  if (!arguments.output.empty()) ORIEL_TRY_VOID(make_folder(arguments.output));
+  const int count = arguments.frames > 0 ? arguments.frames : 60;
+  std::vector<Shot> shots;
+  for (int i = 0; i < count; ++i) {
+    const float time = path_duration_s(*path) * static_cast<float>(i) / static_cast<float>(std::max(count - 1, 1));
+    Shot shot{fmt::format("{}@{:.3f}", path->name, time), camera_on_path(*path, time), {}};
+    if (!arguments.output.empty()) {
+      shot.file = fs::path(arguments.output) / fmt::format("{:04}.{}", i, arguments.format);
+    }
+    shots.push_back(std::move(shot));
+  }
+  return shots;
+}
+
 Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArguments& arguments) {
   const Pack& pack = scene.pack();
   const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
@@ -57,6 +89,7 @@ Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArgument
     shots.push_back({camera.name.empty() ? "start" : camera.name, camera, {}});
   }
   const fs::path output = arguments.output;
+  if (output.empty()) return shots;  // nothing but times
   if (shots.size() == 1 && is_picture(output)) {
     shots[0].file = output;
     return shots;
@@ -69,20 +102,13 @@ Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArgument
     return fail(ErrorCode::kUsage, "-o " + arguments.output, "found one file for {} cameras, expected a folder",
                 shots.size());
   }
-  std::error_code error;
-  fs::create_directories(output, error);
-  if (error) return fail(ErrorCode::kIo, arguments.output, "cannot make the folder: {}", error.message());
+  ORIEL_TRY_VOID(make_folder(output));
   std::set<std::string> taken;
   for (Shot& shot : shots) shot.file = output / (file_name(shot.name, taken) + "." + arguments.format);
   return shots;
 }
 
 }  // namespace
-
-std::string describe(const FrameStats& stats) {
-  return fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points", stats.draws, stats.triangles,
-                     stats.reflectors, stats.maps, stats.points);
-}
 
 Status write_picture(Renderer& renderer, const std::string& path, int width, int height, float ev100, ToneCurve curve,
                      const std::string& camera) {
@@ -96,30 +122,78 @@ Status write_picture(Renderer& renderer, const std::string& path, int width, int
   return write_png(path, ByteImage{w, h, 3, std::move(pixels)});
 }
 
+namespace {
+
+class Studio {
+ public:
+  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments)
+      : scene_(scene), renderer_(renderer), arguments_(arguments), options_(arguments.frame) {
+    options_.timed = !arguments.stats.empty();
+    if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
+  }
+
+  // Draws it `times` times; the record is the median's.
+  Result<FrameRecord> draw(const Shot& shot, int times) {
+    const View view = make_view(shot.camera, arguments_.width, arguments_.height, scene_.bounds());
+    std::vector<FrameRecord> records;
+    for (int i = 0; i < times; ++i) {
+      if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
+      const auto start = std::chrono::steady_clock::now();
+      ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view, options_));
+      glFinish();
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+      records.push_back({shot.name, took.count(), stats, in_walkable_zone(scene_.pack().walk_grids, shot.camera.eye)});
+    }
+    return median_record(records);
+  }
+
+  // Into its file, if it has one; says so.
+  Status keep(const Shot& shot, const FrameRecord& record) {
+    float ev100 = arguments_.ev100.value_or(0.0f);
+    if (!shot.file.empty()) {
+      ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
+      if (!arguments_.ev100) ev100 = metered.value_or(0.0f);
+      ORIEL_TRY_VOID(
+          write_picture(renderer_, shot.file, arguments_.width, arguments_.height, ev100, arguments_.curve, shot.name));
+    }
+    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({}){}\n", shot.file.empty() ? "frame" : shot.file,
+               arguments_.width, arguments_.height, record.ms, ev100, describe(record.stats), shot.name,
+               record.in_zone ? "" : ", outside the zone that reflections were planned for");
+    return {};
+  }
+
+ private:
+  GpuScene& scene_;
+  Renderer& renderer_;
+  const PlayArguments& arguments_;
+  FrameOptions options_;
+};
+
+}  // namespace
+
 Status play_offscreen(Pack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
-  ORIEL_TRY(const auto shots, choose_shots(*scene, arguments));
+  const bool along_path = !arguments.path.empty();
+  ORIEL_TRY(const auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  FrameOptions options = arguments.frame;
-  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
+  Studio studio(*scene, *renderer, arguments);
+  std::vector<FrameRecord> records;
+  FlickerMeter flicker;
   for (const Shot& shot : shots) {
-    if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
-    const auto start = std::chrono::steady_clock::now();
-    const View view = make_view(shot.camera, arguments.width, arguments.height, scene->bounds());
-    ORIEL_TRY(const FrameStats stats, renderer->render(*scene, view, options));
-    glFinish();
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    ORIEL_TRY(const std::optional<float> metered, renderer->meter());
-    const float ev100 = arguments.ev100.value_or(metered.value_or(0.0f));
-    ORIEL_TRY_VOID(
-        write_picture(*renderer, shot.file, arguments.width, arguments.height, ev100, arguments.curve, shot.name));
-    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file, arguments.width, arguments.height, ms,
-               ev100, describe(stats), shot.name);
+    ORIEL_TRY(const FrameRecord record, studio.draw(shot, along_path ? 1 : std::max(arguments.frames, 1)));
+    ORIEL_TRY_VOID(studio.keep(shot, record));
+    if (along_path) flicker.add(renderer->read_light());
+    records.push_back(record);
   }
-  return {};
+  if (along_path) {
+    fmt::print("{}: {} frames, median {:.1f} ms, flicker {:.4f}, worst {:.4f} at frame {}\n", arguments.path,
+               records.size(), median_record(records).ms, flicker.mean(), flicker.worst(), flicker.worst_frame());
+  }
+  if (arguments.stats.empty()) return {};
+  return write_stats(arguments.stats, arguments, device.renderer, records, along_path ? &flicker : nullptr);
 }
 
 }  // namespace oriel

@@ -6,11 +6,9 @@
 
 namespace oriel {
 
-// Draws each camera of the arguments into its file. Timings go to stderr. Errors: kUsage, kIo, kRuntime, kStopped.
+// Draws each camera of the arguments, or frames along a path, into files. Timings go to stderr. Errors: kUsage, kIo,
+// kRuntime, kStopped.
 Status play_offscreen(Pack pack, const PlayArguments& arguments);
-
-// One line of timings and counts, for people.
-std::string describe(const FrameStats& stats);
 
 // The frame that a renderer drew last, as a picture file: .png as shown, .exr linear.
 Status write_picture(class Renderer& renderer, const std::string& path, int width, int height, float ev100,

@@ -3,12 +3,13 @@
 #include <chrono>
 #include <filesystem>
 
+#include "formats/camera/camera_spec.h"
+#include "formats/camera/path.h"
+#include "player/app/frame_record.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
 #include "player/passes/frame.h"
-#include "player/walk/camera_spec.h"
-#include "player/walk/path.h"
 
 namespace oriel {
 namespace {

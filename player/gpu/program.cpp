@@ -79,6 +79,9 @@ void Program::set(const char* uniform, const Vec4& value) const {
 void Program::set(const char* uniform, const Mat4& value) const {
   glUniformMatrix4fv(location(uniform), 1, GL_FALSE, &value[0][0]);
 }
+void Program::set(const char* uniform, std::span<const Vec3> values) const {
+  glUniform3fv(location(uniform), static_cast<GLsizei>(values.size()), &values[0][0]);
+}
 void Program::set(const char* uniform, std::span<const Vec4> values) const {
   glUniform4fv(location(uniform), static_cast<GLsizei>(values.size()), &values[0][0]);
 }

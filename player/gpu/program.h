@@ -47,6 +47,7 @@ class Program {
   void set(const char* uniform, const Vec3& value) const;
   void set(const char* uniform, const Vec4& value) const;
   void set(const char* uniform, const Mat4& value) const;
+  void set(const char* uniform, std::span<const Vec3> values) const;
   void set(const char* uniform, std::span<const Vec4> values) const;
 
  private:

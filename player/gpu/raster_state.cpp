@@ -19,7 +19,7 @@ void apply(const RasterState& state) {
   if (state.blend == Blend::kAdd) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ZERO);
   if (state.blend == Blend::kMultiply) glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
   enable(GL_CULL_FACE, state.cull != Cull::kNone);
-  glFrontFace(GL_CCW);
+  glFrontFace(state.mirrored ? GL_CW : GL_CCW);
   glCullFace(state.cull == Cull::kFront ? GL_FRONT : GL_BACK);
   enable(GL_STENCIL_TEST, state.stencil_func != GL_ALWAYS || state.stencil_write != 0);
   glStencilFunc(state.stencil_func, state.stencil_ref, state.stencil_read);

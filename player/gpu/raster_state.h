@@ -15,6 +15,7 @@ struct RasterState {
   bool alpha_write = true;
   Blend blend = Blend::kNone;
   Cull cull = Cull::kNone;
+  bool mirrored = false;  // fronts are clockwise on the screen
   // With stencil_func GL_ALWAYS and stencil_write 0 the stencil is off. Passing pixels get stencil_ref in the bits of
   // stencil_write.
   GLenum stencil_func = GL_ALWAYS;

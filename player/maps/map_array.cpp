@@ -17,22 +17,20 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
   filtered.levels = gpu::mip_levels(size.x, size.y);
   filtered.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   out.light = gpu::TextureArray(gpu::kRgb9e5, size.x, size.y, layers, filtered);
-  gpu::TextureOptions exact;
-  exact.levels = kRangeLevels;
-  exact.min_filter = GL_NEAREST_MIPMAP_NEAREST;
-  out.ranges = gpu::TextureArray(gpu::kRg32f, range_size.x, range_size.y, layers, exact);
+  out.ranges = gpu::TextureArray(gpu::kRg32f, range_size.x, 2 * range_size.y, layers);
   for (int layer = 0; layer < layers; ++layer) {
     const RadianceMap& map = maps[indices[static_cast<std::size_t>(layer)]];
     const Relief relief = make_relief(map);
-    out.disparity.upload(0, layer, relief.size.x, relief.size.y, relief.disparity.data());
+    out.disparity.upload(0, layer, 0, relief.size.x, relief.size.y, relief.disparity.data());
     for (int level = 1; level <= kRangeLevels; ++level) {
       const IVec2 cells = relief.range_size(level);
-      out.ranges.upload(level - 1, layer, cells.x, cells.y, relief.ranges[static_cast<std::size_t>(level - 1)].data());
+      const int row = 2 * range_size.y - (4 * range_size.y >> level);
+      out.ranges.upload(0, layer, row, cells.x, cells.y, relief.ranges[static_cast<std::size_t>(level - 1)].data());
     }
     const LightLevels levels = make_light_levels(map);
     for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level) {
       const int w = std::max(relief.size.x >> level, 1), h = std::max(relief.size.y >> level, 1);
-      out.light.upload(static_cast<int>(level), layer, w, h, levels.rgb9e5[level].data());
+      out.light.upload(static_cast<int>(level), layer, 0, w, h, levels.rgb9e5[level].data());
     }
     out.scale.push_back(levels.scale);
   }

@@ -17,6 +17,13 @@ float surface_disparity(const Relief& relief, const Vec2& at, float surface) {
   return std::clamp(s, surface / (1 + kConnected), surface * (1 + kConnected));
 }
 
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+bool is_connected(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
+  const float last = relief.at(map_texel(ray, begin, relief.size));
+  const float after = relief.at(map_texel(ray, std::min(end + 1, ray.length), relief.size));
+  return surface <= 1 && std::fabs(surface - last) <= std::max(kConnected * surface, 2 * std::fabs(after - surface));
+}
+
 // The crossing in [begin, end], found by false position.
 float refine_crossing(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
   const auto height = [&](float at) {
@@ -61,9 +68,10 @@ MapRay map_ray(const Vec3& eye, const Vec2& lower, const Vec2& upper, const IVec
 
 MapHit march(const Relief& relief, const MapRay& ray) {
   if (ray.length < 0) return {};
-  float at = 0, s = ray.s_begin, hidden = ray.hidden;
-  bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kConnected);
+  float at = 0, s = ray.s_begin, hidden = ray.hidden, surface = -1;
+  bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kTouching);
   int level = std::clamp(static_cast<int>(std::ceil(std::log2(ray.length))), 1, kRangeLevels);
+  bool hit = false;
   for (int step = 0; step < kMaxMarchSteps && at < ray.length; ++step) {
     const float next = std::min(at + static_cast<float>(1 << level), ray.length);
     const float s_next = ray.disparity(next);
@@ -77,20 +85,17 @@ MapHit march(const Relief& relief, const MapRay& ray) {
         level = std::min(level + 1, kRangeLevels);
       } else {
         if (before && range.y < s) {
-          at = std::clamp((ray.s_end - range.y) / ray.fall + ray.length, at, next);
+          at = std::clamp((ray.s_end - range.y) / ray.fall + ray.length, at, std::max(at, next - 0.5f));
           s = ray.disparity(at);
         }
         --level;
       }
       continue;
     }
-    const float surface = relief.at(map_texel(ray, next, relief.size));
+    surface = relief.at(map_texel(ray, next, relief.size));
     if (before && surface >= s_next) {
-      if (surface <= s * (1 + kConnected)) {
-        const float hit =
-            refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(next + 0.5f, ray.length), surface);
-        return {ray.from + hit * ray.direction, ray.disparity(hit), 1 / (1 + hidden)};
-      }
+      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at, next, surface);
+      if (hit) break;
       before = false;
     } else if (!before) {
       hidden += next - at;
@@ -100,7 +105,11 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     s = s_next;
     level = 1;
   }
-  return {};
+  if (!hit) return {};
+  const float crossing =
+      refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
+  return {ray.from + crossing * ray.direction, ray.disparity(crossing),
+          1 / (1 + kDistrust * hidden / static_cast<float>(std::max(relief.size.x, relief.size.y)))};
 }
 
 }  // namespace oriel

@@ -12,9 +12,13 @@
 
 namespace oriel {
 
-// Neighbouring pixels whose disparities differ by more than this share lie on different surfaces: a ray does not hit
-// the gap between them, it passes behind the nearer one.
+// Neighbouring pixels whose disparities differ by more than this share, and by more than the surface goes on to fall or
+// rise, lie on different surfaces: a ray does not hit the gap between them, it passes behind the nearer one.
 inline constexpr float kConnected = 0.1f;
+// Unless it was no farther behind the nearer one than this share before the gap.
+inline constexpr float kTouching = 0.003f;
+// A ray hidden over 1 / kDistrust of the map is half trusted.
+inline constexpr float kDistrust = 128;
 inline constexpr int kMaxMarchSteps = 96;
 
 // The part of a ray inside a map's frame: from a pixel position over `length` pixels (the longer of x and y) along

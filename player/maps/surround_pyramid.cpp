@@ -56,7 +56,7 @@ void fill_gaps(std::vector<LightLevel>& levels) {
 template <class Put>
 void each_with_border(int size, const Put& put) {
   for (int y = -1; y <= size; ++y)
-    for (int x = -1; x <= size; ++x) put(x + 1, y + 1, octahedral_wrapped({x, y}, size));
+    for (int x = -1; x <= size; ++x) put(x + 1, y + 1, wrap_octahedral({x, y}, size));
 }
 
 }  // namespace

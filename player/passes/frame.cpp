@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/passes/geometry_pass.h"
+#include "player/passes/holes.h"
 #include "player/reflections/reflected_view.h"
 
 namespace oriel {
@@ -41,6 +43,7 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
 Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
+  renderer->clock_ = PassClock(device.dialect);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
@@ -68,9 +71,9 @@ Status Renderer::ensure_frame(int width, int height) {
 std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view,
                                                       const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
+  marked_.clear();
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
   if (options.maps_per_element <= 0) return candidates;
-  GLint next = 1;
   for (const GpuReflector& reflector : scene.reflectors()) {
     if (reflector.elements.empty() || reflector.index_count == 0) continue;
     const Vec4 eye = eye_in_reflector(reflector, view);
@@ -78,8 +81,11 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
     if (candidate.screen.empty) continue;
     const bool see_through = scene.is_transparent(reflector.material);
-    if (!see_through && next > static_cast<GLint>(kReflectorBits)) continue;  // more than the stencil counts
-    if (!see_through) candidate.value = next++;
+    if (!see_through && marked_.size() >= kReflectorBits) continue;  // more than the stencil counts
+    if (!see_through) {
+      marked_.push_back(reflector.material);
+      candidate.value = static_cast<GLint>(marked_.size());
+    }
     if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
     reflector_pass_.draw_mask(scene, reflector, view,
                               see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
@@ -94,24 +100,46 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
   return candidates;
 }
 
+// M into the image.
+void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view,
+                                   const ImageRect& rect, const FrameOptions& options, FrameStats& stats) {
+  switch (options.reflections) {
+    case Reflections::kPoints:
+      reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+      break;
+    case Reflections::kGeometry:
+      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, stats);
+      break;
+    default:
+      march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  }
+}
+
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
   const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
-  const ImageRect rect = choose_image(candidate.screen, kernel, view, device_.texture_size);
+  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
+  const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
-  if (options.reflections == Reflections::kPoints) {
-    reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-  } else {
-    march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+  clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
+  if (options.count_holes && candidate.value > 0) {
+    const HoleCount count = count_holes(*frame_, candidate.value, *image_, rect);
+    stats.reflected_pixels += count.pixels;
+    stats.holes += count.holes;
   }
-  const bool blurs = kernel.blurs() && options.show != Show::kM;
-  fill_pass_.draw(rect, *image_, blurs, stats);
-  if (blurs) convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), stats);
+  clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
+  if (blurs) {
+    clock_.time(Pass::kConvolve, [&] {
+      convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
+    });
+  }
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
-                             options, stats);
+  clock_.time(Pass::kCompose, [&] {
+    reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
+                               options, stats);
+  });
   ++stats.reflectors;
   return {};
 }
@@ -128,9 +156,9 @@ std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, co
     if (scene.is_transparent(reflector.material)) {
       curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
       see_through.push_back(&reflector);
-    } else {
-      // Any number will do: it says that the pixel holds S already.
-      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(kReflectorBits), kReflectorBits, options,
+    } else if (marked_.size() < kReflectorBits) {
+      marked_.push_back(reflector.material);
+      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(marked_.size()), kReflectorBits, options,
                               stats);
       reflective.insert(reflector.material);
     }
@@ -150,6 +178,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
+  clock_.start(options.timed);
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
   gpu::RasterState all;
@@ -161,25 +190,32 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
-  scene_pass_.draw_depth(scene, view, stats);
-  const std::vector<Candidate> candidates = draw_masks(scene, view, options, stats);
+  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  const std::vector<Candidate> candidates =
+      clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); });
   std::set<std::uint32_t> reflective;
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) continue;
     ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
     reflective.insert(candidate.reflector->material);
   }
-  const auto see_through = draw_curved(scene, view, options, reflective, stats);
+  const auto see_through =
+      clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
   if (shows_scene(options.show)) {
-    scene_pass_.draw_opaque(scene, view, weights_of(options.show), reflective, stats);
+    const SceneWeights weights = weights_of(options.show);
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
     ORIEL_TRY(const float white, white_for(scene, options));
-    scene_pass_.draw_transparent(scene, view, weights_of(options.show), white, stats);
+    clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
   }
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
   }
-  for (const GpuCurvedReflector* reflector : see_through)
-    curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
+  clock_.time(Pass::kCurved, [&] {
+    for (const GpuCurvedReflector* reflector : see_through)
+      curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
+  });
+  stats.map_bytes = scene.map_bytes();
+  stats.ms = clock_.read();
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
   return stats;
 }
@@ -191,6 +227,22 @@ std::vector<float> Renderer::read_light() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
   return flipped(rgba, width, height);
+}
+
+std::vector<std::int32_t> Renderer::read_reflective() const {
+  const auto width = static_cast<std::size_t>(frame_->light.width());
+  const auto height = static_cast<std::size_t>(frame_->light.height());
+  std::vector<std::uint8_t> stencil(width * height);
+  frame_->framebuffer.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, frame_->light.width(), frame_->light.height(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+  std::vector<std::int32_t> materials;
+  for (std::size_t y = height; y-- > 0;)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
+      materials.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
+    }
+  return materials;
 }
 
 Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {

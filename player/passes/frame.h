@@ -5,6 +5,7 @@
 #include <set>
 
 #include "player/passes/display_pass.h"
+#include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
 #include "player/reflections/convolve_pass.h"
@@ -28,6 +29,9 @@ class Renderer {
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
+  // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
+  // curved, that shows its image there; -1: none that is opaque.
+  std::vector<std::int32_t> read_reflective() const;
   // The last frame as display() shows it, RGB, row 0 at the top. Leaves its own framebuffer bound.
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
 
@@ -44,6 +48,8 @@ class Renderer {
   Status ensure_frame(int width, int height);
   std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
                                     FrameStats& stats);
+  void draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                           const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
@@ -63,6 +69,8 @@ class Renderer {
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;
   std::vector<gpu::Query> queries_;
+  PassClock clock_;
+  std::vector<std::uint32_t> marked_;  // the material of the reflector that value i + 1 in the last frame's stencil stands for
 };
 
 }  // namespace oriel

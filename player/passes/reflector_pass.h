@@ -16,13 +16,17 @@ class ReflectorPass {
   // The query counts whether there are any.
   void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
                  const gpu::Query& query, FrameStats& stats) const;
-  // The image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
-  // 0: adds to the frame wherever the depth leaves the reflector visible.
+  // The image and the emitters that it leaves out, times R unless options show a stage before it. value: as marked,
+  // where it replaces what the frame holds; 0: adds to the frame wherever the depth leaves the reflector visible.
   void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                   const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
 
  private:
-  gpu::Program mask_, compose_;
+  void set_reflectance(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector, const View& view,
+                       const FrameOptions& options) const;
+  // Those that the reflector's maps leave out, to the program, in use from then on; false where there are none.
+  bool set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
+  gpu::Program mask_, compose_, emitters_;
 };
 
 }  // namespace oriel

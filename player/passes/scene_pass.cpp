@@ -116,6 +116,7 @@ void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& 
 void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
                             const std::set<std::uint32_t>& reflective, FrameStats& stats) const {
   set_frame(opaque_, scene, view);
+  opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
   state.stencil_read = kReflectorBits;
@@ -133,6 +134,24 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
     state.stencil_func = GL_NOTEQUAL;
     gpu::apply(state);
     opaque_.set("u_weights", Vec3(weights.diffuse, 0, weights.emission));
+    draw_indices(range.first_index, range.index_count, stats);
+  }
+}
+
+void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
+                               const SceneWeights& weights, FrameStats& stats) const {
+  set_frame(opaque_, scene, view);
+  opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
+  opaque_.set("u_depth_row", depth_row);
+  opaque_.set("u_closest", closest);
+  opaque_.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
+  state.mirrored = view.mirrored;
+  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
+    state.cull = cull_of(scene.pack().materials[range.material]);
+    gpu::apply(state);
+    set_material(opaque_, scene, range);
     draw_indices(range.first_index, range.index_count, stats);
   }
 }

@@ -32,6 +32,10 @@ class ScenePass {
   // added to, without the undirected part. reflective: materials with such pixels.
   void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
                    const std::set<std::uint32_t>& reflective, FrameStats& stats) const;
+  // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
+  // orthographic view 1 / dot(depth_row, point). At least `closest`.
+  void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
+                      const SceneWeights& weights, FrameStats& stats) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear. white: as FrameOptions.
   void draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
                         FrameStats& stats) const;

@@ -13,12 +13,12 @@ float pixels_per_tangent(const View& view) {
 
 }  // namespace
 
-ImageRect choose_image(const NdcRect& screen, const GpuKernel& kernel, const View& view, int texture_limit) {
+ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit) {
   ImageRect rect;
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before
   // it.
-  const float blur = view.orthographic ? 0.0f : 0.5f * kernel.median * pixels_per_tangent(view);
+  const float blur = view.orthographic ? 0.0f : 0.5f * median * pixels_per_tangent(view);
   if (blur >= 6) rect.scale = 0.5f;
   if (blur >= 16) rect.scale = 0.25f;
   float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
@@ -34,6 +34,19 @@ ImageRect choose_image(const NdcRect& screen, const GpuKernel& kernel, const Vie
   return rect;
 }
 
+namespace {
+
+// What the published kernel's one width stands for: the share of the lobe's angle that something at the mean distance
+// behind the reflector's middle spans for the eye (or metres, seen orthographically).
+float constant_footprint(const GpuReflector& reflector, const View& view) {
+  const Vec3 middle = 0.5f * (reflector.corners[0] + reflector.corners[2]);
+  if (view.orthographic) return reflector.mean_distance;
+  const float to_plane = glm::length(Vec3(view.eye) - middle);
+  return reflector.mean_distance / std::max(reflector.mean_distance + to_plane, 1e-30f);
+}
+
+}  // namespace
+
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
   ORIEL_TRY(pass.program_, gpu::Program::create("screen/convolve", dialect));
@@ -42,7 +55,7 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
 }
 
 void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
-                        const ImageTarget& target, float scene_radius, FrameStats& stats) const {
+                        const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const {
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
   const float to_image = pixels_per_tangent(view) * rect.scale;
@@ -65,6 +78,7 @@ void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, 
   program_.set("u_plane_normal", normal);
   program_.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
   program_.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
+  program_.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
   program_.set("u_blur_level", std::log2(std::max(0.25f * kernel.median * to_image, 1.0f)));
   program_.set("u_pixels_per_tangent", to_image);
   program_.set("u_taps", 1);

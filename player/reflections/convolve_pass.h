@@ -8,16 +8,16 @@
 
 namespace oriel {
 
-// Where the reflected image lies in the frame, and how fine it must be for this kernel. screen: what the reflector
-// covers.
-ImageRect choose_image(const NdcRect& screen, const GpuKernel& kernel, const View& view, int texture_limit);
+// Where the reflected image lies in the frame, and how fine it must be for a kernel of that median radius (0: none).
+// screen: what the reflector covers.
+ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit);
 
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
   // target.filled, all levels, to target.blurred.
   void draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
-            const ImageTarget& target, float scene_radius, FrameStats& stats) const;
+            const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const;
 
  private:
   gpu::Program program_;

@@ -32,7 +32,7 @@ gpu::RasterState state_for(GLint value, GLuint bits) {
 
 Result<CurvedPass> CurvedPass::create(gpu::Dialect dialect) {
   CurvedPass pass;
-  ORIEL_TRY(pass.mask_, gpu::Program::create("mask", dialect));
+  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
   ORIEL_TRY(pass.light_, gpu::Program::create("curved/light", dialect));
   return pass;
 }
@@ -58,7 +58,8 @@ void CurvedPass::draw_light(GpuScene& scene, const GpuCurvedReflector& reflector
   const Pack& pack = scene.pack();
   const Material& material = pack.materials[reflector.material];
   const SurroundTextures& map = scene.surround_map(reflector.map);
-  const GpuKernel& kernel = scene.kernel(options.show == Show::kM ? -1 : material.kernel, options.kernel);
+  const bool sharp = options.show == Show::kM || options.blur == Blur::kOff;
+  const GpuKernel& kernel = scene.kernel(sharp ? -1 : material.kernel, options.kernel);
   map.light.bind(kLightUnit);
   map.inverse_distance.bind(kDistanceUnit);
   scene.reflectance_tables().bind(kReflectanceUnit);

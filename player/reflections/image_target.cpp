@@ -46,7 +46,7 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   options.levels = gpu::mip_levels(w, h);
   target.sharp = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
   options.mag_filter = GL_LINEAR;
-  options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  options.min_filter = GL_LINEAR_MIPMAP_NEAREST;  // dozens of taps a pixel need no blend of levels
   target.filled = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
   gpu::TextureOptions linear;
   linear.min_filter = linear.mag_filter = GL_LINEAR;
@@ -60,7 +60,7 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   return {};
 }
 
-void clear_image(const ImageTarget& target, const ImageRect& rect) {
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light) {
   target.sharp_framebuffer.bind();
   target.sharp_framebuffer.attach_color_level(target.sharp, 0);
   gpu::RasterState state;
@@ -69,7 +69,7 @@ void clear_image(const ImageTarget& target, const ImageRect& rect) {
   glViewport(0, 0, rect.width, rect.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(0, 0, rect.width, rect.height);
-  glClearColor(0, 0, 0, 0);
+  glClearColor(light.x, light.y, light.z, light.w);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
 }

@@ -30,8 +30,8 @@ struct ImageTarget {
 };
 // At least that large; keeps `current` where it suffices.
 Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit);
-// Binds the image to be drawn into, with depth, and makes its rectangle one hole.
-void clear_image(const ImageTarget& target, const ImageRect& rect);
+// Binds the image to be drawn into, with depth, and fills its rectangle: with a hole, or with light all over.
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0));
 
 // 1 / distance is never stored smaller than this where something is seen, the sky too.
 inline constexpr float kClosest = 1e-15f;

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMaps = 16;  // as in march.frag: maps of an element that can be asked
+constexpr std::size_t kMaps = 8;  // as in march.frag: maps of an element that can be asked
 
 struct PlaneRect {
   Vec2 from{0}, to{0};

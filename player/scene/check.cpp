@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "player/maps/map_choice.h"
+
 namespace oriel {
 namespace {
 
@@ -122,6 +124,8 @@ Status check_kernels(const Pack& pack, const gpu::Device& device) {
     if (k.slices.size() > static_cast<std::size_t>(device.texture_size))
       return fail(ErrorCode::kRuntime, where, "found {} slices, expected at most {} ({})", k.slices.size(),
                   device.texture_size, device.renderer);
+    if (!k.fits.empty() && k.fits.size() != k.slices.size())
+      return invalid(where, "found {} fits, expected {}", k.fits.size(), k.slices.size());
   }
   return {};
 }
@@ -152,6 +156,24 @@ Status check_triangles(const std::string& where, const Pack& pack, const std::ve
   return {};
 }
 
+Status check_emitters(const Pack& pack, const Reflector& r, const std::string& where, const gpu::Device& device) {
+  if (r.emitters.empty()) return {};
+  if (r.emitters.size() > kMaxReflectorEmitters || r.visibility_x < 2 || r.visibility_y < 2) {
+    return invalid(where, "found {} emitters seen from {}x{} nodes, expected at most {} and at least 2x2 nodes",
+                   r.emitters.size(), r.visibility_x, r.visibility_y, kMaxReflectorEmitters);
+  }
+  ORIEL_TRY_VOID(check_size(where, r.visibility_x, r.visibility_y * static_cast<std::uint32_t>(r.emitters.size()),
+                            r.visibility.size(), 1, device));
+  for (const std::uint32_t emitter : r.emitters) {
+    if (emitter >= pack.emitters.size()) {
+      return invalid(where, "found emitter {}, expected less than {}", emitter, pack.emitters.size());
+    }
+    const std::size_t corners = pack.emitters[emitter].corners.size();
+    if (corners < 3 || corners > 4) return invalid(where, "found an emitter of {} corners, expected 3 or 4", corners);
+  }
+  return {};
+}
+
 Status check_curved_reflectors(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
     const CurvedReflector& r = pack.curved_reflectors[i];
@@ -177,7 +199,7 @@ Status check_curved_reflectors(const Pack& pack, const gpu::Device& device) {
   return {};
 }
 
-Status check_reflectors(const Pack& pack) {
+Status check_reflectors(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const Reflector& r = pack.reflectors[i];
     const std::string where = fmt::format("reflector {} '{}'", i, r.name);
@@ -188,6 +210,13 @@ Status check_reflectors(const Pack& pack) {
       return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count,
                      pack.radiance_maps.size());
     }
+    for (const ReflectorElement& element : group_by_element(r, pack.radiance_maps)) {
+      if (element.maps.size() > static_cast<std::size_t>(device.array_layers)) {
+        return fail(ErrorCode::kRuntime, where, "found {} maps of one element, expected at most {} ({})",
+                    element.maps.size(), device.array_layers, device.renderer);
+      }
+    }
+    ORIEL_TRY_VOID(check_emitters(pack, r, where, device));
     ORIEL_TRY_VOID(check_triangles(where, pack, r.indices));
   }
   return {};
@@ -202,7 +231,7 @@ Status check_drawable(const Pack& pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device));
   ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
-  return check_reflectors(pack);
+  return check_reflectors(pack, device);
 }
 
 }  // namespace oriel

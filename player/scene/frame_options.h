@@ -1,6 +1,7 @@
 // What is asked of a frame, and what it cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "player/maps/map_choice.h"
@@ -14,6 +15,8 @@ enum class Show { kAll, kM, kMK, kMKR, kD };
 // How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
 // mirrored scene; or not at all.
 enum class Reflections { kMarch, kPoints, kGeometry, kOff };
+// How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
+enum class Blur { kDistance, kConstant, kOff };
 enum class Reflectance { kTable, kSphereMap };
 
 struct FrameOptions {
@@ -21,18 +24,31 @@ struct FrameOptions {
   Reflections reflections = Reflections::kMarch;
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
+  Blur blur = Blur::kDistance;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
-  float white = 0;      // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  bool timed = false;   // each pass, which costs a little itself
+  // Fills FrameStats::reflected_pixels and holes: reads images back, which is slow.
+  bool count_holes = false;
+  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
+
+enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kCurved, kScene, kTransparent };
+inline constexpr std::array<const char*, 9> kPassNames{"depth",   "mask",   "reflect", "fill",       "convolve",
+                                                       "compose", "curved", "scene",   "transparent"};
+using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
   std::uint32_t reflectors = 0;  // that had pixels in view
-  std::uint32_t maps = 0;        // radiance maps chosen
+  std::uint32_t maps = 0;        // radiance and surround maps chosen
   std::uint64_t points = 0;      // of them
+  std::uint64_t map_bytes = 0;   // of all radiance and surround maps on the device so far
+  // Of opaque reflectors, where they are counted.
+  std::uint64_t reflected_pixels = 0, holes = 0;
+  PassTimes ms{};  // by pass, where asked for
 };
 
 }  // namespace oriel

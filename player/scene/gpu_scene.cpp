@@ -18,18 +18,33 @@ void add_attribute(std::vector<gpu::Buffer>& buffers, GLuint location, const std
   glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
 }
 
-Vec3 mean_radiance(const Pack& pack, const Reflector& reflector) {
-  DVec3 sum(0);
-  double count = 0;
+// Over the pixels of a reflector's maps.
+struct MapMeans {
+  Vec3 radiance{0};
+  float distance = 0;
+};
+
+MapMeans means_of_maps(const Pack& pack, const Reflector& reflector) {
+  DVec3 radiance(0);
+  double count = 0, distance = 0, surfaces = 0;
   for (std::uint32_t m = 0; m < reflector.map_count; ++m) {
     const RadianceMap& map = pack.radiance_maps[reflector.first_map + m];
     for (std::size_t i = 0; i < map.radiance.size(); ++i) {
       if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
-      sum += DVec3(map.radiance[i]);
+      radiance += DVec3(map.radiance[i]);
       count += 1;
+      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
+      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
+                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
+      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
+      distance += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
+      surfaces += 1;
     }
   }
-  return count > 0 ? Vec3(sum / count) : Vec3(0);
+  MapMeans out;
+  if (count > 0) out.radiance = Vec3(radiance / count);
+  if (surfaces > 0) out.distance = static_cast<float>(distance / surfaces);
+  return out;
 }
 
 }  // namespace
@@ -110,7 +125,10 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
-    out.mean_radiance = mean_radiance(pack_, r);
+    const MapMeans means = means_of_maps(pack_, r);
+    out.mean_radiance = means.radiance;
+    out.mean_distance = means.distance;
+    if (!r.emitters.empty()) out.visibility = upload_visibility(r);
     reflectors_.push_back(std::move(out));
   }
 }
@@ -167,19 +185,28 @@ const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {
 
 const gpu::Texture& GpuScene::radiance_map(std::uint32_t index) {
   gpu::Texture& texture = radiance_maps_[index];
-  if (!texture) texture = upload_radiance_map(pack_.radiance_maps[index]);
+  if (!texture) {
+    texture = upload_radiance_map(pack_.radiance_maps[index]);
+    map_bytes_ += texture.bytes();
+  }
   return texture;
 }
 
 const MapArray& GpuScene::map_array(const ReflectorElement& element) {
   const auto [at, added] = map_arrays_.try_emplace(element.maps.front());
-  if (added) at->second = MapArray::upload(pack_.radiance_maps, element.maps);
+  if (added) {
+    at->second = MapArray::upload(pack_.radiance_maps, element.maps);
+    map_bytes_ += at->second.bytes();
+  }
   return at->second;
 }
 
 const SurroundTextures& GpuScene::surround_map(std::uint32_t index) {
   SurroundTextures& textures = surround_maps_[index];
-  if (!textures.light) textures = upload_surround_map(pack_.surround_maps[index]);
+  if (!textures.light) {
+    textures = upload_surround_map(pack_.surround_maps[index]);
+    map_bytes_ += textures.light.bytes() + textures.inverse_distance.bytes();
+  }
   return textures;
 }
 
@@ -195,7 +222,8 @@ const GpuKernel& GpuScene::kernel(std::int32_t index, KernelPlace place) {
     const BrdfKernel mirror;
     const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
     const KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
-    at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median};
+    at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
+    if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel);
   }
   return at->second;
 }

@@ -34,7 +34,9 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
-  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+  Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
+  float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
+  gpu::Texture visibility;  // of Reflector::emitters: their grids, one above the other
 };
 
 struct GpuCurvedReflector {
@@ -44,11 +46,12 @@ struct GpuCurvedReflector {
   Bounds bounds;
 };
 
-// K as a shader reads it.
+// K as shaders read it.
 struct GpuKernel {
   gpu::Texture taps;
   int count = 1, rows = 1;  // as KernelTaps
   float median = 0;
+  gpu::Texture fits;  // LobeFit by incidence, as upload_lobe_fits; none where the kernel has no fits
   bool blurs() const { return count > 1; }
 };
 
@@ -81,6 +84,8 @@ class GpuScene {
   const gpu::Texture& radiance_map(std::uint32_t index);       // as points
   const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
   const SurroundTextures& surround_map(std::uint32_t index);
+  // Of radiance and surround maps on the device.
+  std::uint64_t map_bytes() const { return map_bytes_; }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
   // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
   const GpuKernel& kernel(std::int32_t index, KernelPlace place);
@@ -105,6 +110,7 @@ class GpuScene {
   LightmapTexture no_lightmap_;
   std::map<std::uint32_t, MapArray> map_arrays_;  // by the first map of the element
   std::map<std::pair<std::int32_t, KernelPlace>, GpuKernel> kernels_;
+  std::uint64_t map_bytes_ = 0;
   bool mipmaps_ = true;
 };
 

@@ -65,16 +65,12 @@ std::vector<KernelTap> centred_taps(const BrdfKernel& kernel, int count, double 
 // The lobe's between two slices: points of the same share of the energy, on the line between them.
 std::vector<KernelTap> lobe_taps(const std::vector<std::vector<KernelTap>>& slices, const BrdfKernel& kernel,
                                  double root) {
-  const auto root_of = [&](std::size_t i) { return std::sqrt(double{kernel.slices[i].cos_theta}); };
-  std::size_t above = 1;
-  while (above + 1 < slices.size() && root_of(above) < root) ++above;
-  if (slices.size() == 1) return slices[0];
-  const double low = root_of(above - 1), share = std::clamp((root - low) / (root_of(above) - low), 0.0, 1.0);
-  std::vector<KernelTap> taps = slices[above - 1];
+  const SlicePosition at = find_slice(kernel, root * root);
+  std::vector<KernelTap> taps = slices[at.below];
   for (std::size_t k = 0; k < taps.size(); ++k) {
-    const KernelTap& next = slices[above][k];
-    taps[k].at = glm::mix(taps[k].at, next.at, static_cast<float>(share));
-    taps[k].width = glm::mix(taps[k].width, next.width, static_cast<float>(share));
+    const KernelTap& next = slices[at.above][k];
+    taps[k].at = glm::mix(taps[k].at, next.at, at.share);
+    taps[k].width = glm::mix(taps[k].width, next.width, at.share);
   }
   return taps;
 }
@@ -87,6 +83,16 @@ float median_radius(std::span<const KernelTap> taps) {
 }
 
 }  // namespace
+
+SlicePosition find_slice(const BrdfKernel& kernel, double cos_theta) {
+  const auto root_of = [&](std::size_t i) { return std::sqrt(double{kernel.slices[i].cos_theta}); };
+  if (kernel.slices.size() == 1) return {0, 0, 0};
+  std::size_t above = 1;
+  while (above + 1 < kernel.slices.size() && root_of(above) < std::sqrt(cos_theta)) ++above;
+  const double low = root_of(above - 1);
+  const double share = std::clamp((std::sqrt(cos_theta) - low) / (root_of(above) - low), 0.0, 1.0);
+  return {above - 1, above, static_cast<float>(share)};
+}
 
 KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place) {
   KernelTaps out;

@@ -27,6 +27,13 @@ enum class KernelPlace { kLobe, kCentred };
 // set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at the centre.
 KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place);
 
+// The slices around an incidence: share of the one above. The kernel has slices.
+struct SlicePosition {
+  std::size_t below, above;
+  float share;
+};
+SlicePosition find_slice(const BrdfKernel& kernel, double cos_theta);
+
 // Where a cosine lies among the rows: the row below, and the share of the next.
 struct RowPosition {
   int row;

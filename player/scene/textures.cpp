@@ -4,6 +4,7 @@
 #include <array>
 
 #include "formats/core/half.h"
+#include "formats/lobes/lobe_light.h"
 
 namespace oriel {
 namespace {
@@ -86,6 +87,24 @@ gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
   std::vector<Vec4> texels;
   for (const KernelTap& tap : taps.taps) texels.emplace_back(tap.at, tap.width, 0);
   return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
+}
+
+gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
+  constexpr int kRows = 33;
+  std::vector<Vec4> texels;
+  for (int i = 0; i < kRows; ++i) {
+    const double root = i / (kRows - 1.0);
+    const SlicePosition at = find_slice(kernel, root * root);
+    const LobeFit &a = kernel.fits[at.below], &b = kernel.fits[at.above];
+    texels.push_back(mix_lobes(in_mirror_frame(a, kernel.slices[at.below].cos_theta),
+                               in_mirror_frame(b, kernel.slices[at.above].cos_theta), static_cast<float>(at.share)));
+  }
+  return {gpu::kRgba32f, kRows, 1, texels.data()};
+}
+
+gpu::Texture upload_visibility(const Reflector& reflector) {
+  return {gpu::kR8, static_cast<int>(reflector.visibility_x),
+          static_cast<int>(reflector.visibility_y * reflector.emitters.size()), reflector.visibility.data()};
 }
 
 gpu::Texture upload_sphere_map(const FresnelMap& map) {

@@ -15,6 +15,7 @@ struct View {
   // View-space x and y over -z at the edge of the picture; half its size in metres for an orthographic camera.
   Vec2 tangents{1};
   bool orthographic = false;
+  bool mirrored = false;            // clip_from_pack turns left into right
   float near = 0.1f, far = 100.0f;  // metres along the view, near may be negative for an orthographic camera
   int width = 1, height = 1;
 };

@@ -1,7 +1,7 @@
 // Keys and mouse into motion. Knows no window: the player's app fills MoveInput each frame.
 #pragma once
 
-#include "player/walk/camera.h"
+#include "formats/camera/camera.h"
 
 namespace oriel {
 

@@ -2,6 +2,8 @@
 // what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
 
 const float kConnected = 0.1;
+const float kTouching = 0.003;
+const float kDistrust = 128.0;
 const int kRangeLevels = 6;
 const int kMaxSteps = 96;
 
@@ -58,6 +60,13 @@ float surface_disparity(sampler2DArray disparity, int layer, ivec2 size, vec2 at
   return clamp(s, surface / (1.0 + kConnected), surface * (1.0 + kConnected));
 }
 
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
+  float last = texelFetch(disparity, ivec3(map_texel(ray, begin, size), layer), 0).r;
+  float after = texelFetch(disparity, ivec3(map_texel(ray, min(end + 1.0, ray.length), size), layer), 0).r;
+  return surface <= 1.0 && abs(surface - last) <= max(kConnected * surface, 2.0 * abs(after - surface));
+}
+
 // The crossing in [begin, end], found by false position.
 float refine_crossing(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
   float above = ray_disparity(ray, begin) -
@@ -83,15 +92,18 @@ float refine_crossing(sampler2DArray disparity, int layer, ivec2 size, MapRay ra
 MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 size, MapRay ray) {
   MapHit miss = MapHit(vec2(0.0), 0.0, 0.0);
   if (ray.length < 0.0) return miss;
-  float at = 0.0, s = ray.s_begin, hidden = ray.hidden;
-  bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kConnected);
+  float at = 0.0, s = ray.s_begin, hidden = ray.hidden, surface = -1.0;
+  bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kTouching);
   int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
+  int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
+  bool hit = false;
   for (int step = 0; step < kMaxSteps && at < ray.length; ++step) {
     float next = min(at + float(1 << level), ray.length);
     float s_next = ray_disparity(ray, next);
     if (level > 0) {
       ivec2 cell = map_texel(ray, 0.5 * (at + next), size) >> level;
-      vec2 range = texelFetch(ranges, ivec3(cell, layer), level - 1).rg;
+      cell.y += level_rows - (2 * level_rows >> level);
+      vec2 range = texelFetch(ranges, ivec3(cell, layer), 0).rg;
       if (before ? range.y < s_next : range.x > s) {
         hidden += before ? 0.0 : next - at;
         at = next;
@@ -99,19 +111,17 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
         level = min(level + 1, kRangeLevels);
       } else {
         if (before && range.y < s) {
-          at = clamp((ray.s_end - range.y) / ray.fall + ray.length, at, next);
+          at = clamp((ray.s_end - range.y) / ray.fall + ray.length, at, max(at, next - 0.5));
           s = ray_disparity(ray, at);
         }
         --level;
       }
       continue;
     }
-    float surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
+    surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
     if (before && surface >= s_next) {
-      if (surface <= s * (1.0 + kConnected)) {
-        float hit = refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(next + 0.5, ray.length), surface);
-        return MapHit(ray.from + hit * ray.direction, ray_disparity(ray, hit), 1.0 / (1.0 + hidden));
-      }
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface);
+      if (hit) break;
       before = false;
     } else if (!before) {
       hidden += next - at;
@@ -121,7 +131,10 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
     s = s_next;
     level = 1;
   }
-  return miss;
+  if (!hit) return miss;
+  float crossing =
+      refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(at + 1.5, ray.length), surface);
+  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + kDistrust * hidden / float(max(size.x, size.y))));
 }
 
 // 1 / distance along the ray from the mirrored eye to a hit. to_plane: distance to where the ray leaves the plane; pace: length

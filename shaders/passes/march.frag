@@ -2,8 +2,8 @@
 // where those see nothing.
 #include "lib/march.glsl"
 
-const int kMaps = 16;
-const float kEnough = 0.02;      // trust times weight after which no further map is asked
+const int kMaps = 8;
+const float kEnough = 0.05;       // trust after which no further map is asked
 const float kLeastWeight = 0.01;  // of a map whose own weight is 0
 const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
 
@@ -42,10 +42,13 @@ void main() {
   float pace = length(direction);
   float to_plane = u_ortho > 0.5 ? dot(u_depth_row, vec4(on_plane, 1.0)) : pace;
 
+  // Beyond the reflector's edges, where only blurring looks, the best map must do.
+  bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
+  int count = inside ? u_count : min(u_count, 1);
   vec4 sum = vec4(0.0);
-  float total = 0.0;
-  for (int i = 0; i < u_count; ++i) {
-    if (i >= u_blended && total > kEnough) break;
+  float total = 0.0, trust = 0.0;
+  for (int i = 0; i < count; ++i) {
+    if (i >= u_blended && trust > kEnough) break;
     vec4 map = u_maps[i];
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, v_on_plane, direction);
@@ -63,6 +66,7 @@ void main() {
     }
     sum += weight * light;
     total += weight;
+    trust = max(trust, hit.trust);
   }
   if (total > 0.0) o_light = sum / total;
 }

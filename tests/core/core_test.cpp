@@ -46,12 +46,12 @@ TEST(OctahedralMap, GoesOnOverItsEdges) {
                                           {{i, 0}, {i, -1}},
                                           {{kSize - 1, i}, {kSize, i}},
                                           {{i, kSize - 1}, {i, kSize}}}) {
-      const IVec2 other = octahedral_wrapped(outside, kSize);
+      const IVec2 other = wrap_octahedral(outside, kSize);
       ASSERT_TRUE(other.x >= 0 && other.y >= 0 && other.x < kSize && other.y < kSize);
       EXPECT_LT(glm::length(direction(other) - direction(inside)), step) << outside.x << " " << outside.y;
     }
-  EXPECT_EQ(octahedral_wrapped({5, 6}, kSize), IVec2(5, 6));
-  EXPECT_EQ(octahedral_wrapped({-1, -1}, kSize), IVec2(kSize - 1, kSize - 1));
+  EXPECT_EQ(wrap_octahedral({5, 6}, kSize), IVec2(5, 6));
+  EXPECT_EQ(wrap_octahedral({-1, -1}, kSize), IVec2(kSize - 1, kSize - 1));
 }
 
 TEST(Half, EveryFiniteCodeComesBack) {

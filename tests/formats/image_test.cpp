@@ -37,6 +37,35 @@ TEST(Exr, FloatsComeBackExactly) {
   }
 }
 
+TEST(Exr, LayersComeBackByName) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.exr";
+  LayeredImage image;
+  image.layers = {{"", picture(3)}, {"specular", picture(4)}, {"a.depth", picture(1)}};
+  image.layers["specular"].pixels[7] = -3;
+  image.attributes = {{"oriel:unit", "cd/m2"}};
+  const auto status = write_exr(path, image);
+  ASSERT_TRUE(status) << status.error().text();
+  const auto read = read_layered_exr(path);
+  ASSERT_TRUE(read) << read.error().text();
+  ASSERT_EQ(read->layers.size(), 3u);
+  for (const auto& [name, layer] : image.layers) {
+    EXPECT_EQ(read->layers.at(name).channels, layer.channels) << name;
+    EXPECT_EQ(read->layers.at(name).pixels, layer.pixels) << name;
+  }
+  EXPECT_EQ(read->attributes.at("oriel:unit"), "cd/m2");
+  EXPECT_EQ(read_exr(path)->pixels, image.layers[""].pixels) << "readers of plain pictures see the plain channels";
+}
+
+TEST(Exr, LayersOfOneSizeOnly) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.exr";
+  EXPECT_FALSE(write_exr(path, LayeredImage{}));
+  EXPECT_FALSE(write_exr(path, LayeredImage{{{"specular", picture(3)}}, {}}));
+  EXPECT_FALSE(write_exr(path, LayeredImage{{{"", picture(3)}, {"specular", {2, 2, 1, {1, 2, 3, 4}}}}, {}}));
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(Exr, SameImageSameBytes) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_exr(folder.path() / "a.exr", picture(3)));

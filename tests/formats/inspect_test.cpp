@@ -88,8 +88,11 @@ TEST_F(Inspect, MissingFileAndBlockedFolder) {
 TEST_F(Inspect, InfoForPeople) {
   const Outcome info = run("info " + pack_.string());
   EXPECT_EQ(info.code, 0) << info.err;
-  for (const char* text : {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
-                           "reflector 0: 'floor'", "radiance map 1: 6 x 4", "camera 'door'", "\"seed\": 7"})
+  for (const char* text :
+       {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
+        "reflector 0: 'floor'", "radiance map 1: 6 x 4", "2 emitters in closed form", "bytes a pixel as stored",
+        "walk grid 1: 1 x 1 cells of 1 m, 1 m2 walkable", "camera 'door'", "mover 'door': 2 triangles",
+        "light field: 1 x 1 x 1 cells, 7 of 8 probes", "\"seed\": 7"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
@@ -102,8 +105,14 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["provenance"]["seed"], 7);
   EXPECT_EQ(json["lightmaps"][0]["texels"]["valid"], 8);
   EXPECT_NEAR(json["lightmaps"][0]["lux"]["max"].get<double>(), 155.9, 0.2);
+  EXPECT_EQ(json["movers"][0]["transfer"]["bytes_per_vertex"], 3);
+  EXPECT_EQ(json["light_field"]["bright_lights"].size(), 2u);
   EXPECT_EQ(json["radiance_maps"].size(), 3u);
-  EXPECT_EQ(json["sections"].size(), 28u);
+  EXPECT_EQ(json["radiance_maps"][2]["residual"], true);
+  EXPECT_EQ(json["emitters"][1]["corners"].size(), 3u);
+  EXPECT_EQ(json["reflectors"][0]["emitters"], (std::vector<int>{1, 0}));
+  EXPECT_EQ(json["walk_grids"][0]["walkable_m2"], 1);
+  EXPECT_EQ(json["sections"].size(), 30u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 

@@ -72,7 +72,7 @@ class NormalMappedFrames : public testing::Test {
         0);
     const auto image = read_exr(folder_ / (name + ".exr"));
     EXPECT_TRUE(image) << (image ? "" : image.error().text());
-    return image ? test::shrink(*image, kSupersampling) : FloatImage{};
+    return image ? shrink(*image, kSupersampling) : FloatImage{};
   }
 
   fs::path folder_;
@@ -87,8 +87,8 @@ TEST_F(NormalMappedFrames, BumpyWallAgreesWithTheReference) {
       *render_reference({accel, lights, {}}, facing_wall(), {kWidth, kHeight, 256}, context);
   const FloatImage directional = bake_and_play(scene, true, "directional"),
                    plain = bake_and_play(scene, false, "plain");
-  const test::FrameError with = test::compare(directional, reference.diffuse, reference.diffuse_noise);
-  const test::FrameError without = test::compare(plain, reference.diffuse, reference.diffuse_noise);
+  const RelativeError with = *relative_error(directional, test::diffuse(reference), reference.diffuse_noise);
+  const RelativeError without = *relative_error(plain, test::diffuse(reference), reference.diffuse_noise);
   std::printf("bumpy wall D: nRMSE %.1f %% with directions, %.1f %% without; bias %+.1f %% and %+.1f %%\n",
               100 * with.n_rmse, 100 * without.n_rmse, 100 * with.bias, 100 * without.bias);
   EXPECT_LE(with.n_rmse, 0.05);

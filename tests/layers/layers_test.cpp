@@ -18,17 +18,21 @@ const fs::path kRoot = ORIEL_SOURCE_DIR;
 // Each folder and the folders it may include, besides itself: docs/architecture.md draws the same arrows.
 const std::map<std::string, std::set<std::string>> kArrows = [] {
   const std::set<std::string> core{"formats/core"};
-  const std::set<std::string> assets{"formats/core", "formats/assets"};
+  const std::set<std::string> assets{"formats/core", "formats/sh", "formats/assets"};
   const auto plus = [](std::set<std::string> a, const std::set<std::string>& b) {
     a.insert(b.begin(), b.end());
     return a;
   };
   std::map<std::string, std::set<std::string>> m;
   m["formats/core"] = {};
-  m["formats/image"] = core;
-  m["formats/assets"] = core;
+  m["formats/sh"] = m["formats/image"] = core;
+  m["formats/metrics"] = plus(core, {"formats/image"});
+  m["formats/assets"] = plus(core, {"formats/sh"});
+  m["formats/camera"] = m["formats/lobes"] = assets;
+  m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
+  m["formats/pack/sections"] = plus(assets, {"formats/pack", "formats/pack/encoding"});  // what lies inside each
   m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
   m["formats/inspect"] = plus(assets, {"formats/pack", "formats/image"});
   m["bake/jobs"] = core;
@@ -37,7 +41,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
-  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/optics"});
+  m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});  // what animations move
+  m["bake/scene"] =
+      plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
   m["bake/trace"] = m["bake/atlas"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
   m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
@@ -45,29 +51,38 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/atlas"].insert("bake/atlas/chart");
   m["bake/trace"].insert("bake/trace/brdf");
   m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
-  m["bake/direct"] = plus(m["bake/trace"], {"bake/trace"});        // what the stages that compute irradiance share
+  m["bake/direct"] =
+      plus(m["bake/trace"], {"bake/trace", "formats/lobes"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});  // shiny surfaces that no plane holds
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});           // where eyes can be
+  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
+  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});             // where eyes can be
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
+  m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"],
-                       {"bake/plan", "bake/radiance/curved", "bake/lux", "bake/walk", "formats/pack", "formats/image"});
-  m["bake/cli"] = plus(m["bake/run"], {"bake/run"});
+                       {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                        "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
+  m["bake/run"].insert("bake/run/stages");
+  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
+  m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
-  m["player/walk"] = assets;
+  m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/pack", "player/maps"});
+  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps"});
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
-  m["player/app"] = plus(m["player/passes"], {"player/passes", "player/walk", "formats/image"});
+  m["player/app"] =
+      plus(m["player/passes"], {"player/passes", "player/walk", "formats/camera", "formats/metrics", "formats/image"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;
@@ -80,7 +95,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenImageIO/", {"bake/scene"}},
     {"CGAL/", {"bake/scene"}},
     {"OpenMesh/", {"bake/atlas/chart"}},
-    {"Eigen/", {"bake/atlas/chart", "bake/radiosity"}},
+    {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},

@@ -9,6 +9,7 @@
 #include "formats/assets/lightmap.h"
 #include "formats/assets/normal_map.h"
 #include "formats/core/color.h"
+#include "formats/lobes/lobe_light.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
 #include "player/maps/map_point.h"
@@ -18,9 +19,20 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {
-    "depth",       "mask",        "scene",           "transparent", "reproject",        "march",         "curved/light",
-    "screen/pull", "screen/push", "screen/convolve", "compose",     "screen/luminance", "screen/tonemap"};
+constexpr const char* kPasses[] = {"depth",
+                                   "reflector/mask",
+                                   "reflector/emitters",
+                                   "scene",
+                                   "transparent",
+                                   "reproject",
+                                   "march",
+                                   "curved/light",
+                                   "screen/pull",
+                                   "screen/push",
+                                   "screen/convolve",
+                                   "reflector/compose",
+                                   "screen/luminance",
+                                   "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();
@@ -191,6 +203,47 @@ TEST_F(SharedMaths, ScreenSteps) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec2 s = screen_step(clips[i], steps[i], {640, 480});
     expect_same(found[i], Vec4(s, covering_size(s, Vec2(steps[i])), 0), 1e3f + glm::length(s));
+  }
+}
+
+// A quad and a triangle around b.xyz with sides of b.w, in lobes of a.
+TEST_F(SharedMaths, PolygonsInLobes) {
+  std::vector<Vec4> matrices, places;
+  for (int i = 0; i < 500; ++i) {
+    const float width = std::exp2(random(-8, 0)), tilt = random(-1.5f, 0.5f);
+    matrices.emplace_back(1 / width, -tilt / width, random(0.5f, 1) / width, tilt);
+    places.emplace_back(random(-1, 1), random(-1, 1), random(-0.2f, 1), std::exp2(random(-4, 1)));
+  }
+  const auto found =
+      run_shader("lib/lobe_light.glsl",
+                 "vec3 v[6];\n"
+                 "v[0] = b.xyz + b.w * vec3(-1, -1, 0);\nv[1] = b.xyz + b.w * vec3(-1, 1, 0.5);\n"
+                 "v[2] = b.xyz + b.w * vec3(1, 1, 0);\nv[3] = b.xyz + b.w * vec3(1, -1, -0.5);\n"
+                 "o_value = vec4(reflected_polygon(a, 0.8, v, 4), reflected_polygon(a, 1.0, v, 3), 0, 0);\n",
+                 matrices, places);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec4 &m = matrices[i], &p = places[i];
+    const std::array<Vec3, 4> v = {Vec3(p) + p.w * Vec3(-1, -1, 0), Vec3(p) + p.w * Vec3(-1, 1, 0.5f),
+                                   Vec3(p) + p.w * Vec3(1, 1, 0), Vec3(p) + p.w * Vec3(1, -1, -0.5f)};
+    const float quad = reflected_polygon({m.x, m.y, m.z, m.w, 0.8f}, v);
+    const float triangle = reflected_polygon({m.x, m.y, m.z, m.w, 1.0f}, std::span(v).first(3));
+    expect_same(found[i], {quad, triangle, 0, 0}, 1);
+  }
+}
+
+TEST_F(SharedMaths, LobesBetweenIncidences) {
+  std::vector<Vec4> below, above;
+  for (int i = 0; i < 500; ++i) {
+    const float tilt = random(-0.5f, 0.5f), width = random(0.05f, 1);
+    below.emplace_back(1 / width, tilt / width, random(1, 3) / width, -tilt);
+    above.emplace_back(below.back() * Vec4(0.9f, 0.8f, 0.7f, 0.6f));
+  }
+  const auto found =
+      run_shader("lib/lobe_light.glsl", "o_value = lobe_in_surface_frame(mix_lobes(a, b, 0.3), 0.6);\n", below, above);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const LobeFit cpu = in_surface_frame(mix_lobes(below[i], above[i], 0.3f), 0.6f, 1);
+    expect_same(found[i], {cpu.m11, cpu.m13, cpu.m22, cpu.m31},
+                1 + 10 * glm::length(Vec4(cpu.m11, cpu.m13, cpu.m22, cpu.m31)));
   }
 }
 

@@ -63,9 +63,9 @@ TEST_F(Play, UsageErrors) {
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen"), 1, "-o"));
   EXPECT_TRUE(ends(run("tiny.oriel -o a.png"), 1, "--offscreen"));
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o a.jpg"), 1, ".jpg"));
-  for (const char* bad :
-       {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan", "--show X", "--maps -1",
-        "--maps many", "--select near", "--reflections all", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
+  for (const char* bad : {"--size 0x5", "--size 12", "--size 10x10x10", "--exposure bright", "--exposure nan",
+                          "--show X", "--maps -1", "--maps many", "--select near", "--reflections all", "--blur none",
+                          "--path", "--stats", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
     EXPECT_EQ(run(std::string("tiny.oriel --offscreen -o a.png ") + bad).code, 1) << bad;
   }
   const Outcome unknown = run("tiny.oriel --offscreen -o a.png --camera nowhere");
@@ -119,9 +119,10 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 }
 
 TEST_F(Play, EveryStageAndOption) {
-  for (const char* options : {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1",
-                              "--select distance", "--fresnel sphere", "--reflections points", "--reflections off",
-                              "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
+  for (const char* options :
+       {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1", "--select distance",
+        "--blur constant", "--blur off", "--fresnel sphere", "--reflections points", "--reflections geometry",
+        "--reflections off", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
   }

@@ -20,6 +20,16 @@ const std::vector<Triangle>& gallery_triangles() {
   return triangles;
 }
 
+TEST(Gallery, FloorIsAsRoughAsAsked) {
+  const auto tiles = [](const Scene& scene) {
+    return std::find_if(scene.materials.begin(), scene.materials.end(),
+                        [](const Material& m) { return m.name == "polished tiles"; })
+        ->roughness;
+  };
+  EXPECT_FLOAT_EQ(tiles(gallery()), 0.1f);
+  EXPECT_FLOAT_EQ(tiles(make_gallery({.floor_roughness = 0.4f})), 0.4f);
+}
+
 TEST(Gallery, HasWhatItPromises) {
   const Scene& scene = gallery();
   EXPECT_GE(triangle_count(scene), 20'000u);

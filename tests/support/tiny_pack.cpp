@@ -1,5 +1,6 @@
 #include "tests/support/tiny_pack.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace oriel::testing {
@@ -143,6 +144,71 @@ Reflector tiny_reflector() {
   return reflector;
 }
 
+Mover tiny_mover() {
+  Mover mover;
+  mover.name = "door";
+  mover.rest = {{1, 0.5f, -1}, {0, 0.6f, 0, 0.8f}};
+  mover.keys = {{0, mover.rest}, {1.5f, {{1, 0.5f, 2}, {0, 0, 0, 1}}}};
+  add_quad(mover.mesh, {0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0}, 0, "leaf");
+  mover.mesh.parts[0].lightmap_page = -1;
+  CompressedTransfer& t = mover.transfer;
+  t.bands = 2;
+  t.channels = 1;
+  t.clusters = 2;
+  t.components = 1;
+  t.error = 0.0125f;
+  for (int i = 0; i < 16; ++i) t.basis.push_back(0.25f * static_cast<float>(i - 7));
+  t.weight_scale = {0.5f, 0.125f};
+  t.cluster = {0, 1, 1, 0};
+  t.weight = {-32767, 100, 32767, 0};
+  return mover;
+}
+
+// One cell cut into eight, which share its corners.
+LightField tiny_field() {
+  LightField field;
+  field.bands = 2;
+  field.depth_side = 2;
+  field.depth_cap_m = 3;
+  field.error = 0.01f;
+  field.lower = {-1, 0, -1};
+  field.cell_m = {2, 3, 2};
+  field.size = {1, 1, 1};
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    LightProbe probe;
+    probe.position = field.lower + field.cell_m * Vec3(i & 1, i >> 1 & 1, i >> 2);
+    probe.valid = i != 3;
+    probe.bright = i == 0 ? 1 : 0;
+    probe.kept = i == 0 ? 2 : 3;
+    for (int k = 0; k < 12; ++k)
+      probe.sh.push_back(static_cast<float>(k % 4 == 0 ? 40 : k - 7) + 0.1f * static_cast<float>(i));
+    for (int k = 0; k < 4; ++k) probe.depth.push_back(Vec2(0.5f, 0.26f) + 0.01f * static_cast<float>(k));
+    field.probes.push_back(std::move(probe));
+  }
+  FieldCell cell{{0, 1, 2, 3, 4, 5, 6, 7}, 1};
+  field.cells.push_back(cell);
+  cell.children = 0;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    std::rotate(cell.probes.begin(), cell.probes.begin() + 1, cell.probes.end());
+    field.cells.push_back(cell);
+  }
+  BrightLight lamp;
+  lamp.name = "lamp";
+  lamp.kind = BrightLightKind::kPolygon;
+  lamp.intensity = {900, 800, 700};
+  lamp.corners = {{0, 3, 0}, {1, 3, 0}, {0, 3, 1}};
+  lamp.two_sided = true;
+  lamp.direction = {0, -1, 0};
+  BrightLight spot;
+  spot.name = "spot";
+  spot.kind = BrightLightKind::kSpot;
+  spot.intensity = {10, 20, 30};
+  spot.position = {0.5f, 2, 0.5f};
+  spot.outer_cone_rad = 0.5f;
+  field.lights = {lamp, spot};
+  return field;
+}
+
 }  // namespace
 
 Pack tiny_pack() {
@@ -211,6 +277,8 @@ Pack tiny_mapped_pack() {
   pack.curved_reflectors = {{"wall", 1, 0, {4, 5, 6}}};
   pack.surround_maps = {
       {{0, 1, -1}, 2, {{1, 0.5f, 0}, {8, 4, 2}, {0, 0, 0}, {0.25f, 3, 1}}, {2, 0, 1, 0.5f}, {1, 2, 0, 1}}};
+  pack.movers = {tiny_mover()};
+  pack.light_field = tiny_field();
   return pack;
 }
 

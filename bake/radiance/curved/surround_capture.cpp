@@ -15,13 +15,8 @@ constexpr int kMaxLayers = 64;             // of surfaces before the first opaqu
 constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 
-Vec3 usable(const Vec3& c) {
-  const auto channel = [](float x) { return std::isfinite(x) && x > 0 ? x : 0.0f; };
-  return {channel(c.r), channel(c.g), channel(c.b)};
-}
-
 // What a ray has seen so far.
-struct Sight {
+struct SurroundSight {
   Vec3 radiance{0}, throughput{1};
   float inverse_distance = 0;
   std::uint8_t valid = 2;
@@ -33,16 +28,16 @@ class SurroundCapture {
   SurroundCapture(const Accel& accel, const CurvedObject& object, const OutgoingRadiance& outgoing, const Vec3& centre)
       : accel_(accel), scene_(accel.scene()), object_(object), outgoing_(outgoing), centre_(centre) {}
 
-  Sight look(const Vec3& direction) {
+  SurroundSight look(const Vec3& direction) {
     const float bounds_end = leaves_bounds(direction);
     Ray ray{centre_, direction};
-    Sight sight;
+    SurroundSight sight;
     std::uint32_t last = ~0u;
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       const Hit hit = accel_.intersect(ray);
       ++rays_;
       if (!hit) {
-        if (!sight.ended) sight.radiance += sight.throughput * usable(sky_radiance(scene_, direction));
+        if (!sight.ended) sight.radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
         return sight;
       }
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
@@ -80,7 +75,7 @@ class SurroundCapture {
   }
 
   // Adds what a surface shows; the ray ends there unless it lets light pass.
-  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, Sight& sight) const {
+  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) const {
     const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
     Vec3 through(0);
     float coverage = 1;
@@ -90,7 +85,8 @@ class SurroundCapture {
       through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));
     }
     const bool back = !hit.front && !material.double_sided;
-    if (coverage > 0 && !back) sight.radiance += sight.throughput * coverage * usable(outgoing_(hit, -direction));
+    if (coverage > 0 && !back)
+      sight.radiance += sight.throughput * coverage * usable_light(outgoing_({hit, -direction}));
     sight.throughput *= through;
     if (max_component(through) >= kSeeThrough) return;
     sight.ended = true;
@@ -129,9 +125,9 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
         const std::uint32_t y = rows[row].y;
         for (std::uint32_t x = 0; x < map.size; ++x) {
           const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
-          const Sight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
+          const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
           const std::size_t texel = std::size_t{y} * map.size + x;
-          map.radiance[texel] = usable(sight.radiance);
+          map.radiance[texel] = usable_light(sight.radiance);
           map.inverse_distance[texel] = sight.inverse_distance;
           map.valid[texel] = sight.valid;
         }

@@ -83,6 +83,7 @@ NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, con
   node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
   node.angular_radius_rad = angular_radius(value, -1);
   node.metal = parse_metal(value);
+  node.mover = value.extra("oriel")["mover"].boolean(false);
   parse_transform(value, node);
   const Json children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i)

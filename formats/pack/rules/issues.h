@@ -73,6 +73,10 @@ inline bool not_negative(const Vec3& v) {
 
 // The parts of validate(), by section.
 void validate_mesh(const Pack& pack, IssueList& list);
+// The pack's own mesh or a mover's, in the section that the list is in.
+void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list);
+void validate_movers(const Pack& pack, IssueList& list);
+void validate_light_field(const Pack& pack, IssueList& list);
 void validate_materials(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, IssueList& list);
 void validate_lightmaps(const Pack& pack, IssueList& list);

@@ -84,7 +84,7 @@ void validate_kernel_fits(const Pack& pack, IssueList& list) {
       list.error(521, "kernel {}: found {} cosine lobes for {} incidences, expected one each", i, kernel.fits.size(),
                  kernel.slices.size());
     for (const LobeFit& f : kernel.fits) {
-      constexpr float kMost = 1e9f;
+      constexpr float kMost = 1e12f;  // alpha 1e-5 at a cosine of 1e-3 has 5e10
       const bool finite = within(f.m11, 0, kMost) && within(f.m22, 0, kMost) && within(f.m13, -kMost, kMost) &&
                           within(f.m31, -kMost, kMost);
       if (!finite || !(f.m22 > 0) || !(f.m11 - f.m13 * f.m31 > 0) || !within(f.amplitude, 0, 1))

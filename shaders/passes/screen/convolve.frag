@@ -12,6 +12,7 @@ uniform float u_ortho;
 uniform vec3 u_plane_normal;   // view space, towards the eye's side
 uniform float u_plane_offset;  // dot(normal, point of the plane)
 uniform float u_farthest;      // metres: distances are cut off here
+uniform float u_constant_footprint;  // not negative: share of the angle (metres where orthographic) for all distances
 uniform float u_blur_level;    // level whose distances are taken
 uniform float u_pixels_per_tangent;  // of the image, at its centre
 uniform sampler2D u_taps;      // see kernel_tap()
@@ -39,6 +40,9 @@ void main() {
 
   float whole = 1.0 / max(image_at(pixel, u_blur_level).a, 1.0 / u_farthest);
   float behind = max(whole - to_plane, 0.0);
+  if (u_constant_footprint >= 0.0) {
+    behind = u_ortho > 0.5 ? u_constant_footprint : to_plane * u_constant_footprint / max(1.0 - u_constant_footprint, 1e-6);
+  }
   // In the mirrored world the view ray is the mirror direction, and the surface's normal points away from the eye.
   vec3 along = -u_plane_normal - cos_theta * view;
   vec3 side = cross(view, abs(view.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));

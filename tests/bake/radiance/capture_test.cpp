@@ -76,11 +76,11 @@ TEST(Capture, StopsWhenAskedAndCountsItsRays) {
   ViewPlan plan = plan_views(room.scene, reflectors, small_maps());
   Context context;
   std::atomic<std::uint64_t> rays{0};
-  ASSERT_TRUE(capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps, &rays));
+  ASSERT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps, &rays));
   EXPECT_GE(rays.load(), 16u * 32 * 24);
   EXPECT_LE(rays.load(), 16u * 32 * 24 + 10);
   context.stop = true;
-  const Status stopped = capture_maps(*accel, reflectors, room.outgoing(), {}, context, plan.maps);
+  const Status stopped = capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
@@ -110,11 +110,11 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   ViewPlan plan = plan_views(scene, reflectors, views);
   EXPECT_EQ(plan.maps.size(), 1u);
   Context context;
-  EXPECT_TRUE(capture_maps(*accel, reflectors, outgoing, {}, context, plan.maps));
+  EXPECT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), outgoing, context, plan.maps));
   return plan.maps[0];
 }
 
-Vec3 white(const Hit&, const Vec3&) {
+Vec3 white(const SeenSurface&) {
   return Vec3(1);
 }
 
@@ -151,7 +151,7 @@ TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
       p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
     };
   };
-  const auto coloured = [](const Hit& hit, const Vec3&) { return hit.triangle < 4 ? Vec3(0, 0, 4) : Vec3(1, 2, 0); };
+  const auto coloured = [](const SeenSurface& s) { return s.hit.triangle < 4 ? Vec3(0, 0, 4) : Vec3(1, 2, 0); };
   SceneMaterial cut_out, veil, glass;
   cut_out.alpha_mode = AlphaMode::kMask;
   cut_out.alpha = 0.1f;
@@ -177,7 +177,7 @@ TEST(Capture, CutOutsAndGlassAreWalkedThroughAndVeilsAdd) {
 }
 
 TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
-  const auto bad = [](const Hit&, const Vec3&) {
+  const auto bad = [](const SeenSurface&) {
     return Vec3(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1);
   };
   const RadianceMap map = one_map(
@@ -189,7 +189,9 @@ TEST(Capture, RadianceThatIsNoNumberBecomesBlack) {
 }
 
 TEST(Capture, TheCallbackIsAskedForLightTowardsTheEye) {
-  const auto towards = [](const Hit&, const Vec3& d) { return Vec3(-d.z, std::abs(glm::length(d) - 1) < 1e-5f, 0); };
+  const auto towards = [](const SeenSurface& s) {
+    return Vec3(-s.towards_eye.z, std::abs(glm::length(s.towards_eye) - 1) < 1e-5f, 0);
+  };
   const RadianceMap map = one_map(
       [](test::SceneParts& p) {
         p.quad("wall", 1, {-30, -30, 2}, {0, 60, 0}, {60, 0, 0});
@@ -199,6 +201,94 @@ TEST(Capture, TheCallbackIsAskedForLightTowardsTheEye) {
     const Vec3 q(map_point(map, Vec2(i % map.width, i / map.width) + 0.5f), 0);
     EXPECT_NEAR(map.radiance[i].x, glm::normalize(q - map.eye).z, 1e-5);
     EXPECT_EQ(map.radiance[i].y, 1);
+  }
+}
+
+// A second mirror on the opposite wall. Its images are those of the room mirrored in it: the unfolded point of a ray
+// that meets it lies where that ray, mirrored, leaves the room, and its colour is R of the wall's there.
+struct FacingMirrors : MirrorRoom {
+  float z = 5 - test::kMirrorInset;  // of the second mirror
+
+  FacingMirrors() {
+    test::SceneParts parts;
+    parts.scene() = scene;
+    parts.quad("far mirror", 0, {1.5f, 1, z}, {0, 1, 0}, {1, 0, 0});
+    scene = parts.finish();
+  }
+};
+
+TEST(Orders, AMirrorInAMirrorShowsItsImageWhereItIs) {
+  const FacingMirrors room;
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
+  ASSERT_EQ(reflectors.size(), 2u);
+  ViewOptions options = small_maps(256);
+  options.views_per_element = 8;
+  ViewPlan plan = plan_views(room.scene, reflectors, options);
+  Context context;
+  ASSERT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps));
+  std::size_t mirrored_pixels = 0, wrong = 0;
+  double worst = 0;
+  for (const RadianceMap& map : plan.maps) {
+    const Reflector& r = reflectors[map.reflector].reflector;
+    if (r.name != "mirror") continue;
+    for (std::uint32_t i = 0; i < map.width * map.height; ++i) {
+      const Vec2 pixel = Vec2(i % map.width, i / map.width) + 0.5f;
+      const DVec3 q(pack_from_reflector(r, Vec3(map_point(map, pixel), 0)));
+      const DVec3 d = glm::normalize(q - DVec3(pack_from_reflector(r, map.eye)));
+      const DVec3 p = q + d * ((room.z - q.z) / d.z);
+      if (p.x < 1.51 || p.x > 2.49 || p.y < 1.01 || p.y > 1.99) continue;
+      ++mirrored_pixels;
+      std::uint32_t material = 0;
+      DVec3 expected = room.exit_point(p, DVec3(d.x, d.y, -d.z), material);
+      // The first mirror hangs there: the order ends with it.
+      const bool own = expected.z < 0.1 && std::abs(expected.x - 2) < 1.01 && std::abs(expected.y - 1.5) < 0.76;
+      if (own) continue;
+      expected.z = 2 * room.z - expected.z;
+      const Vec4 h = unproject(map, pixel, map.disparity[i]);
+      worst = std::max(worst, glm::length(DVec3(pack_from_reflector(r, Vec3(h) / h.w)) - expected));
+      const Vec3 colour = MirrorRoom::colour(0) + 0.9f * MirrorRoom::colour(material);  // the mirror's own and R of it
+      wrong += glm::length(map.radiance[i] - colour) > 0.02f * glm::length(colour);
+    }
+  }
+  EXPECT_GT(mirrored_pixels, 200u);
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_LE(wrong, mirrored_pixels / 100);  // rays that meet an edge of the room
+}
+
+// White mirrors that face each other, the only light a unit from every surface's own: each order adds one more.
+TEST(Orders, EndAtTheOrderThatIsAskedFor) {
+  test::SceneParts parts;
+  SceneMaterial mirror;
+  mirror.base_color = Vec3(1);
+  mirror.metallic = 1;
+  mirror.roughness = 0;
+  parts.add(mirror);
+  parts.quad("a", 0, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  parts.quad("b", 0, {-50, -50, 1}, {0, 100, 0}, {100, 0, 0});
+  const Scene scene = parts.finish();
+  const auto accel = Accel::build(scene);
+  ASSERT_TRUE(accel);
+  ReflectorOptions found;
+  found.min_open_share = 0;
+  const auto reflectors = find_reflectors(*accel, std::vector{ReflectorMaterial{0, Vec3(1), 1}}, found).reflectors;
+  ASSERT_EQ(reflectors.size(), 2u);
+  for (const std::uint32_t orders : {1u, 2u, 5u, 16u}) {
+    const Surroundings surroundings(*accel, reflectors, {.orders = orders});
+    std::uint32_t surfaces = 0, mirrors = 0;
+    const Sight sight =
+        surroundings.look(0, pack_from_reflector(reflectors[0].reflector, Vec3(0)),
+                          Vec3(reflectors[0].reflector.pack_from_reflector[2]), [&](const SeenSurface& s) {
+                            ++surfaces;
+                            mirrors += s.mirror;
+                            EXPECT_NEAR(s.throughput.r, 1, 1e-3);
+                            return true;
+                          });
+    EXPECT_EQ(surfaces, orders);
+    EXPECT_EQ(mirrors, orders - 1) << "the last shows its own light only";
+    EXPECT_EQ(sight.state, Sight::kSurface);
+    EXPECT_NEAR(glm::length(sight.offset), static_cast<float>(orders), 1e-4f * static_cast<float>(orders));
   }
 }
 

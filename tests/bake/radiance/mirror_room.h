@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/radiance/capture.h"
+#include "bake/radiance/views.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel::test {
@@ -70,8 +71,8 @@ struct MirrorRoom {
 
   // The radiance of a surface is the colour of its material.
   OutgoingRadiance outgoing() const {
-    return [this](const Hit& hit, const Vec3&) {
-      return colour(scene.surfaces[scene.triangle_surface[hit.triangle]].material);
+    return [this](const SeenSurface& surface) {
+      return colour(scene.surfaces[scene.triangle_surface[surface.hit.triangle]].material);
     };
   }
 };
@@ -87,7 +88,8 @@ inline Captured capture(const Accel& accel, const MirrorRoom& room, const ViewOp
   out.plan = plan_views(room.scene, out.reflectors, options);
   Context context;
   context.threads = threads;
-  if (!capture_maps(accel, out.reflectors, room.outgoing(), {}, context, out.plan.maps)) out.plan.maps.clear();
+  if (!capture_maps(Surroundings(accel, out.reflectors, {}), room.outgoing(), context, out.plan.maps))
+    out.plan.maps.clear();
   return out;
 }
 

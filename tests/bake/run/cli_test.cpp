@@ -13,6 +13,7 @@
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
 #include "formats/core/file.h"
+#include "formats/image/exr.h"
 #include "formats/pack/reader.h"
 
 namespace oriel {
@@ -289,6 +290,35 @@ TEST_F(BakeCli, LuxExitCodesAndMessages) {
   EXPECT_NE(log().find("zero.csv:2"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o points.csv"), 1);
   EXPECT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o cornell.glb"), 1);
+}
+
+TEST_F(BakeCli, RenderWritesLayers) {
+  ASSERT_EQ(run("oriel-bake render cornell.glb --size 12x8 --samples 8 -o a.exr"), 0) << log();
+  const auto frame = read_layered_exr(folder_ / "a.exr");
+  ASSERT_TRUE(frame) << frame.error().text();
+  EXPECT_EQ(frame->layers.size(), 8u);
+  EXPECT_EQ(frame->layers.at("specular_error").width, 12u);
+  EXPECT_EQ(frame->layers.at("").pixels.size(), 12u * 8 * 3);
+  EXPECT_EQ(frame->attributes.at("oriel.samples"), "8");
+  ASSERT_EQ(run("oriel-bake render cornell.glb --size 12x8 --samples 8 --threads 1 -o b.exr --quiet"), 0) << log();
+  EXPECT_EQ(*read_file(folder_ / "a.exr"), *read_file(folder_ / "b.exr"));
+  ASSERT_EQ(run("oriel-bake render cornell.glb --size 12x8 --error 20% --sky 100 -o b.exr"), 0) << log();
+  EXPECT_LE(std::stod(read_layered_exr(folder_ / "b.exr")->attributes.at("oriel.noise")), 0.2);
+}
+
+TEST_F(BakeCli, RenderExitCodesAndMessages) {
+  EXPECT_EQ(run("oriel-bake render --help"), 0);
+  EXPECT_NE(log().find("specular_error"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake render cornell.glb"), 1) << "no -o";
+  EXPECT_EQ(run("oriel-bake render cornell.glb -o a.exr --camera nowhere"), 1);
+  EXPECT_NE(log().find("expected one of: 0 \""), std::string::npos) << log();
+  for (const char* bad : {"--size 12", "--size 0x8", "--size 12x8x3", "--size 99999x8", "--error 0", "--samples 0",
+                          "--error 2% --samples 4", "--texel 5cm"})
+    EXPECT_EQ(run("oriel-bake render cornell.glb -o a.exr " + std::string(bad)), 1) << bad;
+  EXPECT_EQ(run("oriel-bake render missing.glb -o a.exr"), 2);
+  EXPECT_EQ(run("oriel-bake render cornell.glb -o nowhere/a.exr"), 2);
+  EXPECT_EQ(run("oriel-bake render cornell.glb -o cornell.glb"), 1);
+  EXPECT_FALSE(fs::exists(folder_ / "a.exr"));
 }
 
 TEST(Quantities, ParseAndRefuse) {

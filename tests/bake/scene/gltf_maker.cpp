@@ -114,6 +114,16 @@ Gltf triangle() {
   return g;
 }
 
+void animate(Gltf& g, int node, const char* path, const std::vector<float>& times, const std::vector<float>& values,
+             const char* interpolation) {
+  json& animation = g.doc["animations"][0];
+  animation["samplers"].push_back({{"input", g.floats("SCALAR", times)},
+                                   {"output", g.floats(std::string(path) == "rotation" ? "VEC4" : "VEC3", values)},
+                                   {"interpolation", interpolation}});
+  animation["channels"].push_back(
+      {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+}
+
 bool Imported::warned(const std::string& text) const {
   for (const std::string& w : warnings)
     if (w.find(text) != std::string::npos) return true;

@@ -52,6 +52,10 @@ struct Gltf {
 
 Gltf triangle();
 
+// Appends a channel to the first animation. path: "translation", "rotation" or "scale".
+void animate(Gltf& g, int node, const char* path, const std::vector<float>& times, const std::vector<float>& values,
+             const char* interpolation);
+
 // An import and what it warned of.
 struct Imported {
   Result<ImportedScene> result;

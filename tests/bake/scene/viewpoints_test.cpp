@@ -86,16 +86,6 @@ TEST(Viewpoints, PunctualLights) {
   }
 }
 
-void animate(Gltf& g, int node, const char* path, const std::vector<float>& times, const std::vector<float>& values,
-             const char* interpolation) {
-  json& animation = g.doc["animations"][0];
-  animation["samplers"].push_back({{"input", g.floats("SCALAR", times)},
-                                   {"output", g.floats(std::string(path) == "rotation" ? "VEC4" : "VEC3", values)},
-                                   {"interpolation", interpolation}});
-  animation["channels"].push_back(
-      {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
-}
-
 TEST(Paths, TranslationKeys) {
   Gltf g = with_camera();
   animate(g, 1, "translation", {0, 1, 3}, {0, 0, 5, 1, 0, 5, 1, 2, 5}, "LINEAR");
@@ -152,11 +142,15 @@ TEST(Paths, ParentsCarryTheirCameraAlong) {
 
 TEST(Paths, OtherAnimationsStandStillWithAWarning) {
   Gltf g = triangle();
-  animate(g, 0, "translation", {0, 1}, {0, 0, 0, 1, 1, 1}, "LINEAR");
+  animate(g, 0, "scale", {0, 1}, {1, 1, 1, 1, 2, 1}, "LINEAR");
+  g.doc["nodes"].push_back({{"name", "empty"}});
+  g.doc["scenes"][0]["nodes"].push_back(1);
+  animate(g, 1, "translation", {0, 1}, {0, 0, 0, 1, 1, 1}, "LINEAR");
   const Imported r = import(g);
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_TRUE(r.warned("stand still"));
   EXPECT_TRUE(r.scene().paths.empty());
+  EXPECT_TRUE(r.scene().movers.empty());
 }
 
 TEST(Paths, BrokenTracksAreRefused) {

@@ -33,9 +33,7 @@ EyeRegion region_of(const Scene& scene, const EyeOptions& options = {}, int thre
 
 double walkable_m2(const EyeRegion& region) {
   double area = 0;
-  for (const WalkGrid& grid : region.grids)
-    for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
-      if (grid.walkable(c)) area += double{grid.cell_m} * grid.cell_m;
+  for (const WalkGrid& grid : region.grids) area += grid.walkable_m2();
   return area;
 }
 

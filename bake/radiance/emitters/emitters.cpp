@@ -1,0 +1,247 @@
+#include "bake/radiance/emitters/emitters.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/direct/polygon_light.h"
+#include "bake/jobs/parallel.h"
+#include "bake/radiance/reproject.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kStraight = 1e-4;    // sine of the angle at a corner that is none
+constexpr double kLeastShare = 1e-4;  // of a reflector's light from lamps: less is not worth an emitter
+constexpr float kInwards = 0.02f;     // by which border nodes move in, in cells: off the walls around a reflector
+
+// The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
+std::vector<Vec3> outline(const PolygonLight& light) {
+  const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::map<Vec3, Vec3, decltype(less)> next(less);
+  for (const auto& edge : light.boundary) next[edge[0]] = edge[1];
+  if (light.boundary.empty() || next.size() != light.boundary.size()) return {};
+  std::vector<Vec3> loop;
+  for (Vec3 at = light.boundary[0][0]; loop.size() < next.size(); at = next[at]) {
+    if (!next.contains(at) || (!loop.empty() && at == loop[0])) return {};
+    loop.push_back(at);
+  }
+  std::vector<Vec3> corners;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const DVec3 here(loop[i]), before(loop[(i + loop.size() - 1) % loop.size()]), after(loop[(i + 1) % loop.size()]);
+    const DVec3 in = here - before, out = after - here;
+    if (glm::length(glm::cross(in, out)) > kStraight * glm::length(in) * glm::length(out)) corners.push_back(loop[i]);
+  }
+  return corners;
+}
+
+bool is_convex(const std::vector<Vec3>& corners, const Vec3& normal) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (glm::dot(glm::cross(corners[(i + 1) % n] - corners[i], corners[(i + 2) % n] - corners[(i + 1) % n]), normal) <
+        0)
+      return false;
+  return true;
+}
+
+// One polygon where the outline is a convex triangle or quadrangle, else the triangles.
+std::vector<Emitter> polygons_of(const PolygonLight& light) {
+  std::vector<Vec3> corners = outline(light);
+  if ((corners.size() == 3 || corners.size() == 4) && is_convex(corners, light.normal))
+    return {{std::move(corners), light.radiance, light.double_sided}};
+  std::vector<Emitter> out;
+  for (const auto& t : light.corners) out.push_back({{t[0], t[1], t[2]}, light.radiance, light.double_sided});
+  return out;
+}
+
+// The grid of nodes over a reflector's bounds, on its plane.
+struct Nodes {
+  std::uint32_t x = 2, y = 2;
+  std::vector<Vec3> points;   // scene space, just over the plane
+  std::vector<bool> covered;  // by the reflector
+};
+
+Nodes lay_out(const Accel& accel, const FoundReflector& found, const EmitterOptions& options) {
+  const Reflector& r = found.reflector;
+  const Vec2 size = r.upper - r.lower;
+  Nodes nodes;
+  const auto count = [&](float side) {
+    const float cells = std::ceil(side / options.node_m);
+    return 1 + static_cast<std::uint32_t>(std::clamp(cells, 1.0f, static_cast<float>(options.max_nodes - 1)));
+  };
+  nodes.x = count(size.x);
+  nodes.y = count(size.y);
+  const Vec3 normal(r.pack_from_reflector[2]);
+  const float lift =
+      r.flatness_m + 1e-5f * (glm::length(size) + max_component(glm::abs(Vec3(r.pack_from_reflector[3]))));
+  const Vec2 last(nodes.x - 1, nodes.y - 1);
+  for (std::uint32_t j = 0; j < nodes.y; ++j)
+    for (std::uint32_t i = 0; i < nodes.x; ++i) {
+      const Vec2 at = glm::clamp(Vec2(i, j), Vec2(kInwards), last - kInwards) / last;
+      nodes.points.push_back(pack_from_reflector(r, Vec3(r.lower + at * size, 0)) + lift * normal);
+      const Hit below = accel.intersect({nodes.points.back(), -normal, 4 * lift});
+      nodes.covered.push_back(below &&
+                              std::binary_search(found.triangles.begin(), found.triangles.end(), below.triangle));
+    }
+  return nodes;
+}
+
+struct LightOnReflector {
+  std::size_t light = 0;
+  std::vector<Emitter> polygons;
+  std::vector<std::vector<float>> visibility;  // by polygon, by node: share of what is over the plane
+  double worth = 0;                            // luminous irradiance on the covered nodes, visibility counted
+};
+
+Vec3 point_of(const Emitter& polygon, Vec2 u) {
+  const auto& c = polygon.corners;
+  std::size_t second = 1;
+  if (c.size() == 4) {  // the two triangles of the quadrangle by their areas
+    const float a = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
+                b = glm::length(glm::cross(c[2] - c[0], c[3] - c[0]));
+    const float first = a / (a + b);
+    if (u.x >= first) second = 2;
+    u.x = std::clamp(second == 1 ? u.x / first : (u.x - first) / (1 - first), 0.0f, 1.0f);
+  }
+  const Vec2 t = square_to_triangle(u);
+  return c[0] + t.x * (c[second] - c[0]) + t.y * (c[second + 1] - c[0]);
+}
+
+class VisibilityBaker {
+ public:
+  VisibilityBaker(const Accel& accel, const EmitterOptions& options, std::uint64_t seed)
+      : accel_(accel), options_(options), seed_(seed) {}
+
+  // Share of the polygon's points over the plane that a point of the plane sees.
+  float share(const Emitter& polygon, const Vec3& node, const Vec3& normal, std::uint64_t stream) const {
+    const Vec3 front = glm::cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]);
+    if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front) <= 0) return 0;
+    double seen = 0;
+    std::uint32_t over = 0;
+    for (std::uint32_t i = 0; i < options_.samples; ++i) {
+      Sampler sampler(seed_, stream, i);
+      const Vec3 way = point_of(polygon, sampler.next2()) - node;
+      const float distance = glm::length(way);
+      if (!(glm::dot(way, normal) > 0)) continue;
+      ++over;
+      seen += luminance(glm::min(accel_.transmittance({node, way / distance, distance * (1 - 1e-4f)}), Vec3(1)));
+    }
+    return over > 0 ? static_cast<float>(seen / over) : 0;
+  }
+
+  void bake(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, LightOnReflector& out) const {
+    std::uint64_t stream = out.light * nodes.points.size();
+    for (const Emitter& polygon : out.polygons) {
+      std::vector<float>& shares = out.visibility.emplace_back();
+      for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
+    }
+    const auto n = static_cast<double>(out.polygons.size());
+    for (std::size_t i = 0; i < nodes.points.size(); ++i) {
+      if (!nodes.covered[i]) continue;
+      double mean = 0;
+      for (const auto& shares : out.visibility) mean += shares[i] / n;
+      out.worth += mean * luminance(light.radiance) * polygon_irradiance(light, {nodes.points[i], normal, normal});
+    }
+  }
+
+ private:
+  const Accel& accel_;
+  const EmitterOptions& options_;
+  std::uint64_t seed_;
+};
+
+// Nodes that the reflector does not cover take the mean of their neighbours that have a value, ring by ring: what lies
+// there may be the inside of a wall.
+void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
+  std::vector<bool> known = nodes.covered;
+  if (std::find(known.begin(), known.end(), true) == known.end()) return;
+  while (std::find(known.begin(), known.end(), false) != known.end()) {
+    const std::vector<bool> before = known;
+    for (std::uint32_t j = 0; j < nodes.y; ++j)
+      for (std::uint32_t i = 0; i < nodes.x; ++i) {
+        const std::size_t at = std::size_t{j} * nodes.x + i;
+        if (before[at]) continue;
+        float sum = 0, count = 0;
+        for (std::uint32_t y = j > 0 ? j - 1 : 0; y <= std::min(j + 1, nodes.y - 1); ++y)
+          for (std::uint32_t x = i > 0 ? i - 1 : 0; x <= std::min(i + 1, nodes.x - 1); ++x)
+            if (before[std::size_t{y} * nodes.x + x]) sum += shares[std::size_t{y} * nodes.x + x], count += 1;
+        if (count == 0) continue;
+        shares[at] = sum / count;
+        known[at] = true;
+      }
+  }
+}
+
+// The lights that would light the reflector most if nothing were in the way, with their visibility.
+Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
+                                                const Nodes& nodes, const Vec3& normal, const EmitterOptions& options,
+                                                Context& context) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    double sum = 0;
+    for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights[l], {node, normal, normal});
+    if (sum > 0) order.emplace_back(-sum * luminance(lights[l].radiance), l);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min<std::size_t>(order.size(), options.max_lights));
+  std::vector<LightOnReflector> out(order.size());
+  const VisibilityBaker baker(accel, options, context.seed);
+  ORIEL_TRY_VOID(parallel_for(context, "", order.size(), [&](std::size_t i) {
+    const PolygonLight& light = lights[order[i].second];
+    out[i].light = order[i].second;
+    if (light.triangles.size() > kMaxReflectorEmitters) return;  // a fine mesh: not worth its polygons
+    out[i].polygons = polygons_of(light);
+    baker.bake(nodes, normal, light, out[i]);
+  }));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
+  return out;
+}
+
+}  // namespace
+
+Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy, const EmitterOptions& options,
+                          Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                          std::vector<std::string>& omitted) {
+  const std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
+  std::map<std::size_t, std::uint32_t> first_emitter;  // of a light that is listed
+  for (FoundReflector& found : reflectors) {
+    Reflector& r = found.reflector;
+    if (!is_glossy[r.material]) continue;
+    const Nodes nodes = lay_out(accel, found, options);
+    ORIEL_TRY(std::vector<LightOnReflector> on,
+              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), options, context));
+    double total = 0;
+    for (const LightOnReflector& l : on) total += l.worth;
+    std::size_t left_in = 0;
+    for (LightOnReflector& l : on) {
+      if (!(l.worth > kLeastShare * total)) continue;
+      if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
+        ++left_in;
+        continue;
+      }
+      const auto [at, is_new] = first_emitter.try_emplace(l.light, static_cast<std::uint32_t>(emitters.size()));
+      if (is_new) emitters.insert(emitters.end(), l.polygons.begin(), l.polygons.end());
+      for (std::uint32_t p = 0; p < l.polygons.size(); ++p) {
+        r.emitters.push_back(at->second + p);
+        fill_uncovered(nodes, l.visibility[p]);
+        for (const float share : l.visibility[p])
+          r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
+      }
+      const auto& triangles = lights[l.light].triangles;
+      found.emitters.insert(found.emitters.end(), triangles.begin(), triangles.end());
+    }
+    std::sort(found.emitters.begin(), found.emitters.end());
+    if (!r.emitters.empty()) r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+    if (left_in > 0)
+      omitted.push_back(
+          fmt::format("'{}': {} lamps stay in its radiance maps and are blurred with them: more than {} "
+                      "polygons are not shown in closed form",
+                      r.name, left_in, kMaxReflectorEmitters));
+  }
+  return {};
+}
+
+}  // namespace oriel

@@ -1,0 +1,26 @@
+// Lamps that glossy reflectors show in closed form: a kernel that blurs an image of a small bright lamp needs it far
+// sharper than all else, and errs most there.
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/radiance/reflectors.h"
+#include "formats/assets/emitter.h"
+
+namespace oriel {
+
+struct EmitterOptions {
+  float node_m = 0.5f;            // between nodes of the visibility's grid
+  std::uint32_t max_nodes = 17;   // along a side
+  std::uint32_t samples = 32;     // rays from a node to an emitter
+  std::uint32_t max_lights = 64;  // of a reflector whose visibility is computed: those that would light it most
+};
+
+// For each reflector that `is_glossy` (by material), the lamps that light it most are left out of its maps: at most
+// kMaxReflectorEmitters polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility;
+// appends to `emitters` what they refer to. A lamp is left out whole or not at all; textured ones and those of more
+// triangles stay in the maps, and so do those beyond that number, as `omitted` says. The same for any number of threads. Error kStopped.
+Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy, const EmitterOptions& options,
+                          Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                          std::vector<std::string>& omitted);
+
+}  // namespace oriel

@@ -1,0 +1,253 @@
+#include "bake/radiance/plan/planned_views.h"
+
+#include <algorithm>
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiance/reproject.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
+constexpr double kWorthDividing = 0.02;       // by which more of an element must be sharp
+constexpr std::uint32_t kLeastResolution = 16;
+
+struct ElementPlan {
+  Element window;
+  std::vector<Vec3> candidates;  // viewpoints, reflector space
+  Choice choice;
+  double weight = 0;  // of its samples
+};
+
+struct ReflectorPlan {
+  ElementGrid grid;
+  std::vector<ElementPlan> elements;
+
+  double sharp() const {
+    double sharp = 0, total = 0;
+    for (const ElementPlan& e : elements) {
+      sharp += e.weight * e.choice.sharp;
+      total += e.weight;
+    }
+    return total > 0 ? sharp / total : 1;
+  }
+};
+
+bool is_inside(const Scene& scene, const Vec3& p, float margin) {
+  return glm::all(glm::greaterThanEqual(p, scene.lower - margin)) &&
+         glm::all(glm::lessThanEqual(p, scene.upper + margin));
+}
+
+std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
+                                 std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
+  const Vec3 centre(0.5f * (window.lower + window.upper), 0);
+  const float radius = 0.5f * glm::length(window.upper - window.lower);
+  std::vector<Vec3> out;
+  for (const Vec3& direction : hemisphere_directions(options.hemisphere)) {
+    const Vec3 eye = centre + radius * direction;
+    if (is_inside(scene, pack_from_reflector(r, mirrored(eye)), radius)) out.push_back(eye);
+  }
+  for (const float nearer : {0.5f, 0.25f, 0.125f})
+    for (const Vec3& direction : hemisphere_directions(16)) out.push_back(centre + nearer * radius * direction);
+  const std::size_t hemisphere = out.size();
+  for (const ReflectedSample& s : samples) {
+    if (out.size() >= hemisphere + options.mirrored_eyes) break;
+    if (std::find(out.begin(), out.end(), mirrored(s.eye)) == out.end()) out.push_back(mirrored(s.eye));
+  }
+  return out;
+}
+
+class Planner {
+ public:
+  Planner(const Surroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
+          Context& context)
+      : surroundings_(surroundings), eyes_(eyes), options_(options), context_(context) {
+    if (options.map_resolution > 0) options_.choice.resolutions = {options.map_resolution};
+  }
+
+  Result<ReflectorPlan> plan(std::uint32_t reflector) {
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed, context_));
+    ReflectorPlan best;
+    ElementGrid grid;
+    for (;;) {
+      ORIEL_TRY(ReflectorPlan plan, plan_on(reflector, grid, samples));
+      if (!best.elements.empty() && plan.sharp() < best.sharp() + kWorthDividing) return best;
+      best = std::move(plan);
+      if (best.sharp() >= options_.choice.sharp || 2 * grid.x * grid.y > options_.max_elements) return best;
+      const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+      const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
+      (side.x >= side.y ? grid.x : grid.y) *= 2;
+    }
+  }
+
+ private:
+  Result<ReflectorPlan> plan_on(std::uint32_t reflector, const ElementGrid& grid,
+                                std::span<const ReflectedSample> samples) {
+    const FoundReflector& found = surroundings_.reflectors()[reflector];
+    ReflectorPlan plan{grid, {}};
+    for (const Element& window : covered_elements(surroundings_.accel().scene(), found, grid)) {
+      std::vector<ReflectedSample> inside;
+      for (const ReflectedSample& s : samples)
+        if (inside.size() < options_.samples && s.on_plane.x >= window.lower.x && s.on_plane.x <= window.upper.x &&
+            s.on_plane.y >= window.lower.y && s.on_plane.y <= window.upper.y)
+          inside.push_back(s);
+      if (inside.empty()) continue;
+      ORIEL_TRY(ElementPlan element, plan_element(reflector, window, inside));
+      plan.elements.push_back(std::move(element));
+    }
+    return plan;
+  }
+
+  Result<ElementPlan> plan_element(std::uint32_t reflector, const Element& window,
+                                   const std::vector<ReflectedSample>& samples) {
+    const Scene& scene = surroundings_.accel().scene();
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    ElementPlan element{window, candidates_for(scene, r, window, samples, options_), {}, 0};
+    NeedTable table;
+    for (const ReflectedSample& s : samples) {
+      table.weights.push_back(s.weight);
+      element.weight += s.weight;
+    }
+    table.needed.resize(element.candidates.size() * samples.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", element.candidates.size(), [&](std::size_t c) {
+      for (std::size_t s = 0; s < samples.size() && !context_.stopped(); ++s)
+        table.needed[c * samples.size() + s] =
+            needed_resolution(surroundings_, reflector, element.candidates[c], window, samples[s]);
+    }));
+    ChoiceOptions choice = options_.choice;
+    const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
+    choice.max_maps *= grid.x * grid.y;
+    element.choice = choose_views(table, choice);
+    return element;
+  }
+
+  const Surroundings& surroundings_;
+  std::span<const Vec3> eyes_;
+  PlannedViewOptions options_;
+  Context& context_;
+};
+
+std::uint64_t bytes_of(const ElementPlan& element) {
+  const UVec2 size = map_size(element.window, element.choice.resolution);
+  return kMapBytesPerPixel * size.x * size.y;
+}
+
+std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
+  std::uint64_t bytes = 0;
+  for (const ReflectorPlan& plan : plans)
+    for (const ElementPlan& e : plan.elements) bytes += bytes_of(e) * e.choice.picks.size();
+  return bytes;
+}
+
+// Removes last picks, the least gain by reflectance and byte first, then halves resolutions.
+void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, std::vector<ReflectorPlan>& plans,
+                std::vector<std::string>& omitted) {
+  const std::uint64_t wanted = total_bytes(plans);
+  std::uint64_t bytes = wanted, removed = 0;
+  while (bytes > limit) {
+    ElementPlan* least = nullptr;
+    double least_worth = 0;
+    for (std::size_t r = 0; r < plans.size(); ++r)
+      for (ElementPlan& e : plans[r].elements) {
+        if (e.choice.picks.size() < 2) continue;
+        const double worth = e.choice.picks.back().gain * reflectors[r].reflectance / static_cast<double>(bytes_of(e));
+        if (!least || worth < least_worth) least = &e, least_worth = worth;
+      }
+    if (!least) break;
+    bytes -= bytes_of(*least);
+    least->choice.picks.pop_back();
+    ++removed;
+  }
+  std::uint32_t divisor = 1;
+  while (bytes > limit && divisor < 64) {
+    divisor *= 2;
+    for (ReflectorPlan& plan : plans)
+      for (ElementPlan& e : plan.elements)
+        e.choice.resolution = std::max(std::min(e.choice.resolution, kLeastResolution), e.choice.resolution / 2);
+    bytes = total_bytes(plans);
+  }
+  std::size_t left_out = 0;
+  for (std::size_t r = plans.size(); r-- > 0 && bytes > limit; ++left_out) {
+    plans[r].elements.clear();
+    bytes = total_bytes(plans);
+  }
+  if (bytes == wanted) return;
+  std::string line =
+      fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: {} maps fewer",
+                  static_cast<double>(wanted) / (1 << 20), static_cast<double>(limit) / (1 << 20), removed);
+  if (divisor > 1) line += fmt::format(", 1/{} of the resolution", divisor);
+  if (left_out > 0) line += fmt::format(", {} of {} reflectors", plans.size() - left_out, plans.size());
+  omitted.push_back(line);
+}
+
+void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector<RadianceMap>& maps) {
+  for (const ElementPlan& e : plan.elements) {
+    const UVec2 size = map_size(e.window, e.choice.resolution);
+    for (const Pick& pick : e.choice.picks) {
+      RadianceMap map;
+      map.reflector = reflector;
+      map.eye = e.candidates[pick.candidate];
+      map.lower = e.window.lower;
+      map.upper = e.window.upper;
+      map.width = size.x;
+      map.height = size.y;
+      maps.push_back(std::move(map));
+    }
+  }
+}
+
+}  // namespace
+
+Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
+                            FoundReflectors& found) {
+  const std::vector<FoundReflector> all = std::move(found.reflectors);
+  const Surroundings surroundings(accel, all, {});
+  std::vector<std::pair<double, std::uint32_t>> seen;
+  for (std::uint32_t r = 0; r < all.size(); ++r) {
+    double angle = 0;
+    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, kTrialSamples, context.seed, context));
+    for (const ReflectedSample& s : samples) angle += s.weight;
+    if (angle > 0)
+      seen.emplace_back(-angle * all[r].reflectance, r);
+    else
+      found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): from nowhere in the eye region is anything seen in it",
+                                          all[r].reflector.name, all[r].reflector.area_m2));
+  }
+  std::sort(seen.begin(), seen.end());
+  found.reflectors.clear();
+  for (const auto& [worth, r] : seen) {
+    if (found.reflectors.size() < limit)
+      found.reflectors.push_back(all[r]);
+    else
+      found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
+                                          all[r].reflector.name, all[r].reflector.area_m2, limit));
+  }
+  return {};
+}
+
+Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span<const Vec3> eyes,
+                                     const PlannedViewOptions& options, Context& context,
+                                     std::vector<FoundReflector>& reflectors) {
+  Planner planner(surroundings, eyes, options, context);
+  std::vector<ReflectorPlan> plans;
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    ORIEL_TRY(ReflectorPlan plan, planner.plan(r));
+    plans.push_back(std::move(plan));
+    context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
+  }
+  ViewPlan out;
+  fit_memory(reflectors, options.memory_bytes, plans, out.omitted);
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    Reflector& reflector = reflectors[r].reflector;
+    reflector.elements_x = plans[r].grid.x;
+    reflector.elements_y = plans[r].grid.y;
+    reflector.first_map = static_cast<std::uint32_t>(out.maps.size());
+    append_maps(r, plans[r], out.maps);
+    reflector.map_count = static_cast<std::uint32_t>(out.maps.size()) - reflector.first_map;
+  }
+  out.views_per_element = options.choice.max_maps;
+  return out;
+}
+
+}  // namespace oriel

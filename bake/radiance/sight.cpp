@@ -1,0 +1,139 @@
+#include "bake/radiance/sight.h"
+
+#include <algorithm>
+
+#include "bake/scene/shade.h"
+#include "bake/trace/albedo.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kMaxLayers = 64;             // of transmitting surfaces before the first opaque one
+constexpr float kSeeThrough = 0.5f;        // transmittance from which depth is that of what lies behind
+constexpr float kImage = 0.5f;             // reflectance from which depth is that of the mirror's image
+constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
+
+}  // namespace
+
+bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t triangle) {
+  const auto listed = [&](std::uint32_t t) {
+    return std::binary_search(found.triangles.begin(), found.triangles.end(), t);
+  };
+  return listed(triangle) || (!scene.twin.empty() && listed(scene.twin[triangle]));
+}
+
+Surroundings::Surroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options)
+    : accel_(accel), reflectors_(reflectors), options_(options), mirror_of_(accel.scene().triangles.size()) {
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r)
+    if (reflectors[r].roughness <= options.max_chain_roughness)
+      for (const std::uint32_t t : reflectors[r].triangles) mirror_of_[t] = r + 1;
+}
+
+const FoundReflector* Surroundings::mirror_at(std::uint32_t triangle) const {
+  return mirror_of_[triangle] > 0 ? &reflectors_[mirror_of_[triangle] - 1] : nullptr;
+}
+
+class Surroundings::Walk {
+ public:
+  Walk(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
+       const Visit& visit)
+      : in_(surroundings),
+        scene_(surroundings.accel_.scene()),
+        visit_(visit),
+        left_(&surroundings.reflectors_[reflector]),
+        orders_left_(std::max(surroundings.options_.orders, 1u) - 1),
+        start_(from) {
+    // Coordinates' rounding near the reflector, and how far its triangles bulge from its plane.
+    const Reflector& r = left_->reflector;
+    step_ = kStep * (max_component(glm::abs(Vec3(r.pack_from_reflector[3]))) + glm::length(r.upper - r.lower));
+    ray_ = {from + step_ * Vec3(r.pack_from_reflector[2]), direction};
+  }
+
+  Sight run() {
+    for (int layer = 0; layer < kMaxLayers; ++layer) {
+      const Hit hit = in_.accel_.intersect(ray_);
+      ++sight_.rays;
+      if (!hit) return leave();
+      const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
+      const bool own = hit.triangle == last_ || is_part_of(scene_, *left_, hit.triangle);
+      if (!own && meets(hit, p)) return sight_;
+      last_ = hit.triangle;
+      ray_.origin = p + ray_.direction * (kStep * (max_component(glm::abs(p)) + step_) + 1e-7f * hit.distance);
+    }
+    if (!depth_known_) sight_.state = Sight::kNothing;  // nothing opaque within reason
+    return sight_;
+  }
+
+ private:
+  Sight leave() {
+    sight_.sky_direction = ray_.direction;
+    sight_.sky_throughput = throughput_;
+    if (!depth_known_) sight_.state = Sight::kSky;
+    return sight_;
+  }
+
+  // True where the ray ends there.
+  bool meets(const Hit& hit, const Vec3& p) {
+    const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    const bool back = !hit.front && !material.double_sided;
+    const float cosine = std::abs(glm::dot(geometric_normal(scene_, hit.triangle), ray_.direction));
+    if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them
+      const ShadePoint point = shade_point(scene_, hit.triangle, hit.barycentric);
+      const Vec3 through = straight_transmittance(point, cosine);
+      const bool passes = max_component(through) >= kSeeThrough;
+      if (!passes) note_depth(hit, p, back);
+      if (point.coverage > 0 && !back) visit_({hit, -ray_.direction, throughput_ * point.coverage, false});
+      throughput_ *= through;
+      return !passes;
+    }
+    const FoundReflector* mirror = back || orders_left_ == 0 ? nullptr : in_.mirror_at(hit.triangle);
+    const Vec3 r = mirror ? reflectance(shade_point(scene_, hit.triangle, hit.barycentric), cosine) : Vec3(0);
+    if (max_component(r) < in_.options_.min_chain_reflectance) mirror = nullptr;
+    if (!mirror || max_component(r) < kImage) note_depth(hit, p, back);
+    const bool goes_on = !back && visit_({hit, -ray_.direction, throughput_, mirror != nullptr});
+    if (!mirror || (depth_known_ && !goes_on)) return true;
+    bounce(*mirror, r, p);
+    return false;
+  }
+
+  void note_depth(const Hit& hit, const Vec3& p, bool back) {
+    if (depth_known_) return;
+    depth_known_ = true;
+    sight_.state = back ? Sight::kNothing : Sight::kSurface;
+    sight_.back = back;
+    sight_.offset = offset_ + unfold_ * (p - start_);
+    sight_.normal = unfold_ * geometric_normal(scene_, hit.triangle);
+  }
+
+  void bounce(const FoundReflector& mirror, const Vec3& r, const Vec3& p) {
+    const Vec3 normal(mirror.reflector.pack_from_reflector[2]);
+    offset_ += unfold_ * (p - start_);
+    start_ = p;
+    throughput_ *= r;
+    unfold_ = unfold_ * (Mat3(1) - 2.0f * glm::outerProduct(normal, normal));
+    ray_.direction = glm::normalize(glm::reflect(ray_.direction, normal));
+    left_ = &mirror;
+    --orders_left_;
+  }
+
+  const Surroundings& in_;
+  const Scene& scene_;
+  const Visit& visit_;
+  const FoundReflector* left_;  // the reflector that the ray left last
+  std::uint32_t orders_left_;
+  Ray ray_;
+  Vec3 start_;      // of the stretch since the last mirror
+  Vec3 offset_{0};  // of that start, unfolded
+  float step_ = 0;
+  Vec3 throughput_{1};
+  Mat3 unfold_{1};
+  std::uint32_t last_ = ~0u;
+  bool depth_known_ = false;
+  Sight sight_;
+};
+
+Sight Surroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit) const {
+  return Walk(*this, reflector, from, direction, visit).run();
+}
+
+}  // namespace oriel

@@ -1,0 +1,70 @@
+// What a ray that leaves a reflector sees: through surfaces that transmit, and by way of further mirrors. Capture and
+// planning follow the same rays.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "bake/radiance/reflectors.h"
+
+namespace oriel {
+
+struct SightOptions {
+  std::uint32_t orders = 2;             // mirrors a ray may meet, its own reflector counted: at least 1
+  float max_chain_roughness = 0.1f;     // of mirrors after the first: wider lobes are not followed
+  float min_chain_reflectance = 0.02f;  // below it a reflection is not followed
+};
+
+// A surface on the way of a ray.
+struct SeenSurface {
+  const Hit& hit;
+  Vec3 towards_eye{0};   // unit, back along the ray
+  Vec3 throughput{1};    // share of its light that reaches the reflector, coverage included
+  bool mirror = false;   // what it reflects follows, and is not to be counted here
+  bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
+};
+
+struct Sight {
+  enum State : std::uint8_t { kNothing = 0, kSurface = 1, kSky = 2 };  // as RadianceMap::valid
+  State state = kNothing;
+  // From the ray's start to the surface, or to its image where mirrors are on the way; scene space, metres. Of
+  // kSurface, and of a back in kNothing.
+  Vec3 offset{0};
+  bool back = false;      // kNothing because it ended on the back of a one-sided surface
+  Vec3 normal{0};         // unit, of the surface, unfolded; scene space
+  Vec3 sky_direction{0};  // the last ray's, where it left the scene
+  Vec3 sky_throughput{0};
+  std::uint32_t rays = 0;
+};
+
+class Surroundings {
+ public:
+  // Both must outlive it.
+  Surroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options);
+
+  // Of a surface on the way; returns whether to go on behind the surface that the depth is of, for its reflection's
+  // light alone.
+  using Visit = std::function<bool(const SeenSurface&)>;
+
+  // The ray from a point on the plane of a reflector (scene space, unit direction to its front). Surfaces that let at
+  // least half of the light pass in some channel are walked through; the offset is that of what lies behind. A planar
+  // mirror is followed to what it reflects, and where it reflects more than half, the offset is that of the image.
+  Sight look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit) const;
+
+  const Accel& accel() const { return accel_; }
+  std::span<const FoundReflector> reflectors() const { return reflectors_; }
+
+ private:
+  class Walk;
+  const FoundReflector* mirror_at(std::uint32_t triangle) const;
+
+  const Accel& accel_;
+  std::span<const FoundReflector> reflectors_;
+  SightOptions options_;
+  std::vector<std::uint32_t> mirror_of_;  // by triangle: 1 + index of the planar mirror that it belongs to; 0: none
+};
+
+// Whether the triangle, or its twin, is among the reflector's.
+bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t triangle);
+
+}  // namespace oriel

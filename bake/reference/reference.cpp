@@ -1,0 +1,124 @@
+#include "bake/reference/reference.h"
+
+#include "bake/jobs/parallel.h"
+#include "bake/trace/albedo.h"
+#include "formats/camera/camera.h"
+#include "formats/metrics/relative_error.h"
+
+namespace oriel {
+namespace {
+
+struct PixelLight {
+  Vec3 direct{0}, indirect{0}, specular{0}, emission{0};
+};
+
+PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
+  PixelLight light;
+  ++rays;
+  const Hit hit = t.accel.intersect(ray);
+  if (!hit) {
+    light.emission = sky_radiance(t.accel.scene(), ray.direction);
+    return light;
+  }
+  SurfacePoint surface = surface_at(t.accel.scene(), hit, ray.direction);
+  const float coverage = surface.shade.coverage;
+  const float cos_o = glm::dot(surface.normal, -ray.direction);
+  const Vec3 through = straight_transmittance(surface.shade, cos_o);
+  if (max_component(through) > 0) {
+    const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
+    const PathLight behind = trace_path(t, rest, 0, sampler, rays);
+    light.emission += through * (behind.emitted + behind.sky + behind.scattered);
+  }
+  if (surface.emits) light.emission += coverage * surface.shade.emission;
+  if (!surface.reflects) return light;
+  const float left = 1 - max_component(reflectance(surface.shade, cos_o));
+  if (max_component(surface.shade.diffuse) > 0) {
+    const IrradianceSample e = sample_irradiance(t, surface, sampler, rays);
+    const Vec3 shown = coverage * left / kPi * surface.shade.diffuse;
+    light.direct = shown * e.direct;
+    light.indirect = shown * e.indirect;
+  }
+  surface.shade.diffuse = surface.shade.transmission = Vec3(0);
+  light.specular = coverage * reflected_light(t, surface, -ray.direction, sampler, rays);
+  return light;
+}
+
+// Sums over the samples of a pixel, and of squares where the noise is told.
+struct PixelSums {
+  DVec3 direct{0}, indirect{0}, specular{0}, emission{0};
+  DVec3 total_squares{0}, diffuse_squares{0}, specular_squares{0};
+
+  void add(const PixelLight& light) {
+    const DVec3 diffuse(light.direct + light.indirect), total = diffuse + DVec3(light.specular + light.emission);
+    direct += DVec3(light.direct);
+    indirect += DVec3(light.indirect);
+    specular += DVec3(light.specular);
+    emission += DVec3(light.emission);
+    total_squares += total * total;
+    diffuse_squares += diffuse * diffuse;
+    specular_squares += DVec3(light.specular) * DVec3(light.specular);
+  }
+};
+
+DVec3 standard_error(const DVec3& sum, const DVec3& squares, double n) {
+  const DVec3 mean = sum / n;
+  return glm::sqrt(glm::max(DVec3(0), squares / n - mean * mean) / std::max(1.0, n - 1));
+}
+
+void push(FloatImage& image, const DVec3& v) {
+  for (int c = 0; c < 3; ++c) image.pixels.push_back(static_cast<float>(v[c]));
+}
+
+ReferenceFrame frame_of(const std::vector<PixelSums>& sums, const ReferenceOptions& options, std::uint32_t samples) {
+  const FloatImage empty{static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height), 3, {}};
+  ReferenceFrame frame{samples, empty, empty, empty, empty, empty, empty, empty, empty};
+  const double n = samples;
+  for (const PixelSums& s : sums) {
+    const DVec3 diffuse = s.direct + s.indirect, total = diffuse + s.specular + s.emission;
+    push(frame.total, total / n);
+    push(frame.direct, s.direct / n);
+    push(frame.indirect, s.indirect / n);
+    push(frame.specular, s.specular / n);
+    push(frame.emission, s.emission / n);
+    push(frame.noise, standard_error(total, s.total_squares, n));
+    push(frame.diffuse_noise, standard_error(diffuse, s.diffuse_squares, n));
+    push(frame.specular_noise, standard_error(s.specular, s.specular_squares, n));
+  }
+  frame.relative_noise = relative_error(frame.total, frame.total, frame.noise)->noise;
+  return frame;
+}
+
+}  // namespace
+
+Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
+                                        const ReferenceOptions& options, Context& context) {
+  constexpr std::uint32_t kFirstRound = 16;  // fewer do not tell their noise
+  const auto width = static_cast<std::size_t>(options.width), height = static_cast<std::size_t>(options.height);
+  std::vector<PixelSums> sums(width * height);
+  std::atomic<std::uint64_t> total_rays{0};
+  const auto round = [&](std::uint32_t from, std::uint32_t to) {
+    const auto row = [&](std::size_t y) {
+      std::uint64_t rays = 0;
+      for (std::size_t x = 0; x < width && !context.stopped(); ++x)
+        for (std::uint32_t i = from; i < to; ++i) {
+          Sampler sampler(context.seed, y * width + x, i);
+          const Vec2 spread = sampler.next2();
+          const Vec2 at = Vec2(x, y) + (options.antialias ? spread : Vec2(0.5f));
+          const PixelRay ray = pixel_ray(camera, at.x, at.y, static_cast<float>(width), static_cast<float>(height));
+          sums[y * width + x].add(trace_pixel(transport, {ray.origin, ray.direction}, sampler, rays));
+        }
+      total_rays += rays;
+    };
+    return parallel_for(context, "reference", height, row, &total_rays);
+  };
+  const std::uint32_t most = std::max(options.samples, 1u);
+  std::uint32_t done = 0;
+  for (std::uint32_t next = options.error > 0 ? std::min(kFirstRound, most) : most;; next = std::min(2 * done, most)) {
+    ORIEL_TRY_VOID(round(done, next));
+    done = next;
+    ReferenceFrame frame = frame_of(sums, options, done);
+    if (done == most || frame.relative_noise <= options.error) return frame;
+  }
+}
+
+}  // namespace oriel

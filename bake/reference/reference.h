@@ -1,0 +1,35 @@
+// The reference: path-traced frames, by component. Unbiased; every faster way is judged against it.
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/trace/path.h"
+#include "formats/image/image.h"
+
+namespace oriel {
+
+struct ReferenceOptions {
+  int width = 640, height = 360;
+  std::uint32_t samples = 64;  // paths a pixel for each component at most; best a power of two
+  bool antialias = true;       // false: every ray through the pixel's centre, as a rasteriser without samples sees it
+  double error = 0;            // stop at the power of two whose relative_noise is at most this; 0: take all samples
+};
+
+// Pictures of three channels, cd/m². total = direct + indirect + specular + emission.
+struct ReferenceFrame {
+  std::uint32_t samples = 0;  // taken of each pixel
+  FloatImage total;
+  FloatImage direct;          // reflected by the diffuse lobe of the first surface, straight from emitters
+  FloatImage indirect;        // and after bounces
+  FloatImage specular;        // S: reflected by its specular lobe
+  FloatImage emission;        // of the first surface or the sky, and what shows through transmission and cut-outs
+  FloatImage noise;           // standard error of total,
+  FloatImage diffuse_noise;   // of D = direct + indirect
+  FloatImage specular_noise;  // and of specular
+  double relative_noise = 0;  // root of the mean of noise² / (total² + (0.01 mean)²), means over pixels and channels
+};
+
+// Paths start as pixel_ray() of formats/camera has them. Error kStopped only.
+Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
+                                        const ReferenceOptions& options, Context& context);
+
+}  // namespace oriel

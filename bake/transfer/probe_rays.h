@@ -1,0 +1,34 @@
+// The light and the surfaces around one point of a field.
+#pragma once
+
+#include <functional>
+
+#include "bake/trace/sampler.h"
+#include "bake/transfer/bright_lights.h"
+
+namespace oriel {
+
+// Radiance that a hit surface sends towards the eye, cd/m², baked: constant cost. Its own emission only on request.
+using SurfaceRadiance = std::function<Vec3(const Hit& hit, const Vec3& towards_eye, bool with_emission)>;
+
+struct ProbeScene {
+  const Accel& accel;
+  const LightSet& lights;
+  const BrightLights& bright;
+  const SurfaceRadiance& radiance;
+  std::uint64_t seed = 1;
+};
+
+struct ProbeOptions;  // probes.h
+
+// One probe's results, harmonics as measured: not windowed.
+struct MeasuredProbe {
+  LightProbe probe;
+  double squared_difference = 0, squared_sum = 0;  // of the coefficients from both halves of the rays
+};
+
+// `net` holds options.samples points; the stream numbers the probe. Distances are cut at depth_cap_m.
+MeasuredProbe measure_probe(const ProbeScene& scene, const ProbeOptions& options, const ShiftedNet& net,
+                            float depth_cap_m, const Vec3& position, std::uint64_t stream, std::uint64_t& rays);
+
+}  // namespace oriel

@@ -1,0 +1,238 @@
+// Textures, lightmaps with their directions, radiance maps, surround maps.
+#include <algorithm>
+#include <bit>
+
+#include "formats/core/half.h"
+#include "formats/pack/encoding/planes.h"
+#include "formats/pack/encoding/quantise.h"
+#include "formats/pack/fields.h"
+#include "formats/pack/sections.h"
+
+namespace oriel {
+namespace {
+
+using Rgba8 = std::array<std::uint8_t, 4>;
+using Half3 = std::array<std::uint16_t, 3>;
+
+float largest_channel(std::span<const Vec3> values) {
+  float largest = 0;
+  for (const Vec3& v : values) largest = std::max(largest, max_component(v));
+  return largest;
+}
+
+void put_halves(ByteWriter& out, std::span<const Vec3> values) {
+  const int exponent = scale_exponent(largest_channel(values), 11);
+  const float scale = std::ldexp(1.0f, -exponent);
+  std::vector<Half3> halves(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(values[i][c] * scale);
+  out.put(static_cast<std::int32_t>(exponent));
+  put_planes(out, std::span<const Half3>(halves));
+}
+
+Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::vector<Vec3>& values) {
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto halves = get_planes<Half3>(in, count);
+  const float scale = std::ldexp(1.0f, exponent);
+  values.resize(halves.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
+      if (half >= 0x7c00)
+        return invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what, half,
+                       i);
+      values[i][c] = float_from_half(half) * scale;
+    }
+  return {};
+}
+
+// cd/m² over 2^exponent.
+void put_rgb9e5(ByteWriter& out, std::span<const Vec3> values, int exponent) {
+  const float scale = std::ldexp(1.0f, -exponent);
+  std::vector<std::uint32_t> colors(values.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = rgb9e5_from_rgb(values[i] * scale);
+  put_planes(out, std::span<const std::uint32_t>(colors));
+}
+
+std::vector<Vec3> get_rgb9e5(ByteReader& in, std::uint64_t count, int exponent) {
+  const float scale = std::ldexp(1.0f, exponent);
+  const auto colors = get_planes<std::uint32_t>(in, count);
+  std::vector<Vec3> values(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) values[i] = rgb_from_rgb9e5(colors[i]) * scale;
+  return values;
+}
+
+Status get_texel_states(ByteReader& in, std::uint64_t count, std::vector<TexelState>& states) {
+  const auto codes = get_planes<std::uint8_t>(in, count);
+  states.resize(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (codes[i] % 85 != 0) return invalid("", "found texel state {}, expected 0, 85, 170 or 255", codes[i]);
+    states[i] = static_cast<TexelState>(codes[i]);
+  }
+  return {};
+}
+
+}  // namespace
+
+void encode(ByteWriter& out, const Texture& texture) {
+  out.put_string(texture.name);
+  out.put(texture.width);
+  out.put(texture.height);
+  out.put(static_cast<std::uint8_t>(texture.wrap_s));
+  out.put(static_cast<std::uint8_t>(texture.wrap_t));
+  out.put(static_cast<std::uint8_t>(texture.nearest));
+  out.put(std::uint8_t{0});
+  put_planes(out, std::span(reinterpret_cast<const Rgba8*>(texture.texels.data()), texture.texels.size() / 4));
+}
+
+Status decode(ByteReader& in, Texture& texture) {
+  texture.name = in.get_string();
+  ORIEL_TRY_VOID(get_size(in, texture.width, texture.height));
+  ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_s));
+  ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_t));
+  ORIEL_TRY_VOID(get_choice(in, "nearest flag", 1, texture.nearest));
+  std::uint8_t reserved = 0;
+  ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  const auto texels = get_planes<Rgba8>(in, std::uint64_t{texture.width} * texture.height);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(texels.data());
+  texture.texels.assign(bytes, bytes + texels.size() * sizeof(Rgba8));
+  return {};
+}
+
+void encode(ByteWriter& out, const LightmapPage& page) {
+  out.put(page.width);
+  out.put(page.height);
+  put_halves(out, page.irradiance);
+  put_halves(out, page.standard_error);
+  put_planes(out, std::span(reinterpret_cast<const std::uint8_t*>(page.state.data()), page.state.size()));
+}
+
+Status decode(ByteReader& in, LightmapPage& page) {
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+  ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
+  ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
+  return get_texel_states(in, texels, page.state);
+}
+
+void encode(ByteWriter& out, const DirectionPage& page) {
+  out.put(page.page);
+  out.put(page.width);
+  out.put(page.height);
+  std::vector<Half3> halves(page.direction.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(page.direction[i][c]);
+  put_planes(out, std::span<const Half3>(halves));
+}
+
+Status decode(ByteReader& in, DirectionPage& page) {
+  page.page = in.get<std::uint32_t>();
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  const auto halves = get_planes<Half3>(in, std::uint64_t{page.width} * page.height);
+  page.direction.resize(halves.size());
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
+      if ((half & 0x7c00) == 0x7c00)
+        return invalid("", "found direction half {:#06x} at texel {}, expected a finite one", half, i);
+      page.direction[i][c] = float_from_half(half);
+    }
+  return {};
+}
+
+void encode(ByteWriter& out, const RadianceMap& map) {
+  out.put(map.reflector);
+  out.put(map.width);
+  out.put(map.height);
+  out.put(static_cast<std::uint8_t>(map.has_emission));
+  for (int i = 0; i < 3; ++i) out.put(std::uint8_t{0});
+  put(out, map.eye);
+  put(out, map.lower);
+  put(out, map.upper);
+  const int exponent = scale_exponent(largest_channel(map.radiance), 9);
+  float largest_disparity = 0;
+  for (const float d : map.disparity) largest_disparity = std::max(largest_disparity, d);
+  const int shift = disparity_shift(largest_disparity);
+  out.put(static_cast<std::int32_t>(exponent));
+  out.put(static_cast<std::int32_t>(shift));
+  put_rgb9e5(out, map.radiance, exponent);
+  std::vector<std::uint16_t> disparities(map.disparity.size());
+  for (std::size_t i = 0; i < disparities.size(); ++i) disparities[i] = code_from_disparity(map.disparity[i], shift);
+  put_planes(out, std::span<const std::uint16_t>(disparities));
+  put_planes(out, std::span<const std::uint8_t>(map.valid));
+}
+
+Status decode(ByteReader& in, RadianceMap& map) {
+  map.reflector = in.get<std::uint32_t>();
+  ORIEL_TRY_VOID(get_size(in, map.width, map.height));
+  ORIEL_TRY_VOID(get_choice(in, "emission flag", 1, map.has_emission));
+  std::uint8_t reserved = 0;
+  for (int i = 0; i < 3; ++i) ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  map.eye = get_vec3(in);
+  map.lower = get_vec2(in);
+  map.upper = get_vec2(in);
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto shift = in.get<std::int32_t>();
+  if (shift < 0 || shift > kMaxDisparityShift)
+    return invalid("", "found disparity shift {}, expected 0 to {}", shift, kMaxDisparityShift);
+  const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
+  map.radiance = get_rgb9e5(in, pixels, exponent);
+  const auto disparities = get_planes<std::uint16_t>(in, pixels);
+  map.disparity.resize(disparities.size());
+  for (std::size_t i = 0; i < disparities.size(); ++i) map.disparity[i] = disparity_from_code(disparities[i], shift);
+  map.valid = get_planes<std::uint8_t>(in, pixels);
+  return {};
+}
+
+void encode(ByteWriter& out, const CurvedReflector& reflector) {
+  out.put_string(reflector.name);
+  out.put(reflector.material);
+  out.put(reflector.map);
+  out.put(static_cast<std::uint32_t>(reflector.indices.size()));
+  out.put_array(std::span<const std::uint32_t>(reflector.indices));
+}
+
+Status decode(ByteReader& in, CurvedReflector& reflector) {
+  reflector.name = in.get_string();
+  reflector.material = in.get<std::uint32_t>();
+  reflector.map = in.get<std::uint32_t>();
+  const auto count = in.get<std::uint32_t>();
+  reflector.indices = in.get_array<std::uint32_t>(count);
+  return {};
+}
+
+void encode(ByteWriter& out, const SurroundMap& map) {
+  put(out, map.centre);
+  out.put(map.size);
+  const int exponent = scale_exponent(largest_channel(map.radiance), 9);
+  out.put(static_cast<std::int32_t>(exponent));
+  const float nearest = *std::max_element(map.inverse_distance.begin(), map.inverse_distance.end());
+  out.put(nearest);
+  put_rgb9e5(out, map.radiance, exponent);
+  std::vector<std::uint16_t> codes(map.inverse_distance.size());
+  for (std::size_t i = 0; i < codes.size() && nearest > 0; ++i)
+    codes[i] = code_from_disparity(map.inverse_distance[i] / nearest, 0);
+  put_planes(out, std::span<const std::uint16_t>(codes));
+  put_planes(out, std::span<const std::uint8_t>(map.valid));
+}
+
+Status decode(ByteReader& in, SurroundMap& map) {
+  map.centre = get_vec3(in);
+  map.size = in.get<std::uint32_t>();
+  if (in.ok() && (map.size > kMaxSide || !std::has_single_bit(map.size)))
+    return invalid("", "found {} texels a side, expected a power of two up to {}", map.size, kMaxSide);
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto nearest = in.get<float>();
+  const std::uint64_t texels = std::uint64_t{map.size} * map.size;
+  map.radiance = get_rgb9e5(in, texels, exponent);
+  const auto codes = get_planes<std::uint16_t>(in, texels);
+  map.inverse_distance.resize(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) map.inverse_distance[i] = disparity_from_code(codes[i], 0) * nearest;
+  map.valid = get_planes<std::uint8_t>(in, texels);
+  return {};
+}
+
+}  // namespace oriel

@@ -1,0 +1,127 @@
+#include "player/app/compare.h"
+
+#include <cstdio>
+
+#include "formats/camera/camera_spec.h"
+#include "formats/core/file.h"
+#include "formats/image/png.h"
+#include "formats/metrics/comparison.h"
+#include "player/gpu/headless.h"
+#include "player/passes/frame.h"
+
+namespace oriel {
+namespace {
+
+// How many player's pixels a reference's pixel has on each axis.
+Result<std::uint32_t> supersampling(const PlayArguments& arguments, const FloatImage& reference) {
+  if (!arguments.sized) return 1u;
+  const auto width = static_cast<std::uint32_t>(arguments.width), height = static_cast<std::uint32_t>(arguments.height);
+  const std::uint32_t n = width / reference.width;
+  if (n >= 1 && n * reference.width == width && n * reference.height == height) return n;
+  return fail(ErrorCode::kUsage, "--size", "found {}x{}, expected a whole multiple of the reference's {}x{}", width,
+              height, reference.width, reference.height);
+}
+
+// Draws the stages that are compared, as large pictures, and averages them.
+class Stages {
+ public:
+  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments, std::uint32_t n)
+      : scene_(scene), renderer_(renderer), view_(view), options_(arguments.frame), n_(n) {
+    if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
+  }
+
+  Result<PlayedFrame> draw() {
+    PlayedFrame frame;
+    ORIEL_TRY(frame.diffuse, draw_stage(Show::kD));
+    options_.count_holes = true;
+    ORIEL_TRY(frame.specular, draw_stage(Show::kMKR));
+    frame.holes = stats_.reflected_pixels > 0
+                      ? static_cast<double>(stats_.holes) / static_cast<double>(stats_.reflected_pixels)
+                      : 0;
+    options_.count_holes = false;
+    ORIEL_TRY(frame.total, draw_stage(Show::kAll));
+    const std::vector<std::int32_t> materials = renderer_.read_reflective();
+    frame.mirrors = region(materials, false);
+    frame.glossy = region(materials, true);
+    return frame;
+  }
+
+ private:
+  Result<FloatImage> draw_stage(Show show) {
+    options_.show = show;
+    ORIEL_TRY(stats_, renderer_.render(scene_, view_, options_));
+    const auto width = static_cast<std::uint32_t>(view_.width), height = static_cast<std::uint32_t>(view_.height);
+    return shrink(FloatImage{width, height, 3, renderer_.read_light()}, n_);
+  }
+
+  // Pixels of the small picture all of whose parts show reflectors that blur, or that do not.
+  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& materials, bool blurs) const {
+    const Pack& pack = scene_.pack();
+    const std::size_t width = static_cast<std::size_t>(view_.width) / n_,
+                      height = static_cast<std::size_t>(view_.height) / n_;
+    std::vector<std::uint8_t> out(width * height, 1);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      bool counts = materials[i] >= 0;
+      if (counts) {
+        const std::int32_t kernel = pack.materials[static_cast<std::size_t>(materials[i])].kernel;
+        counts = (kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1) == blurs;
+      }
+      const std::size_t large = static_cast<std::size_t>(view_.width);
+      if (!counts) out[i / large / n_ * width + i % large / n_] = 0;
+    }
+    return out;
+  }
+
+  GpuScene& scene_;
+  Renderer& renderer_;
+  const View& view_;
+  FrameOptions options_;
+  FrameStats stats_;  // of the last stage
+  std::uint32_t n_;
+};
+
+Result<Camera> choose_camera(const GpuScene& scene, const PlayArguments& arguments) {
+  const Pack& pack = scene.pack();
+  const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
+  if (arguments.cameras.empty()) return initial_camera(choices, scene.bounds().lower, scene.bounds().upper);
+  return parse_camera(arguments.cameras[0], choices);
+}
+
+Status write_difference(const std::string& path, const FloatImage& picture) {
+  ByteImage bytes{picture.width, picture.height, 3, {}};
+  for (const float v : picture.pixels) bytes.pixels.push_back(static_cast<std::uint8_t>(255 * v + 0.5f));
+  return write_png(path, bytes);
+}
+
+}  // namespace
+
+Status play_compare(Pack pack, const PlayArguments& arguments) {
+  ORIEL_TRY(const LayeredImage reference, read_layered_exr(arguments.reference));
+  const FloatImage& picture = reference.layers.at("");
+  ORIEL_TRY(const std::uint32_t n, supersampling(arguments, picture));
+  ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
+  ORIEL_TRY(const gpu::Device device, gpu::open_device());
+  if (arguments.gl_debug) gpu::enable_debug_output(device);
+  ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+  ORIEL_TRY(const Camera camera, choose_camera(*scene, arguments));
+  ORIEL_TRY(const auto renderer, Renderer::create(device));
+  const View view =
+      make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height), scene->bounds());
+  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, n).draw());
+  ORIEL_TRY(const Comparison comparison,
+            compare(frame, reference, arguments.ev100 ? white_of_exposure(*arguments.ev100) : 0));
+  const std::string text = comparison_text(comparison);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!arguments.json.empty()) {
+    const std::string json = comparison_json(comparison);
+    ORIEL_TRY_VOID(write_file_atomically(arguments.json, std::as_bytes(std::span(json))));
+  }
+  if (!arguments.output.empty()) ORIEL_TRY_VOID(write_difference(arguments.output, comparison.picture));
+  const double flip = comparison.regions.front().flip;
+  if (arguments.max_flip && flip > *arguments.max_flip)
+    return fail(ErrorCode::kDifferent, arguments.reference, "found a FLIP of {:.4f}, expected at most {}", flip,
+                *arguments.max_flip);
+  return {};
+}
+
+}  // namespace oriel

@@ -1,0 +1,14 @@
+// Frames beside their path-traced reference, in numbers and as a picture.
+#pragma once
+
+#include "formats/pack/pack.h"
+#include "player/app/arguments.h"
+
+namespace oriel {
+
+// Draws the view of the arguments' one camera, compares it with the file of `oriel-bake render`, prints a table to
+// stdout and writes what the arguments ask for. The size is a whole multiple of the reference's: pixels are then
+// averaged. Errors: kUsage, kIo, kInvalid, kRuntime; kDifferent where FLIP exceeds arguments.max_flip.
+Status play_compare(Pack pack, const PlayArguments& arguments);
+
+}  // namespace oriel

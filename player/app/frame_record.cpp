@@ -1,0 +1,93 @@
+#include "player/app/frame_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "formats/core/color.h"
+#include "formats/core/file.h"
+
+namespace oriel {
+namespace {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+nlohmann::ordered_json as_json(const FrameRecord& record) {
+  const FrameStats& s = record.stats;
+  nlohmann::ordered_json passes;
+  for (std::size_t i = 0; i < kPassNames.size(); ++i) passes[kPassNames[i]] = s.ms[i];
+  return {{"camera", record.camera},  {"ms", record.ms},          {"pass_ms", passes},
+          {"draws", s.draws},         {"triangles", s.triangles}, {"reflectors", s.reflectors},
+          {"maps", s.maps},           {"points", s.points},       {"map_bytes", s.map_bytes},
+          {"in_zone", record.in_zone}};
+}
+
+}  // namespace
+
+std::string describe(const FrameStats& stats) {
+  std::string text = fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points, {:.1f} MB of maps",
+                                 stats.draws, stats.triangles, stats.reflectors, stats.maps, stats.points,
+                                 static_cast<double>(stats.map_bytes) * 1e-6);
+  for (std::size_t i = 0; i < kPassNames.size(); ++i)
+    if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);
+  return text;
+}
+
+FrameRecord median_record(const std::vector<FrameRecord>& records) {
+  FrameRecord out = records.back();
+  const auto middle = [&](const auto& value) {
+    std::vector<double> values;
+    for (const FrameRecord& record : records) values.push_back(value(record));
+    return median(std::move(values));
+  };
+  out.ms = middle([](const FrameRecord& r) { return r.ms; });
+  for (std::size_t i = 0; i < kPassNames.size(); ++i)
+    out.stats.ms[i] = middle([i](const FrameRecord& r) { return r.stats.ms[i]; });
+  return out;
+}
+
+void FlickerMeter::add(const std::vector<float>& light) {
+  std::vector<float> log2_light(light.size() / 3);
+  double mean = 0;
+  for (std::size_t i = 0; i < log2_light.size(); ++i) {
+    log2_light[i] = luminance(Vec3(light[3 * i], light[3 * i + 1], light[3 * i + 2]));
+    mean += log2_light[i];
+  }
+  const double floor = std::max(0.01 * mean / static_cast<double>(std::max<std::size_t>(log2_light.size(), 1)), 1e-9);
+  for (float& v : log2_light) v = std::log2(v + static_cast<float>(floor));
+  if (++added_ > 2 && last_.size() == log2_light.size() && before_last_.size() == last_.size()) {
+    double sum = 0;
+    for (std::size_t i = 0; i < last_.size(); ++i)
+      sum += std::fabs(double{before_last_[i]} - 2.0 * last_[i] + log2_light[i]);
+    sum /= static_cast<double>(std::max<std::size_t>(last_.size(), 1));
+    sum_ += sum;
+    ++frames_;
+    if (sum > worst_) {
+      worst_ = sum;
+      worst_frame_ = added_ - 2;
+    }
+  }
+  before_last_ = std::exchange(last_, std::move(log2_light));
+}
+
+Status write_stats(const std::string& file, const PlayArguments& arguments, const std::string& renderer,
+                   const std::vector<FrameRecord>& records, const FlickerMeter* flicker) {
+  nlohmann::ordered_json out{{"pack", arguments.pack},
+                             {"renderer", renderer},
+                             {"width", arguments.width},
+                             {"height", arguments.height},
+                             {"maps_per_element", arguments.frame.maps_per_element},
+                             {"frames", nlohmann::ordered_json::array()}};
+  for (const FrameRecord& record : records) out["frames"].push_back(as_json(record));
+  if (!records.empty()) out["median"] = as_json(median_record(records));
+  if (flicker != nullptr) {
+    out["flicker"] = {{"mean", flicker->mean()}, {"worst", flicker->worst()}, {"worst_frame", flicker->worst_frame()}};
+  }
+  const std::string text = out.dump(1) + "\n";
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  return write_file_atomically(file, Bytes(bytes, bytes + text.size()));
+}
+
+}  // namespace oriel

@@ -1,0 +1,140 @@
+// Lamps that glossy reflectors show in closed form: which, and from where they are seen.
+#include "bake/radiance/emitters/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include "bake/radiance/capture.h"
+#include "bake/radiance/reproject.h"
+#include "bake/radiance/views.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+// A floor of 4 x 4 m that reflects, a lamp of 1 x 1 m over its middle, 2 m up, that shines down.
+struct LampRoom {
+  test::SceneParts parts;
+  Scene scene;
+  std::vector<FoundReflector> reflectors;
+  std::vector<Emitter> emitters;
+  std::vector<std::string> omitted;
+
+  explicit LampRoom(float roughness = 0.2f) {
+    SceneMaterial floor;
+    floor.metallic = 1;
+    floor.roughness = roughness;
+    parts.add(floor);
+    parts.diffuse(Vec3(0.5f), Vec3(1000, 900, 800));
+    parts.diffuse(Vec3(0.5f));
+    parts.quad("floor", 0, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    lamp({-0.5f, 2, -0.5f});
+  }
+  void lamp(const Vec3& corner) { parts.quad("lamp", 1, corner, {1, 0, 0}, {0, 0, 1}); }
+
+  void run(const Accel& accel, bool glossy = true) {
+    std::vector<ReflectorMaterial> materials(scene.materials.size(), ReflectorMaterial{1, Vec3(0), 0});
+    materials[0] = {scene.materials[0].roughness, Vec3(0.9f), 1};
+    ReflectorOptions options;
+    options.min_open_share = 0;
+    reflectors = find_reflectors(accel, materials, options).reflectors;
+    ASSERT_EQ(reflectors.size(), 1u);
+    Context context;
+    std::vector<bool> is_glossy(scene.materials.size());
+    is_glossy[0] = glossy;
+    ASSERT_TRUE(leave_out_emitters(accel, is_glossy, {}, context, reflectors, emitters, omitted));
+  }
+  float visibility(std::size_t emitter, const Vec2& at) const {
+    const Reflector& r = reflectors[0].reflector;
+    const Vec2 node = glm::round((at - r.lower) / (r.upper - r.lower) * Vec2(r.visibility_x - 1, r.visibility_y - 1));
+    const auto i = static_cast<std::size_t>(node.x), j = static_cast<std::size_t>(node.y);
+    return static_cast<float>(r.visibility[(emitter * r.visibility_y + j) * r.visibility_x + i]) / 255;
+  }
+};
+
+TEST(Emitters, ALampIsOneQuadrangleSeenFromEverywhere) {
+  LampRoom room;
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel);
+  ASSERT_EQ(room.emitters.size(), 1u);
+  const Emitter& lamp = room.emitters[0];
+  ASSERT_EQ(lamp.corners.size(), 4u);
+  EXPECT_EQ(lamp.radiance, Vec3(1000, 900, 800));
+  EXPECT_FALSE(lamp.two_sided);
+  const Vec3 normal = glm::normalize(glm::cross(lamp.corners[1] - lamp.corners[0], lamp.corners[2] - lamp.corners[0]));
+  EXPECT_NEAR(normal.y, -1, 1e-6) << "counter-clockwise seen from the bright side";
+  const Reflector& r = room.reflectors[0].reflector;
+  EXPECT_EQ(r.emitters, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(room.reflectors[0].emitters, (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(r.visibility.size(), std::size_t{r.visibility_x} * r.visibility_y);
+  for (const std::uint8_t v : r.visibility) EXPECT_EQ(v, 255);
+  EXPECT_TRUE(room.omitted.empty());
+}
+
+TEST(Emitters, AMirrorKeepsThem) {
+  LampRoom room(0);
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel, false);
+  EXPECT_TRUE(room.emitters.empty());
+  EXPECT_TRUE(room.reflectors[0].reflector.emitters.empty());
+}
+
+// A half plane at half the lamp's height ends under its middle: the node below that edge sees half of the lamp, those
+// 1 m to the sides all or nothing of it.
+TEST(Emitters, VisibilityIsTheShareThatIsSeen) {
+  LampRoom room;
+  room.parts.quad("screen", 2, {0, 1, -9}, {9, 0, 0}, {0, 0, 18});
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel);
+  ASSERT_EQ(room.emitters.size(), 1u);
+  EXPECT_NEAR(room.visibility(0, {0, 0}), 0.5f, 0.04f);
+  EXPECT_EQ(room.visibility(0, {-1, 0}), 1);
+  EXPECT_EQ(room.visibility(0, {1, 0}), 0);
+  EXPECT_NEAR(room.visibility(0, {0.5f, 1}), 0, 0.04f);
+}
+
+TEST(Emitters, TheMapsOfTheReflectorDoNotShowThem) {
+  LampRoom room;
+  room.parts.box("walls", 2, {-3, -0.1f, -3}, {3, 3, 3}, true);
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const auto shown = [](const SeenSurface& s) { return s.emission ? Vec3(1) : Vec3(0); };
+  Context context;
+  for (const bool glossy : {true, false}) {
+    room.run(*accel, glossy);
+    ViewOptions options;
+    options.views_per_element = 1;
+    options.map_resolution = 32;
+    options.element_m = 10;
+    ViewPlan plan = plan_views(room.scene, room.reflectors, options);
+    ASSERT_TRUE(capture_maps(Surroundings(*accel, room.reflectors, {}), shown, context, plan.maps));
+    const RadianceMap& map = plan.maps.at(0);
+    EXPECT_EQ(map.has_emission, !glossy);
+    std::size_t dark = 0;
+    for (const Vec3& c : map.radiance) dark += c == Vec3(0);
+    EXPECT_EQ(dark > 0, glossy);
+  }
+}
+
+TEST(Emitters, NoMoreThanTheLimitAndTheRestIsNamed) {
+  LampRoom room;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j)
+      room.lamp({-9.0f + 1.5f * static_cast<float>(i), 3, -9.0f + 1.5f * static_cast<float>(j)});
+  room.scene = room.parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel);
+  EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), kMaxReflectorEmitters);
+  ASSERT_EQ(room.omitted.size(), 1u);
+  EXPECT_NE(room.omitted[0].find("10 lamps stay in its radiance maps"), std::string::npos) << room.omitted[0];
+}
+
+}  // namespace
+}  // namespace oriel

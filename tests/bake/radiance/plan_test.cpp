@@ -1,0 +1,316 @@
+// Planned viewpoints: the greedy choice on tables made by hand, what maps see and how sharp in rooms of closed form.
+#include "bake/radiance/plan/planned_views.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bake/radiance/plan/residual.h"
+#include "bake/radiance/reproject.h"
+#include "bake/trace/sampler.h"
+#include "tests/bake/radiance/mirror_room.h"
+
+namespace oriel {
+namespace {
+
+using test::MirrorRoom;
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+TEST(Choice, TakesWhatShowsMostThenWhatIsNew) {
+  // Candidate 0 shows samples 0 to 2, 1 shows 2 and 3, 2 shows 0 and 1, 3 shows nothing.
+  const NeedTable table{{1, 1, 1, 1},
+                        {9, 9, 9, kNever, kNever, kNever, 9, 9, 9, 9, kNever, kNever, kNever, kNever, kNever, kNever}};
+  ChoiceOptions options;
+  options.resolutions = {64};
+  const Choice choice = choose_views(table, options);
+  ASSERT_EQ(choice.picks.size(), 2u);
+  EXPECT_EQ(choice.picks[0].candidate, 0u);
+  EXPECT_EQ(choice.picks[1].candidate, 1u);
+  EXPECT_GT(choice.picks[0].gain, choice.picks[1].gain);
+  EXPECT_EQ(choice.seen, 1);
+  EXPECT_EQ(choice.sharp, 1);
+  options.max_maps = 1;
+  EXPECT_EQ(choose_views(table, options).seen, 0.75);
+}
+
+TEST(Choice, HeavySamplesComeFirstAndTiesGoToTheLowerNumber) {
+  const NeedTable table{{1, 1, 5}, {9, 9, kNever, kNever, kNever, 9, kNever, kNever, 9}};
+  ChoiceOptions options;
+  options.resolutions = {64};
+  const Choice choice = choose_views(table, options);
+  ASSERT_EQ(choice.picks.size(), 2u);
+  EXPECT_EQ(choice.picks[0].candidate, 1u);
+  EXPECT_EQ(choice.picks[1].candidate, 0u);
+}
+
+TEST(Choice, ResolutionIsTheCheapestThatIsSharp) {
+  // One candidate needs 200 pixels for all; two others 60 for half each: the three together, of 64², are
+  // cheaper than that one alone of 256².
+  NeedTable table{{1, 1}, {200, 200, 60, kNever, kNever, 60}};
+  const Choice choice = choose_views(table, {});
+  EXPECT_EQ(choice.resolution, 64u);
+  EXPECT_EQ(choice.picks.size(), 3u);
+  EXPECT_EQ(choice.sharp, 1);
+  table.needed = {5000, 5000};  // none is sharp: the least that shows it
+  EXPECT_EQ(choose_views(table, {}).resolution, 64u);
+  EXPECT_EQ(choose_views(table, {}).seen, 1);
+  EXPECT_EQ(choose_views(table, {}).sharp, 0);
+  EXPECT_TRUE(choose_views({}, {}).picks.empty());
+}
+
+struct Planned {
+  std::vector<FoundReflector> reflectors;
+  ViewPlan plan;
+};
+
+Planned plan_in(const Accel& accel, const MirrorRoom& room, std::span<const Vec3> eyes,
+                const PlannedViewOptions& options = {}, int threads = 2) {
+  Planned out;
+  out.reflectors = find_reflectors(accel, room.materials(), room.reflector_options()).reflectors;
+  const auto as_found = out.reflectors;
+  Context context;
+  context.threads = threads;
+  auto plan = plan_views_for_eyes(Surroundings(accel, as_found, {}), eyes, options, context, out.reflectors);
+  EXPECT_TRUE(plan);
+  if (plan) out.plan = std::move(*plan);
+  return out;
+}
+
+std::vector<Vec3> eyes_in_room(std::uint32_t count, std::uint32_t from = 0) {
+  std::vector<Vec3> eyes;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(3, 0, from + i);
+    const Vec2 at = sampler.next2();
+    eyes.push_back({0.3f + 3.4f * at.x, 1.6f, 0.5f + 4.2f * at.y});
+  }
+  return eyes;
+}
+
+ViewQuality judge(const Accel& accel, const Planned& planned, std::span<const RadianceMap> maps,
+                  std::span<const Vec3> eyes) {
+  Context context;
+  const Surroundings surroundings(accel, planned.reflectors, {});
+  const auto samples = sample_reflections(surroundings, 0, eyes, 2048, 77, context);
+  EXPECT_TRUE(samples);
+  EXPECT_EQ(samples->size(), 2048u);
+  return judge_maps(surroundings, maps, *samples, context);
+}
+
+// The mirror's eye and map are on its axis, the wall behind the eye faces both: a pixel of the window of side L, seen
+// at distance e, shows the eye 1 / resolution of L / e, wherever the wall is.
+TEST(Needs, AreThoseOfSimilarTriangles) {
+  const MirrorRoom room;
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
+  const Surroundings surroundings(*accel, reflectors, {});
+  const float depth = 5 - test::kMirrorInset;  // from the mirror to the wall
+  for (const float e : {0.5f, 2.0f}) {
+    ReflectedSample s;
+    s.eye = {0, 0, e};
+    s.image = {0, 0, depth, 1};
+    s.normal = {0, 0, -1};
+    s.spacing = static_cast<float>(kSharpAngleRad) * (depth + e);
+    const Element window{{-1, -0.75f}, {1, 0.75f}};
+    const float expected = 2 / (e * static_cast<float>(kSharpAngleRad));
+    EXPECT_NEAR(needed_resolution(surroundings, 0, {0, 0, -e}, window, s), expected, 1e-4f * expected);
+    // From twice as far the window's pixels are half as fine there, less what the eye's own distance makes up for.
+    const float far = needed_resolution(surroundings, 0, {0, 0, -2 * e}, window, s);
+    EXPECT_NEAR(far, expected * (depth + 2 * e) / (2 * (depth + e)), 1e-4f * expected);
+    EXPECT_EQ(needed_resolution(surroundings, 0, {-3, 0, -0.1f}, window, s), kNever) << "past the window";
+    s.image.z = 3;
+    EXPECT_EQ(needed_resolution(surroundings, 0, {0, 0, -e}, window, s), kNever) << "nothing is there";
+  }
+}
+
+TEST(PlannedViews, FewMapsShowAnEmptyRoomToEyesThatWereNotPlannedFor) {
+  const MirrorRoom room;
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const Planned planned = plan_in(*accel, room, eyes_in_room(1000));
+  ASSERT_EQ(planned.reflectors.size(), 1u);
+  EXPECT_GE(planned.plan.maps.size(), 1u);
+  EXPECT_LE(planned.plan.maps.size(), 8u);
+  EXPECT_EQ(planned.reflectors[0].reflector.map_count, planned.plan.maps.size());
+  const ViewQuality quality = judge(*accel, planned, planned.plan.maps, eyes_in_room(60, 1000));
+  EXPECT_GE(quality.seen, 0.995);
+  EXPECT_GE(quality.sharp, 0.95);
+}
+
+// Two boxes stand between the mirror and the walls.
+MirrorRoom furnished() {
+  MirrorRoom room;
+  test::SceneParts parts;
+  parts.scene() = room.scene;
+  parts.box("pillar", 1, {0.8f, 0, 1.5f}, {1.2f, 3, 1.9f});
+  parts.box("sideboard", 2, {2.4f, 0, 2}, {3.6f, 1.2f, 2.6f});
+  room.scene = parts.finish();
+  return room;
+}
+
+TEST(PlannedViews, MatchManyUniformOnesAmongFurniture) {
+  const MirrorRoom room = furnished();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  Planned planned = plan_in(*accel, room, eyes_in_room(1000));
+  const auto eyes = eyes_in_room(60, 1000);
+  const ViewQuality few = judge(*accel, planned, planned.plan.maps, eyes);
+  Planned uniform = planned;
+  ViewOptions options;
+  options.views_per_element = 64;
+  options.map_resolution = planned.plan.maps[0].width;
+  const ViewPlan plan = plan_views(room.scene, uniform.reflectors, options);
+  ASSERT_GT(plan.maps.size(), 32u);
+  const ViewQuality many = judge(*accel, planned, plan.maps, eyes);
+  std::printf("%zu planned maps of %u: seen %.2f %%, sharp %.1f %%; %zu uniform: %.2f %%, %.1f %%\n",
+              planned.plan.maps.size(), planned.plan.maps[0].width, 100 * few.seen, 100 * few.sharp, plan.maps.size(),
+              100 * many.seen, 100 * many.sharp);
+  EXPECT_LE(planned.plan.maps.size(), 8u);
+  EXPECT_GE(few.seen, 0.995);
+  EXPECT_GE(few.sharp, 0.95);
+  // One map alone must fail where eight pass, or this test proves nothing.
+  EXPECT_LT(judge(*accel, planned, std::span(planned.plan.maps).first(1), eyes).sharp, few.sharp);
+}
+
+TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
+  const MirrorRoom room = furnished();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const Planned a = plan_in(*accel, room, eyes_in_room(100), {}, 1),
+                b = plan_in(*accel, room, eyes_in_room(100), {}, 3);
+  ASSERT_EQ(a.plan.maps.size(), b.plan.maps.size());
+  for (std::size_t i = 0; i < a.plan.maps.size(); ++i) {
+    EXPECT_EQ(a.plan.maps[i].eye, b.plan.maps[i].eye);
+    EXPECT_EQ(a.plan.maps[i].width, b.plan.maps[i].width);
+  }
+  Context context;
+  context.stop = true;
+  auto reflectors = a.reflectors;
+  const auto stopped =
+      plan_views_for_eyes(Surroundings(*accel, a.reflectors, {}), eyes_in_room(10), {}, context, reflectors);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
+}
+
+TEST(PlannedViews, KeepTheMemory) {
+  const MirrorRoom room;
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  PlannedViewOptions options;
+  options.samples = 512;
+  for (const std::uint64_t limit : {std::uint64_t{1} << 20, std::uint64_t{5000}, std::uint64_t{10}}) {
+    options.memory_bytes = limit;
+    const Planned planned = plan_in(*accel, room, eyes_in_room(200), options);
+    std::uint64_t bytes = 0;
+    for (const RadianceMap& map : planned.plan.maps) bytes += kMapBytesPerPixel * map.width * map.height;
+    EXPECT_LE(bytes, limit);
+    EXPECT_EQ(planned.plan.maps.empty(), limit < 100);
+    ASSERT_EQ(planned.plan.omitted.size(), 1u);
+  }
+}
+
+// One map cannot see behind the furniture; its residual shows what lies there, on the surfaces where it lies, and is
+// not made where nothing is missing.
+TEST(Residuals, ShowWhatNoMapSees) {
+  const MirrorRoom empty;
+  for (const MirrorRoom& room : {furnished(), empty}) {
+    const bool has_furniture = room.scene.triangles.size() > empty.scene.triangles.size();
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    PlannedViewOptions options;
+    options.choice.max_maps = 1;
+    const auto eyes = eyes_in_room(1000);
+    Planned planned = plan_in(*accel, room, eyes, options);
+    const std::vector<FoundReflector> as_planned = planned.reflectors;
+    const Surroundings surroundings(*accel, as_planned, {});
+    Context context;
+    std::vector<RadianceMap>& maps = planned.plan.maps;
+    ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, maps));
+    const auto held_out = eyes_in_room(60, 1000);
+    const ViewQuality before = judge(*accel, planned, maps, held_out);
+    ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes, {}, context, planned.reflectors, maps));
+    const ViewQuality after = judge(*accel, planned, maps, held_out);
+    EXPECT_EQ(maps.size(), has_furniture ? 2u : 1u);
+    EXPECT_EQ(planned.reflectors[0].reflector.map_count, maps.size());
+    if (!has_furniture) continue;
+    std::printf("one map: seen %.2f %%, with its residual %.2f %%\n", 100 * before.seen, 100 * after.seen);
+    EXPECT_NEAR(after.seen - before.seen, after.residual, 1e-9);
+    EXPECT_LT(1 - after.seen, 0.5 * (1 - before.seen));
+    const RadianceMap &map = maps[1], &host = maps[0];
+    EXPECT_TRUE(map.residual);
+    EXPECT_EQ(map.eye, host.eye);
+    const Reflector& r = planned.reflectors[0].reflector;
+    for (std::size_t i = 0; i < map.valid.size(); ++i) {
+      if (map.valid[i] == 0) continue;
+      const Vec4 h = unproject(map, Vec2(i % map.width, i / map.width) + 0.5f, map.disparity[i]);
+      const Vec3 p = pack_from_reflector(r, Vec3(h) / h.w);
+      // A step from the point along each axis meets a surface of the colour that the pixel has.
+      bool on_surface = false;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-0.01f, 0.01f}) {
+          Vec3 origin = p, direction(0);
+          origin[axis] += side;
+          direction[axis] = -std::copysign(1.0f, side);
+          const Hit hit = accel->intersect({origin, direction, 0.02f});
+          on_surface = on_surface || (hit && room.outgoing()({hit}) == map.radiance[i]);
+        }
+      ASSERT_TRUE(on_surface) << p.x << " " << p.y << " " << p.z;
+    }
+  }
+}
+
+TEST(SeenReflectors, ThoseThatNobodySeesAreLeftOutWithAReason) {
+  MirrorRoom room;
+  test::SceneParts parts;
+  parts.scene() = room.scene;
+  // A mirror in a closet of its own, and one on the ceiling side of a shelf over everybody's head.
+  parts.box("closet", 1, {10, 0, 0}, {12, 3, 2}, true);
+  parts.quad("hidden mirror", 0, {10.2f, 0.2f, 0.05f}, {1.5f, 0, 0}, {0, 2, 0});
+  parts.quad("high mirror", 0, {0.5f, 2.5f, 3}, {0, 0, 1}, {2, 0, 0});
+  room.scene = parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  FoundReflectors found = find_reflectors(*accel, room.materials(), room.reflector_options());
+  ASSERT_EQ(found.reflectors.size(), 3u);
+  Context context;
+  ASSERT_TRUE(keep_seen_reflectors(*accel, eyes_in_room(200), 32, context, found));
+  ASSERT_EQ(found.reflectors.size(), 1u);
+  EXPECT_EQ(found.reflectors[0].reflector.name, "mirror");
+  ASSERT_EQ(found.omitted.size(), 2u);
+  for (const std::string& line : found.omitted)
+    EXPECT_NE(line.find("from nowhere in the eye region is anything seen in it"), std::string::npos) << line;
+}
+
+// A frame around a hole, and a part of the same plane that does not touch it: one reflector, and samples on it alone.
+TEST(SeenReflectors, HolesAndSeparatePartsAreNotReflector) {
+  MirrorRoom room;
+  test::SceneParts parts;
+  parts.add(room.scene.materials[0]);
+  parts.diffuse(Vec3(0.5f));
+  parts.quad("wall", 1, {-5, -5, 5}, {0, 10, 0}, {10, 0, 0});
+  parts.quad("mirror", 0, {-2, -2, 0}, {4, 0, 0}, {0, 1, 0});
+  parts.quad("mirror", 0, {-2, 1, 0}, {4, 0, 0}, {0, 1, 0});
+  parts.quad("mirror", 0, {-2, -1, 0}, {1, 0, 0}, {0, 2, 0});
+  parts.quad("mirror", 0, {1, -1, 0}, {1, 0, 0}, {0, 2, 0});
+  parts.quad("mirror", 0, {3, -2, 0}, {1, 0, 0}, {0, 1, 0});
+  room.scene = parts.finish();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
+  ASSERT_EQ(reflectors.size(), 1u);
+  EXPECT_NEAR(reflectors[0].reflector.area_m2, 13, 1e-4);
+  Context context;
+  const std::vector<Vec3> eyes{{0, 0, 2}, {1, 1, 3}};
+  const auto samples = sample_reflections(Surroundings(*accel, reflectors, {}), 0, eyes, 1000, 1, context);
+  ASSERT_TRUE(samples);
+  ASSERT_EQ(samples->size(), 1000u);
+  for (const ReflectedSample& s : *samples) {
+    const Vec3 p = pack_from_reflector(reflectors[0].reflector, s.on_plane);
+    EXPECT_FALSE(std::abs(p.x) < 0.999f && std::abs(p.y) < 0.999f) << "in the hole";
+    EXPECT_FALSE(p.x > 2.001f && (p.x < 2.999f || p.y > -0.999f)) << "between the parts";
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,108 @@
+// Reference frames against closed forms.
+#include <gtest/gtest.h>
+
+#include "bake/reference/reference.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+constexpr Vec3 kAlbedo{0.5f, 0.3f, 0.7f}, kEmission{2, 1, 3};
+
+// A closed room whose surfaces all reflect and emit alike: the light is the same in every direction.
+Scene furnace() {
+  test::SceneParts parts;
+  parts.box("room", parts.diffuse(kAlbedo, kEmission), Vec3(-1), Vec3(1), true);
+  return parts.finish();
+}
+
+// A lamp over a floor, without anything around.
+Scene lamp() {
+  test::SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-1, -1, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(10)), {-0.3f, 0, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f});
+  return parts.finish();
+}
+
+ReferenceFrame render(const Scene& scene, const ReferenceOptions& options, int threads = 0, std::uint64_t seed = 1) {
+  Context context;
+  context.threads = threads;
+  context.seed = seed;
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  return *render_reference({accel, lights, {}}, {.name = "", .eye = {0, 0.2f, 0.9f}, .forward = {0, -0.3f, -1}},
+                           options, context);
+}
+
+void expect_color(const FloatImage& image, const Vec3& color, double tolerance, const char* what) {
+  DVec3 mean(0);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    mean[static_cast<int>(i % 3)] += image.pixels[i] * 3.0 / static_cast<double>(image.pixels.size());
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], color[c], tolerance * color[c] + 1e-6) << what << " " << c;
+}
+
+TEST(Reference, SplitsAFurnaceIntoItsSeries) {
+  const ReferenceFrame frame = render(furnace(), {.width = 16, .height = 9, .samples = 256});
+  const Vec3 all = kEmission / (1.0f - kAlbedo), once = kAlbedo * kEmission;
+  expect_color(frame.emission, kEmission, 1e-5, "emission");
+  expect_color(frame.direct, once, 1e-3, "direct");
+  expect_color(frame.indirect, all - kEmission - once, 0.01, "indirect");
+  expect_color(frame.specular, Vec3(0), 0, "specular");
+  expect_color(frame.total, all, 0.01, "total");
+}
+
+TEST(Reference, PartsAddUp) {
+  const ReferenceFrame frame = render(lamp(), {.width = 16, .height = 9, .samples = 16});
+  for (std::size_t i = 0; i < frame.total.pixels.size(); ++i)
+    EXPECT_NEAR(frame.total.pixels[i],
+                frame.direct.pixels[i] + frame.indirect.pixels[i] + frame.specular.pixels[i] + frame.emission.pixels[i],
+                1e-5f * frame.total.pixels[i]);
+}
+
+TEST(Reference, DoesNotDependOnThreads) {
+  const ReferenceOptions options{.width = 16, .height = 9, .samples = 16};
+  EXPECT_EQ(render(lamp(), options, 1).total.pixels, render(lamp(), options, 2).total.pixels);
+  EXPECT_NE(render(lamp(), options).total.pixels, render(lamp(), options, 0, 2).total.pixels);
+}
+
+TEST(Reference, StopsAtTheErrorAskedFor) {
+  const ReferenceOptions rough{.width = 16, .height = 9, .samples = 1u << 20, .error = 0.2};
+  ReferenceOptions fine = rough;
+  fine.error = 0.02;
+  const ReferenceFrame a = render(lamp(), rough), b = render(lamp(), fine);
+  EXPECT_LE(a.relative_noise, rough.error);
+  EXPECT_LE(b.relative_noise, fine.error);
+  EXPECT_LT(a.samples, b.samples);
+  EXPECT_EQ(b.samples & (b.samples - 1), 0u);
+  ReferenceOptions as_many = fine;
+  as_many.error = 0;
+  as_many.samples = b.samples;
+  EXPECT_EQ(render(lamp(), as_many).total.pixels, b.total.pixels) << "rounds change nothing";
+}
+
+// What it says of its noise holds the distance between two frames, whose samples are more even than chance.
+TEST(Reference, TellsItsNoise) {
+  const ReferenceOptions options{.width = 16, .height = 9, .samples = 64};
+  const ReferenceFrame a = render(lamp(), options), b = render(lamp(), options, 0, 2);
+  double distance = 0, noise = 0;
+  for (std::size_t i = 0; i < a.total.pixels.size(); ++i) {
+    distance += std::pow(a.total.pixels[i] - b.total.pixels[i], 2);
+    noise += std::pow(a.noise.pixels[i], 2) + std::pow(b.noise.pixels[i], 2);
+  }
+  EXPECT_GT(distance, 0.02 * noise);
+  EXPECT_LT(distance, 1.2 * noise);
+}
+
+TEST(Reference, StopsWhenAsked) {
+  const Scene scene = lamp();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  Context context;
+  context.stop = true;
+  const auto frame = render_reference({accel, lights, {}}, {}, {}, context);
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.error().code, ErrorCode::kStopped);
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,54 @@
+// Which pixels show a reflected image, and how many of them no map has anything for.
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+Pack mirror_pack() {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
+  add_mirror(pack, {{0, 0, -1}}, 64, [](const Vec2&, const Vec3&) { return Seen{Vec3(10), 3}; });
+  return pack;
+}
+
+class Holes : public FrameTest {
+ protected:
+  // The eye opposite the map's, so that image and map have the same rays.
+  FrameStats count(const Pack& pack, Reflections mode) {
+    FrameOptions options;
+    options.reflections = mode;
+    options.count_holes = true;
+    const Camera camera{.name = "", .eye = {0, 0, 1}, .forward = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov_rad = 2.2f};
+    return draw(pack, camera, 120, 90, options).stats;
+  }
+};
+
+TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
+  const Pack whole = mirror_pack();
+  for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
+    const FrameStats stats = count(whole, mode);
+    const std::vector<std::int32_t> shown = renderer_->read_reflective();
+    ASSERT_EQ(shown.size(), 120u * 90);
+    EXPECT_EQ(shown[45 * 120 + 60], 0);
+    EXPECT_EQ(shown[0], -1) << "beside the mirror";
+    EXPECT_GT(stats.reflected_pixels, 1000u);
+    EXPECT_EQ(stats.reflected_pixels, static_cast<std::uint64_t>(std::count(shown.begin(), shown.end(), 0)));
+    EXPECT_EQ(stats.holes, 0u);
+  }
+  // Nothing is known of the map's left half.
+  Pack half = mirror_pack();
+  RadianceMap& map = half.radiance_maps[0];
+  for (std::uint32_t y = 0; y < map.height; ++y)
+    for (std::uint32_t x = 0; x < map.width / 2; ++x) map.valid[y * map.width + x] = 0;
+  for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
+    const FrameStats stats = count(half, mode);
+    const double share = static_cast<double>(stats.holes) / static_cast<double>(stats.reflected_pixels);
+    EXPECT_NEAR(share, 0.5, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

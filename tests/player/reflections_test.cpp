@@ -1,0 +1,170 @@
+// What reflectors show besides their maps: mirrored geometry and emitters in closed form; and what is left at the
+// extremes.
+#include "player/passes/geometry_pass.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+const Vec3 kGrey(10, 10, 10);
+
+Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
+  Camera camera;
+  camera.eye = eye;
+  camera.forward = glm::normalize(target - eye);
+  camera.vertical_fov_rad = 1.2f;
+  return camera;
+}
+
+// The mirror of add_mirror, all of it kGrey at z = 3, and materials 1 … 3 that shine red, green, blue.
+Pack mirror_pack() {
+  Pack pack;
+  pack.materials.resize(4);
+  pack.materials[0].metallic = 1;
+  pack.materials[0].roughness = 0;
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
+  pack.materials[1].emission = {8, 0, 0};
+  pack.materials[2].emission = {0, 8, 0};
+  pack.materials[3].emission = {0, 0, 8};
+  add_mirror(pack, {{0, 0, -1}}, 16, [](const Vec2&, const Vec3&) { return Seen{kGrey, 3}; });
+  return pack;
+}
+
+class Reflected : public FrameTest {};
+
+// Red at the left and green at the right of the eye, behind it; blue behind the mirror, where it must be clipped.
+TEST_F(Reflected, GeometryIsMirroredAndClippedAtThePlane) {
+  Pack pack = mirror_pack();
+  add_quad(pack, {0, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
+  add_quad(pack, {8, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 2, -1);
+  add_quad(pack, {2, -2, -0.5f}, {-4, 0, 0}, {0, 4, 0}, 3, -1);
+  FrameOptions options;
+  options.reflections = Reflections::kGeometry;
+  options.show = Show::kM;
+  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
+  EXPECT_NEAR(glm::length(p.at(24, 24) - Vec3(8, 0, 0)), 0, 1e-4f);
+  EXPECT_NEAR(glm::length(p.at(40, 24) - Vec3(0, 8, 0)), 0, 1e-4f);
+  EXPECT_TRUE(p.finite());
+}
+
+TEST(NearPlane, CutsThereAndKeepsTheRest) {
+  const View view = make_view(camera_at({0, 0, 0}, {0, 0, -1}), 64, 48, {{-9, -9, -9}, {9, 9, 9}});
+  const Vec4 plane = glm::normalize(Vec4(0.3f, 0.1f, -1, -2));
+  const Mat4 cut = with_near_plane(view.clip_from_pack, plane);
+  for (const Vec3& p : {Vec3(0, 0, -2.5f), Vec3(0.5f, 0, -1.9f), Vec3(0, 0.4f, -2.1f), Vec3(-0.3f, 0.2f, -6)}) {
+    const Vec4 before = view.clip_from_pack * Vec4(p, 1), after = cut * Vec4(p, 1);
+    EXPECT_NEAR(before.x / before.w, after.x / after.w, 1e-5f);
+    EXPECT_NEAR(before.y / before.w, after.y / after.w, 1e-5f);
+    EXPECT_EQ(after.z >= -after.w, glm::dot(plane, Vec4(p, 1)) >= 0) << p.x << " " << p.y << " " << p.z;
+    EXPECT_LE(after.z, after.w * 1.0001f);
+  }
+}
+
+// A lobe that is a cosine shows a parallel square as its form factor from a point under its centre (Nusselt).
+TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
+  Pack pack = mirror_pack();
+  BrdfKernel kernel;
+  kernel.alpha = 1;
+  kernel.slices.resize(2);
+  kernel.slices[0].cos_theta = 0.1f;
+  kernel.fits.resize(2);  // the identity: a clamped cosine
+  pack.kernels.push_back(kernel);
+  pack.kernels[0].weights = {1};
+  pack.materials[0].kernel = 0;
+  for (RadianceMap& map : pack.radiance_maps) map.radiance.assign(map.radiance.size(), Vec3(0));
+  Emitter emitter;
+  emitter.corners = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};  // bright towards -z
+  emitter.radiance = {100, 50, 25};
+  pack.emitters.push_back(emitter);
+  Reflector& reflector = pack.reflectors[0];
+  reflector.emitters = {0};
+  reflector.visibility_x = reflector.visibility_y = 2;
+  reflector.visibility.assign(4, 255);
+  // Of a square of half side a at height h, over its centre: (2/π) · 2 · x/√(1+x²) atan(x/√(1+x²)), x = a / h.
+  const float x = 0.5f / std::sqrt(1.25f);
+  const float expected = 4 / kPi * x * std::atan(x);
+  const Camera camera = camera_at({0, 0, 1});
+  FrameOptions options;
+  options.show = Show::kMK;
+  const auto middle = [&] { return draw(pack, camera, 65, 49, options).at(32, 24); };
+  EXPECT_NEAR(middle().x, 100 * expected, 0.05f);
+  EXPECT_NEAR(middle().z, 25 * expected, 0.02f);
+  reflector.visibility.assign(4, 51);
+  EXPECT_NEAR(middle().x, 20 * expected, 0.02f);
+  std::swap(pack.emitters[0].corners[1], pack.emitters[0].corners[3]);  // its dark side
+  EXPECT_EQ(middle().x, 0);
+  pack.emitters[0].two_sided = true;
+  EXPECT_NEAR(middle().x, 20 * expected, 0.02f);
+  options.show = Show::kM;
+  EXPECT_EQ(middle().x, 0) << "M is the world without them";
+}
+
+TEST_F(Reflected, EmittersOutOfRangeAreRefused) {
+  Pack pack = mirror_pack();
+  pack.reflectors[0].emitters = {0};
+  pack.reflectors[0].visibility_x = pack.reflectors[0].visibility_y = 2;
+  pack.reflectors[0].visibility.assign(4, 255);
+  const auto scene = GpuScene::create(pack, device_);
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().message.find("emitter"), std::string::npos) << scene.error().text();
+}
+
+// From a coin to a kilometre, from straight before to edge-on, in every mode: no number that is none.
+TEST_F(Reflected, EverySizeEveryAngleEveryMode) {
+  for (const float scale : {1e-3f, 1.0f, 1e3f}) {
+    Pack pack = mirror_pack();
+    for (Vec3& p : pack.mesh.positions) p *= scale;
+    pack.reflectors[0].lower *= scale;
+    pack.reflectors[0].upper *= scale;
+    for (RadianceMap& map : pack.radiance_maps) {
+      map.eye *= scale;
+      map.lower *= scale;
+      map.upper *= scale;
+    }
+    for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints, Reflections::kGeometry})
+      for (const Vec3& eye : {Vec3(0, 0, 1), Vec3(3, 0, 1e-3f), Vec3(3, 0, 1e-6f), Vec3(0, 0, 0), Vec3(0.2f, 0, -1),
+                              Vec3(0, 0, 3000), Vec3(900, 0, 1)}) {
+        FrameOptions options;
+        options.reflections = mode;
+        options.show = Show::kM;
+        const Picture p = draw(pack, camera_at(eye * scale, {0.01f * scale, 0, 0}), 48, 32, options);
+        EXPECT_TRUE(p.finite()) << scale << " " << eye.x << " " << eye.z;
+      }
+    FrameOptions march;
+    march.show = Show::kM;
+    EXPECT_NEAR(draw(pack, camera_at(Vec3(0, 0, 1) * scale), 48, 32, march).at(24, 16).x, kGrey.x, 1e-3f) << scale;
+  }
+}
+
+// Blur off is M; a constant kernel blurs what touches the mirror as much as what is far away.
+TEST_F(Reflected, BlurModes) {
+  Pack pack = mirror_pack();
+  RadianceMap& map = pack.radiance_maps[0];
+  for (std::uint32_t i = 0; i < map.width * map.height; ++i) {
+    map.radiance[i] = i % map.width < map.width / 2 ? Vec3(40) : Vec3(0);
+    map.disparity[i] = i / map.width < map.height / 2 ? 0.999f : 0.1f;  // below, on the mirror; above, far away
+  }
+  BrdfKernel kernel;
+  kernel.size = 9;
+  kernel.half_extent = 0.4f;
+  kernel.weights.assign(81, 1.0f / 81);
+  pack.kernels.push_back(kernel);
+  pack.materials[0].kernel = 0;
+  const auto rise = [&](Blur blur, int y) {  // pixels over which the edge goes from a tenth to nine
+    FrameOptions options;
+    options.show = Show::kMK;
+    options.blur = blur;
+    const Picture p = draw(pack, camera_at({0, 0, 1}), 160, 120, options);
+    int between = 0;
+    for (int x = 40; x < 120; ++x) between += p.at(x, y).x > 4 && p.at(x, y).x < 36;
+    return between;
+  };
+  EXPECT_GT(rise(Blur::kDistance, 40), 2 * rise(Blur::kDistance, 95));
+  EXPECT_NEAR(rise(Blur::kConstant, 40), rise(Blur::kConstant, 95), 4);
+  EXPECT_LE(rise(Blur::kOff, 40), rise(Blur::kDistance, 95) + 1);
+}
+
+}  // namespace
+}  // namespace oriel
