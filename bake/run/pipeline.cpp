@@ -6,8 +6,8 @@
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
-#include "bake/run/stages/movers.h"
 #include "bake/run/report.h"
+#include "bake/run/stages/movers.h"
 #include "formats/core/color.h"
 
 namespace oriel {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bake/radiosity/lit_sides.h"
-#include "bake/run/stages/movers.h"
 #include "bake/run/pipeline.h"
+#include "bake/run/stages/movers.h"
 #include "bake/run/stages/reflections.h"
 
 namespace oriel {

@@ -16,8 +16,8 @@ namespace oriel {
 Status write_exr(const std::filesystem::path& path, const FloatImage& image,
                  const std::map<std::string, std::string>& attributes = {});
 
-// Several pictures of one size in one file: the layer "" has the plain channels, the layer "specular" has specular.R and
-// so on, as compositors show them.
+// Several pictures of one size in one file: the layer "" has the plain channels, the layer "specular" has specular.R
+// and so on, as compositors show them.
 struct LayeredImage {
   std::map<std::string, FloatImage> layers;
   std::map<std::string, std::string> attributes;

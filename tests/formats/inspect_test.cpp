@@ -88,11 +88,10 @@ TEST_F(Inspect, MissingFileAndBlockedFolder) {
 TEST_F(Inspect, InfoForPeople) {
   const Outcome info = run("info " + pack_.string());
   EXPECT_EQ(info.code, 0) << info.err;
-  for (const char* text :
-       {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
-        "reflector 0: 'floor'", "radiance map 1: 6 x 4", "2 emitters in closed form", "bytes a pixel as stored",
-        "walk grid 1: 1 x 1 cells of 1 m, 1 m2 walkable", "camera 'door'", "mover 'door': 2 triangles",
-        "light field: 1 x 1 x 1 cells, 7 of 8 probes", "\"seed\": 7"})
+  for (const char* text : {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
+                           "reflector 0: 'floor'", "radiance map 1: 6 x 4", "2 emitters in closed form",
+                           "bytes a pixel as stored", "walk grid 1: 1 x 1 cells of 1 m, 1 m2 walkable", "camera 'door'",
+                           "mover 'door': 2 triangles", "light field: 1 x 1 x 1 cells, 7 of 8 probes", "\"seed\": 7"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 

@@ -67,11 +67,15 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   Pack pack = mirror_pack();
   BrdfKernel kernel;
   kernel.alpha = 1;
-  kernel.slices.resize(2);
+  kernel.size = kernel.slice_size = 1;
+  kernel.weights = {1};
+  KernelSlice slice;
+  slice.width = Vec2(1);
+  slice.weights = {1};
+  kernel.slices.assign(2, slice);
   kernel.slices[0].cos_theta = 0.1f;
   kernel.fits.resize(2);  // the identity: a clamped cosine
   pack.kernels.push_back(kernel);
-  pack.kernels[0].weights = {1};
   pack.materials[0].kernel = 0;
   for (RadianceMap& map : pack.radiance_maps) map.radiance.assign(map.radiance.size(), Vec3(0));
   Emitter emitter;

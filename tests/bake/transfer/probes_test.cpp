@@ -5,8 +5,8 @@
 
 #include "bake/trace/path.h"
 #include "formats/core/octahedral.h"
-#include "formats/sh/sh.h"
 #include "formats/light/light_at.h"
+#include "formats/sh/sh.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {
