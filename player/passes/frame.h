@@ -70,7 +70,7 @@ class Renderer {
   std::optional<ImageTarget> image_;
   std::vector<gpu::Query> queries_;
   PassClock clock_;
-  std::vector<std::uint32_t> marked_;  // the material of the reflector that value i + 1 in the last frame's stencil stands for
+  std::vector<std::uint32_t> marked_;  // of value i + 1 in the last frame's stencil: the reflector's material
 };
 
 }  // namespace oriel

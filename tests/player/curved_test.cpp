@@ -286,6 +286,8 @@ TEST_F(CurvedFrames, AMirrorBallShowsTheRoom) {
       draw(ball_pack(ball, room_map(ball.centre, 512, wall_light)), camera, kWidth, kHeight, options);
   ASSERT_TRUE(picture.finite());
   EXPECT_EQ(picture.stats.reflectors, 1u);
+  EXPECT_EQ(renderer_->read_reflective()[kHeight / 2 * kWidth + kWidth / 2], 0);
+  EXPECT_EQ(renderer_->read_reflective()[0], -1);
   // The light that a point of the picture shows; nothing outside the ball and in its rim, where all is squeezed.
   const auto light_at = [&](const Vec2& pixel) -> std::optional<Vec3> {
     BallHit hit;
@@ -350,6 +352,8 @@ TEST_F(CurvedFrames, ALobeBlurs) {
     return sum;
   };
   EXPECT_LT(contrast(glossy(room)), 0.3 * contrast(room));
+  options.blur = Blur::kOff;
+  EXPECT_EQ(contrast(glossy(room)), contrast(room));
 }
 
 // Off, stages, an eye at the surface and within, a ball on the floor, one pixel, orthographic: finite everywhere.
