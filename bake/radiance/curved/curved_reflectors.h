@@ -11,7 +11,7 @@ struct CurvedOptions {
   float min_extent_m = 0.05f;         // diagonal of the bounds: smaller ones are not seen
   float max_extent_m = 2;             // longest side of the bounds: larger ones see too much from their middle, so
   std::uint32_t max_pieces = 8;       // they are cut into at most so many pieces
-  std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps as captured, kMapBytesPerPixel each
+  std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps in the pack, kMapBytesPerPixel each
 };
 
 struct FoundCurvedReflector {

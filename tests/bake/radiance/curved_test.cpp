@@ -86,7 +86,7 @@ TEST(CurvedReflectors, LargeOnesAreCutSmallOnesLeftOutAndTheMostImportantKept) {
 
   CurvedOptions options;
   options.max_reflectors = 1;
-  options.memory_bytes = 256 * 256 * 17;
+  options.memory_bytes = 256 * 256 * kMapBytesPerPixel;
   const FoundCurvedReflectors few = find(room, options);
   ASSERT_EQ(few.reflectors.size(), 1u);
   EXPECT_EQ(few.maps[0].size, 256u);
@@ -143,7 +143,7 @@ TEST(Surroundings, WhatLiesInsideTheObjectIsNotSeen) {
 TEST(Surroundings, DoNotDependOnThreads) {
   const BallRoom room(1);
   CurvedOptions options;
-  options.memory_bytes = 64 * 64 * 17;
+  options.memory_bytes = 64 * 64 * kMapBytesPerPixel;
   const FoundCurvedReflectors one = captured(room, find(room, options), 1),
                               four = captured(room, find(room, options), 4);
   ASSERT_EQ(one.maps.size(), 1u);
@@ -161,7 +161,7 @@ TEST(Surroundings, AreFiniteWhereTheObjectTouches) {
     parts.sphere("ball", 0, {2, 0.25f - sink, 3}, 0.25f, 2);
     room.scene = parts.finish();
     CurvedOptions options;
-    options.memory_bytes = 64 * 64 * 17;
+    options.memory_bytes = 64 * 64 * kMapBytesPerPixel;
     const FoundCurvedReflectors found = captured(room, find(room, options));
     ASSERT_EQ(found.maps.size(), 1u);
     for (const float d : found.maps[0].inverse_distance) ASSERT_TRUE(std::isfinite(d) && d >= 0);
