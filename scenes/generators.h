@@ -18,6 +18,9 @@ struct GalleryOptions {
 };
 Scene make_gallery(const GalleryOptions& options = {});
 
+// A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
+Scene make_studio();
+
 struct HouseOptions {
   std::uint64_t triangles = 100'000;
   int reflectors = 5;

@@ -28,6 +28,7 @@ int report(const oriel::Error& error) {
 oriel::Result<oriel::sample::Scene> make_scene(const Arguments& arguments) {
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
+  if (arguments.scene == "studio") return oriel::sample::make_studio();
   return oriel::sample::make_house(arguments.house);
 }
 
@@ -88,8 +89,9 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 1 usage, 2 the file cannot be written, 4 failed at run time.",
       "oriel-scenes"};
   Arguments arguments;
-  app.add_option("scene", arguments.scene, "Which scene: the Cornell box, a museum of three rooms, a two-storey house")
-      ->check(CLI::IsMember({"cornell", "gallery", "house"}));
+  app.add_option("scene", arguments.scene,
+                 "Which scene: the Cornell box, a museum of three rooms, a two-storey house, a room with curved metal")
+      ->check(CLI::IsMember({"cornell", "gallery", "house", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
   const auto* triangles = app.add_option("--triangles", arguments.house.triangles,
                                          "house: triangles to make, within 10 %, to see how tools scale")

@@ -8,16 +8,11 @@
 #include "formats/core/check.h"
 
 namespace oriel {
-namespace {
 
-float finite_or_zero(float x) {
-  return std::isfinite(x) && x > 0 ? x : 0.0f;
+Vec3 usable_light(const Vec3& c) {
+  const auto channel = [](float x) { return std::isfinite(x) && x > 0 ? x : 0.0f; };
+  return {channel(c.r), channel(c.g), channel(c.b)};
 }
-Vec3 finite_or_zero(const Vec3& c) {
-  return {finite_or_zero(c.r), finite_or_zero(c.g), finite_or_zero(c.b)};
-}
-
-}  // namespace
 
 SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction) {
@@ -25,14 +20,14 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
   SeenLight seen;
   const auto add = [&](SeenSurface surface) {
     surface.emission = !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
-    seen.radiance += surface.throughput * finite_or_zero(outgoing(surface));
+    seen.radiance += surface.throughput * usable_light(outgoing(surface));
     return true;
   };
   seen.sight = surroundings.look(reflector, from, direction, add);
   if (seen.sight.sky_direction != Vec3(0))
-    seen.radiance += seen.sight.sky_throughput *
-                     finite_or_zero(sky_radiance(surroundings.accel().scene(), seen.sight.sky_direction));
-  seen.radiance = seen.sight.state == Sight::kNothing ? Vec3(0) : finite_or_zero(seen.radiance);
+    seen.radiance +=
+        seen.sight.sky_throughput * usable_light(sky_radiance(surroundings.accel().scene(), seen.sight.sky_direction));
+  seen.radiance = seen.sight.state == Sight::kNothing ? Vec3(0) : usable_light(seen.radiance);
   return seen;
 }
 

@@ -11,6 +11,9 @@ namespace oriel {
 // Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput. Called from any thread.
 using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 
+// The light without what is negative or not finite.
+Vec3 usable_light(const Vec3& c);
+
 // What a ray from a reflector's plane sees (Surroundings::look), with its light: finite, not negative, 0 where nothing
 // usable is seen. The reflector's emitters do not shine.
 struct SeenLight {

@@ -1,6 +1,7 @@
 #include "bake/radiance/reflectors.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "bake/radiance/patches.h"
@@ -14,10 +15,6 @@ namespace {
 
 constexpr std::uint32_t kOpenRays = 128;  // per side of a patch
 constexpr float kMaxFlatness = 1e-3f;     // of a reflector's own size
-
-float reflectance_at_60_deg(const ReflectorMaterial& m) {
-  return max_component(glm::mix(m.f0, Vec3(m.f90), Vec3(fresnel_weight(m.curve, 0.5))));
-}
 
 // Triangles that may reflect, by node name and material: parts of one node that were split by the exporter join again.
 using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>>;
@@ -154,6 +151,10 @@ double importance(const FoundReflector& f) {
 
 }  // namespace
 
+float reflectance_at_60_deg(const ReflectorMaterial& m) {
+  return max_component(glm::mix(m.f0, Vec3(m.f90), Vec3(fresnel_weight(m.curve, 0.5))));
+}
+
 FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMaterial> materials,
                                 const ReflectorOptions& options) {
   const Scene& scene = accel.scene();
@@ -168,11 +169,11 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
                                    .min_area_m2 = options.min_area_m2};
   for (const auto& [key, triangles] : groups) {
     const auto& [material, name] = key;
-    double total = 0, kept = 0, hidden = 0;
+    double hidden = 0;
     std::size_t hidden_count = 0;
-    for (const std::uint32_t t : triangles) total += triangle_area(scene, t);
+    std::vector<std::uint32_t> planar;
     for (const PlanarPatch& patch : find_planar_patches(scene, triangles, patch_options)) {
-      kept += patch.area_m2;
+      planar.insert(planar.end(), patch.triangles.begin(), patch.triangles.end());
       if (add_sides(accel, patch, materials[material], options, out.reflectors)) continue;
       hidden += patch.area_m2;
       ++hidden_count;
@@ -181,10 +182,11 @@ FoundReflectors find_reflectors(const Accel& accel, std::span<const ReflectorMat
       out.omitted.push_back(
           fmt::format("'{}' ({} planar pieces, {:.3g} m²): sees nothing further away than a tenth of its size", name,
                       hidden_count, hidden));
-    if (total - kept > 1e-3 * total)
-      out.omitted.push_back(fmt::format("'{}', material '{}': {:.3g} m² are curved or in planar pieces below {:.3g} m²",
-                                        name, scene.materials[material].name, total - kept, options.min_area_m2));
+    std::sort(planar.begin(), planar.end());
+    std::set_difference(triangles.begin(), triangles.end(), planar.begin(), planar.end(),
+                        std::back_inserter(out.unplanar));
   }
+  std::sort(out.unplanar.begin(), out.unplanar.end());
   std::stable_sort(out.reflectors.begin(), out.reflectors.end(), [](const FoundReflector& a, const FoundReflector& b) {
     return importance(a) != importance(b) ? importance(a) > importance(b) : a.triangles.front() < b.triangles.front();
   });

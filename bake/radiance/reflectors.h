@@ -20,6 +20,9 @@ struct ReflectorMaterial {
   FresnelCurve curve = {};
 };
 
+// R at 60 degrees, largest channel.
+float reflectance_at_60_deg(const ReflectorMaterial& material);
+
 struct ReflectorOptions {
   float max_roughness = 0.4f;         // wider lobes show no image
   float min_reflectance = 0.03f;      // at 60°, largest channel: weaker ones are not seen
@@ -42,6 +45,8 @@ struct FoundReflector {
 struct FoundReflectors {
   std::vector<FoundReflector> reflectors;  // most important first
   std::vector<std::string> omitted;        // what reflects but was left out, and why; one line each
+  // Triangles whose material shows an image, but which lie in no planar patch that is large enough; ascending.
+  std::vector<std::uint32_t> unplanar;
 };
 
 // Coplanar triangles of one material in parts of one name make a reflector, connected or not. Its frame: origin in the

@@ -6,6 +6,7 @@
 
 #include "bake/atlas/atlas.h"
 #include "bake/material/materials.h"
+#include "bake/radiance/curved/curved_reflectors.h"
 #include "bake/radiance/plan/planned_views.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
@@ -36,6 +37,7 @@ struct BakeOptions {
   ViewOptions views;  // of hemispheres
   EyeOptions eyes;
   SightOptions sight;
+  CurvedOptions curved;
   MaterialOptions material;
   TransferOptions transfer;
   CompressOptions compress;

@@ -44,7 +44,7 @@ Json atlas_json(const Atlas& atlas) {
           {"time_limit_struck", r.time_limit_struck}};
 }
 
-// What each reflector's maps show to eyes that they were not planned for.
+// Planar ones with what their maps show to eyes that they were not planned for.
 Json reflectors_json(const BakeFacts& f) {
   Json out = Json::array();
   for (std::size_t i = 0; i < f.pack.reflectors.size(); ++i) {
@@ -55,6 +55,8 @@ Json reflectors_json(const BakeFacts& f) {
       pixels += std::uint64_t{map.width} * map.height;
     }
     out.push_back({{"name", r.name},
+                   {"kind", "planar"},
+                   {"why", fmt::format("within {:.2g} m of a plane", r.flatness_m)},
                    {"area_m2", r.area_m2},
                    {"elements", r.elements_x * r.elements_y},
                    {"maps", r.map_count},
@@ -63,6 +65,12 @@ Json reflectors_json(const BakeFacts& f) {
                    {"sharp", f.reflections.quality[i].sharp},
                    {"seen_in_residual", f.reflections.quality[i].residual}});
   }
+  for (const CurvedReflector& r : f.pack.curved_reflectors)
+    out.push_back({{"name", r.name},
+                   {"kind", "curved"},
+                   {"why", "curved, or flat in pieces too small for planar reflectors"},
+                   {"triangles", r.indices.size() / 3},
+                   {"map_size", f.pack.surround_maps[r.map].size}});
   return out;
 }
 
@@ -127,6 +135,7 @@ std::string plan_json(const BakeFacts& f) {
       {"radiance",
        {{"reflectors", reflectors_json(f)},
         {"maps", f.pack.radiance_maps.size()},
+        {"surround_maps", f.pack.surround_maps.size()},
         {"walkable_m2", walkable_m2(f.pack)},
         {"rays", f.reflections.rays}}},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},

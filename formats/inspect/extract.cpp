@@ -10,6 +10,16 @@
 #include "formats/pack/reader.h"
 
 namespace oriel::inspect {
+namespace {
+
+// A surface white, sky grey, nothing usable black.
+ByteImage validity_image(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& valid) {
+  ByteImage image{width, height, 1, valid};
+  for (auto& v : image.pixels) v = v == 1 ? 255 : v == 2 ? 128 : 0;
+  return image;
+}
+
+}  // namespace
 
 Status Extraction::lightmaps() {
   for (std::size_t i = 0; i < pack_.lightmaps.size(); ++i) {
@@ -46,9 +56,22 @@ Status Extraction::radiance_maps() {
                {"has_emission", map.has_emission}};
     ORIEL_TRY_VOID(exr(entry, "radiance", name + ".exr", rgb_image(map.width, map.height, map.radiance), "cd/m2"));
     ORIEL_TRY_VOID(exr(entry, "disparity", name + "_disparity.exr", {map.width, map.height, 1, map.disparity}, "1"));
-    ByteImage valid{map.width, map.height, 1, map.valid};
-    for (auto& v : valid.pixels) v = v == 1 ? 255 : v == 2 ? 128 : 0;
-    ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", valid));
+    ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", validity_image(map.width, map.height, map.valid)));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
+Status Extraction::surround_maps() {
+  for (std::size_t i = 0; i < pack_.surround_maps.size(); ++i) {
+    const auto& map = pack_.surround_maps[i];
+    const std::string name = fmt::format("surround_map_{:03}", i);
+    Json entry{{"kind", "surround_map"}, {"number", i},     {"width", map.size},
+               {"height", map.size},     {"unit", "cd/m2"}, {"centre", {map.centre.x, map.centre.y, map.centre.z}}};
+    ORIEL_TRY_VOID(exr(entry, "radiance", name + ".exr", rgb_image(map.size, map.size, map.radiance), "cd/m2"));
+    ORIEL_TRY_VOID(exr(entry, "inverse_distance", name + "_inverse_distance.exr",
+                       {map.size, map.size, 1, map.inverse_distance}, "1/m"));
+    ORIEL_TRY_VOID(png(entry, "valid", name + "_valid.png", validity_image(map.size, map.size, map.valid)));
     index_.push_back(std::move(entry));
   }
   return {};
@@ -96,9 +119,13 @@ struct Kind {
   const char* name;
   Status (Extraction::*write)();
 };
-constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},  {"radiance_map", &Extraction::radiance_maps},
-                           {"brdf_kernel", &Extraction::kernels}, {"fresnel_map", &Extraction::fresnel_maps},
-                           {"texture", &Extraction::textures},    {"mesh", &Extraction::mesh}};
+constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},
+                           {"radiance_map", &Extraction::radiance_maps},
+                           {"surround_map", &Extraction::surround_maps},
+                           {"brdf_kernel", &Extraction::kernels},
+                           {"fresnel_map", &Extraction::fresnel_maps},
+                           {"texture", &Extraction::textures},
+                           {"mesh", &Extraction::mesh}};
 
 }  // namespace
 

@@ -35,6 +35,7 @@ class Extraction {
 
   Status lightmaps();
   Status radiance_maps();
+  Status surround_maps();
   Status kernels();
   Status fresnel_maps();
   Status textures();

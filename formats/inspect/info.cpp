@@ -6,6 +6,7 @@
 
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
+#include "formats/inspect/info_reflections.h"
 #include "formats/inspect/summary.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
@@ -15,19 +16,6 @@ namespace oriel::inspect {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// As stored, valid pixels or not; 0 where there are none.
-double radiance_bytes_per_pixel(const PackIndex& index, const Pack& pack) {
-  double bytes = 0, pixels = 0;
-  for (const auto& section : index.sections)
-    if (section.kind == kRadianceMapSection) bytes += static_cast<double>(section.stored_bytes);
-  for (const auto& map : pack.radiance_maps) pixels += static_cast<double>(map.valid.size());
-  return pixels > 0 ? bytes / pixels : 0;
-}
-
-Json triple(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 std::size_t valid_probes(const LightField& field) {
   return static_cast<std::size_t>(
@@ -85,37 +73,6 @@ Json lightmaps_json(const Pack& pack) {
   return out;
 }
 
-Json reflectors_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& r : pack.reflectors)
-    out.push_back({{"name", r.name},
-                   {"material", r.material},
-                   {"area_m2", r.area_m2},
-                   {"flatness_m", r.flatness_m},
-                   {"elements", {r.elements_x, r.elements_y}},
-                   {"first_map", r.first_map},
-                   {"map_count", r.map_count},
-                   {"emitters", r.emitters},
-                   {"visibility_nodes", {r.visibility_x, r.visibility_y}}});
-  return out;
-}
-
-Json radiance_maps_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& map : pack.radiance_maps) {
-    const auto s = summarise(map);
-    out.push_back({{"reflector", map.reflector},
-                   {"width", map.width},
-                   {"height", map.height},
-                   {"eye", triple(map.eye)},
-                   {"has_emission", map.has_emission},
-                   {"residual", map.residual},
-                   {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
-                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
-  }
-  return out;
-}
-
 Json movers_json(const Pack& pack) {
   Json out = Json::array();
   for (const Mover& m : pack.movers)
@@ -159,28 +116,6 @@ Json materials_json(const Pack& pack) {
   return out;
 }
 
-Json emitters_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& e : pack.emitters) {
-    Json corners = Json::array();
-    for (const Vec3& corner : e.corners) corners.push_back(triple(corner));
-    out.push_back({{"corners", corners}, {"radiance", triple(e.radiance)}, {"two_sided", e.two_sided}});
-  }
-  return out;
-}
-
-Json walk_grids_json(const Pack& pack) {
-  Json out = Json::array();
-  for (const auto& g : pack.walk_grids)
-    out.push_back({{"lower", {g.lower.x, g.lower.y}},
-                   {"cell_m", g.cell_m},
-                   {"width", g.width},
-                   {"height", g.height},
-                   {"walkable_m2", g.walkable_m2()},
-                   {"eye_height_m", g.eye_height_m}});
-  return out;
-}
-
 Json small_maps_json(const Pack& pack, Json out) {
   out["textures"] = Json::array();
   for (const auto& t : pack.textures)
@@ -221,11 +156,7 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["sky"] = triple(pack.sky);
   out["materials"] = materials_json(pack);
   out["lightmaps"] = lightmaps_json(pack);
-  out["reflectors"] = reflectors_json(pack);
-  out["radiance_maps"] = radiance_maps_json(pack);
-  out["radiance_map_bytes_per_pixel"] = radiance_bytes_per_pixel(index, pack);
-  out["emitters"] = emitters_json(pack);
-  out["walk_grids"] = walk_grids_json(pack);
+  add_reflections(index, pack, out);
   out["movers"] = movers_json(pack);
   out["light_field"] = light_field_json(pack.light_field);
   return small_maps_json(pack, std::move(out));
@@ -286,28 +217,7 @@ void print_maps(const PackIndex& index, const Pack& pack) {
                page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
                page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
   }
-  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
-    const auto& r = pack.reflectors[i];
-    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}{}\n", i, r.name,
-               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map,
-               r.emitters.empty() ? "" : fmt::format(", {} emitters in closed form", r.emitters.size()));
-  }
-  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
-    const auto& map = pack.radiance_maps[i];
-    const auto s = summarise(map);
-    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}{}\n", i,
-               map.width, map.height, map.reflector,
-               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max,
-               map.residual ? ", residual" : "");
-  }
-  if (!pack.radiance_maps.empty())
-    fmt::print("{} radiance maps: {:.3g} bytes a pixel as stored\n", pack.radiance_maps.size(),
-               radiance_bytes_per_pixel(index, pack));
-  for (std::size_t i = 0; i < pack.walk_grids.size(); ++i) {
-    const auto& g = pack.walk_grids[i];
-    fmt::print("walk grid {}: {} x {} cells of {:.3g} m, {:.4g} m2 walkable, eyes {:.3g} m over the floor\n", i,
-               g.width, g.height, g.cell_m, g.walkable_m2(), g.eye_height_m);
-  }
+  print_reflections(index, pack);
   print_material_maps(pack);
 }
 

@@ -30,7 +30,11 @@ LightmapSummary summarise(const LightmapPage& page) {
   return summary;
 }
 
-RadianceMapSummary summarise(const RadianceMap& map) {
+namespace {
+
+// RadianceMap or SurroundMap.
+template <class Map>
+RadianceMapSummary summarise_radiance(const Map& map) {
   RadianceMapSummary summary;
   double sum = 0;
   for (std::size_t i = 0; i < map.valid.size(); ++i) {
@@ -42,6 +46,15 @@ RadianceMapSummary summarise(const RadianceMap& map) {
   }
   if (summary.pixels[1] > 0) summary.mean = sum / static_cast<double>(summary.pixels[1]);
   return summary;
+}
+
+}  // namespace
+
+RadianceMapSummary summarise(const RadianceMap& map) {
+  return summarise_radiance(map);
+}
+RadianceMapSummary summarise(const SurroundMap& map) {
+  return summarise_radiance(map);
 }
 
 Bounds bounds_of(const Mesh& mesh) {

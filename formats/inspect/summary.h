@@ -22,6 +22,7 @@ struct RadianceMapSummary {
   double mean = 0, max = 0;               // cd/m², of the surface pixels
 };
 RadianceMapSummary summarise(const RadianceMap& map);
+RadianceMapSummary summarise(const SurroundMap& map);
 
 // Pack space, metres; zeros for a mesh without vertices.
 struct Bounds {

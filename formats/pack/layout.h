@@ -87,6 +87,8 @@ inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
 inline constexpr std::uint32_t kResidualSection = fourcc("RRES");
 inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
 inline constexpr std::uint32_t kReflectorEmitterSection = fourcc("REMT");
+inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
+inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
 inline constexpr std::uint32_t kKernelSliceSection = fourcc("KINC");
 inline constexpr std::uint32_t kKernelFitSection = fourcc("KLTC");
@@ -99,7 +101,7 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 25> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -115,6 +117,8 @@ inline constexpr std::array<SectionKind, 25> kSectionKinds = {{
     {kResidualSection, "residual radiance maps", true, false, false},
     {kEmitterSection, "emitters", true, false, false},
     {kReflectorEmitterSection, "emitters by reflector", true, false, false},
+    {kCurvedReflectorSection, "curved reflectors", true, false, false},
+    {kSurroundMapSection, "surround map", true, false, true},
     {kKernelSection, "kernels", false, false, false},
     {kKernelSliceSection, "kernels by incidence", true, false, false},
     {kKernelFitSection, "kernels as cosines", true, false, false},

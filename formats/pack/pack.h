@@ -14,6 +14,7 @@
 #include "formats/assets/mesh.h"
 #include "formats/assets/mover.h"
 #include "formats/assets/radiance_map.h"
+#include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
 
@@ -43,6 +44,8 @@ struct Pack {
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
   std::vector<Emitter> emitters;  // that reflectors show in closed form
+  std::vector<CurvedReflector> curved_reflectors;
+  std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;
   std::vector<FresnelMap> fresnel_maps;
   SplitReflectance split_reflectance;

@@ -91,6 +91,10 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, pack.reflectors);
     case kRadianceMapSection:
       return decode_list(in, section, pack.radiance_maps);
+    case kCurvedReflectorSection:
+      return decode_list(in, section, pack.curved_reflectors);
+    case kSurroundMapSection:
+      return decode_list(in, section, pack.surround_maps);
     case kKernelSection:
       return decode_list(in, section, pack.kernels);
     case kKernelSliceSection:

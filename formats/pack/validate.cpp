@@ -203,6 +203,8 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, list);
   validate_emitters(pack, list);
+  validate_curved_reflectors(pack, list);
+  validate_surround_maps(pack, list);
   validate_kernels(pack, list);
   validate_kernel_fits(pack, list);
   validate_fresnel_maps(pack, list);

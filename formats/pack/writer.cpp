@@ -161,6 +161,8 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kResidualSection, residual_maps(pack));
   list.add_list(kEmitterSection, pack.emitters);
   list.add_list(kReflectorEmitterSection, reflector_emitters(pack));
+  list.add_list(kCurvedReflectorSection, pack.curved_reflectors);
+  list.add_each(kSurroundMapSection, pack.surround_maps);
   list.add_list(kKernelSection, pack.kernels);
   list.add_list(kKernelSliceSection, kernel_slices(pack));
   list.add_list(kKernelFitSection, kernel_fits(pack));

@@ -40,9 +40,9 @@ class Stages {
                       : 0;
     options_.count_holes = false;
     ORIEL_TRY(frame.total, draw_stage(Show::kAll));
-    const std::vector<std::int32_t> reflectors = renderer_.read_reflectors();
-    frame.mirrors = region(reflectors, false);
-    frame.glossy = region(reflectors, true);
+    const std::vector<std::int32_t> materials = renderer_.read_reflective();
+    frame.mirrors = region(materials, false);
+    frame.glossy = region(materials, true);
     return frame;
   }
 
@@ -55,16 +55,15 @@ class Stages {
   }
 
   // Pixels of the small picture all of whose parts show reflectors that blur, or that do not.
-  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& reflectors, bool blurs) const {
+  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& materials, bool blurs) const {
     const Pack& pack = scene_.pack();
     const std::size_t width = static_cast<std::size_t>(view_.width) / n_,
                       height = static_cast<std::size_t>(view_.height) / n_;
     std::vector<std::uint8_t> out(width * height, 1);
-    for (std::size_t i = 0; i < reflectors.size(); ++i) {
-      bool counts = reflectors[i] >= 0;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      bool counts = materials[i] >= 0;
       if (counts) {
-        const std::int32_t kernel =
-            pack.materials[pack.reflectors[static_cast<std::size_t>(reflectors[i])].material].kernel;
+        const std::int32_t kernel = pack.materials[static_cast<std::size_t>(materials[i])].kernel;
         counts = (kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1) == blurs;
       }
       const std::size_t large = static_cast<std::size_t>(view_.width);

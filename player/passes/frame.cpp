@@ -50,6 +50,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
+  ORIEL_TRY(renderer->curved_pass_, CurvedPass::create(device.dialect));
   ORIEL_TRY(renderer->display_, DisplayPass::create(device.dialect));
   ORIEL_TRY_VOID(gpu::check_gl("compiling shaders"));
   return renderer;
@@ -82,7 +83,7 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     const bool see_through = scene.is_transparent(reflector.material);
     if (!see_through && marked_.size() >= kReflectorBits) continue;  // more than the stencil counts
     if (!see_through) {
-      marked_.push_back(reflector.index);
+      marked_.push_back(reflector.material);
       candidate.value = static_cast<GLint>(marked_.size());
     }
     if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
@@ -143,6 +144,28 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   return {};
 }
 
+// Gives the see-through ones, whose light is added once the scene is drawn.
+std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, const View& view,
+                                                             const FrameOptions& options,
+                                                             std::set<std::uint32_t>& reflective, FrameStats& stats) {
+  std::vector<const GpuCurvedReflector*> see_through;
+  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
+    if (!may_be_visible(frustum, reflector.bounds)) continue;
+    if (scene.is_transparent(reflector.material)) {
+      curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
+      see_through.push_back(&reflector);
+    } else if (marked_.size() < kReflectorBits) {
+      marked_.push_back(reflector.material);
+      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(marked_.size()), kReflectorBits, options,
+                              stats);
+      reflective.insert(reflector.material);
+    }
+  }
+  return see_through;
+}
+
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
   if (options.white > 0 || !needs_white(scene)) return options.white;
   ORIEL_TRY(const std::optional<float> ev100, meter());
@@ -176,6 +199,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
     reflective.insert(candidate.reflector->material);
   }
+  const auto see_through =
+      clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
@@ -185,6 +210,10 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
   }
+  clock_.time(Pass::kCurved, [&] {
+    for (const GpuCurvedReflector* reflector : see_through)
+      curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
+  });
   stats.map_bytes = scene.map_bytes();
   stats.ms = clock_.read();
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
@@ -200,20 +229,20 @@ std::vector<float> Renderer::read_light() const {
   return flipped(rgba, width, height);
 }
 
-std::vector<std::int32_t> Renderer::read_reflectors() const {
+std::vector<std::int32_t> Renderer::read_reflective() const {
   const auto width = static_cast<std::size_t>(frame_->light.width());
   const auto height = static_cast<std::size_t>(frame_->light.height());
   std::vector<std::uint8_t> stencil(width * height);
   frame_->framebuffer.bind();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, frame_->light.width(), frame_->light.height(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
-  std::vector<std::int32_t> reflectors;
+  std::vector<std::int32_t> materials;
   for (std::size_t y = height; y-- > 0;)
     for (std::size_t x = 0; x < width; ++x) {
       const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
-      reflectors.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
+      materials.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
     }
-  return reflectors;
+  return materials;
 }
 
 Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {

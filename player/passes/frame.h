@@ -9,6 +9,7 @@
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
 #include "player/reflections/convolve_pass.h"
+#include "player/reflections/curved_pass.h"
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/reproject_pass.h"
@@ -28,9 +29,9 @@ class Renderer {
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
-  // By pixel of the last frame, row 0 at the top: which of Pack::reflectors shows its image there; -1: none that is
-  // opaque.
-  std::vector<std::int32_t> read_reflectors() const;
+  // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
+  // curved, that shows its image there; -1: none that is opaque.
+  std::vector<std::int32_t> read_reflective() const;
   // The last frame as display() shows it, RGB, row 0 at the top. Leaves its own framebuffer bound.
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
 
@@ -51,6 +52,9 @@ class Renderer {
                            const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
+  // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
+  std::vector<const GpuCurvedReflector*> draw_curved(GpuScene& scene, const View& view, const FrameOptions& options,
+                                                     std::set<std::uint32_t>& reflective, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;
@@ -60,12 +64,13 @@ class Renderer {
   ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
+  CurvedPass curved_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;
   std::vector<gpu::Query> queries_;
   PassClock clock_;
-  std::vector<std::uint32_t> marked_;  // the reflector that value i + 1 in the last frame's stencil stands for
+  std::vector<std::uint32_t> marked_;  // of value i + 1 in the last frame's stencil: the reflector's material
 };
 
 }  // namespace oriel

@@ -1,5 +1,7 @@
 #include "player/scene/check.h"
 
+#include <bit>
+
 #include "player/maps/map_choice.h"
 
 namespace oriel {
@@ -144,6 +146,16 @@ Status check_fresnel_maps(const Pack& pack, const gpu::Device& device) {
   return {};
 }
 
+Status check_triangles(const std::string& where, const Pack& pack, const std::vector<std::uint32_t>& indices) {
+  if (indices.size() % 3 != 0) return invalid(where, "found {} indices, expected triangles", indices.size());
+  for (const std::uint32_t index : indices) {
+    if (index >= pack.mesh.positions.size()) {
+      return invalid(where, "found vertex {}, expected less than {}", index, pack.mesh.positions.size());
+    }
+  }
+  return {};
+}
+
 Status check_emitters(const Pack& pack, const Reflector& r, const std::string& where, const gpu::Device& device) {
   if (r.emitters.empty()) return {};
   if (r.emitters.size() > kMaxReflectorEmitters || r.visibility_x < 2 || r.visibility_y < 2) {
@@ -158,6 +170,31 @@ Status check_emitters(const Pack& pack, const Reflector& r, const std::string& w
     }
     const std::size_t corners = pack.emitters[emitter].corners.size();
     if (corners < 3 || corners > 4) return invalid(where, "found an emitter of {} corners, expected 3 or 4", corners);
+  }
+  return {};
+}
+
+Status check_curved_reflectors(const Pack& pack, const gpu::Device& device) {
+  for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
+    const CurvedReflector& r = pack.curved_reflectors[i];
+    const std::string where = fmt::format("curved reflector {} '{}'", i, r.name);
+    if (r.material >= pack.materials.size() || r.map >= pack.surround_maps.size()) {
+      return invalid(where, "found material {} and map {}, expected less than {} and {}", r.material, r.map,
+                     pack.materials.size(), pack.surround_maps.size());
+    }
+    ORIEL_TRY_VOID(check_triangles(where, pack, r.indices));
+  }
+  for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
+    const SurroundMap& map = pack.surround_maps[i];
+    const std::string where = fmt::format("surround map {}", i);
+    // Its levels lie side by side with their borders.
+    const std::uint64_t side = map.size + map.size / 2 + 4;
+    if (!std::has_single_bit(map.size) || side > static_cast<std::uint64_t>(device.texture_size)) {
+      return fail(ErrorCode::kRuntime, where, "found {} texels a side, expected a power of two up to {} ({})", map.size,
+                  device.texture_size / 2, device.renderer);
+    }
+    for (const std::size_t found : {map.radiance.size(), map.inverse_distance.size(), map.valid.size()})
+      ORIEL_TRY_VOID(check_size(where, map.size, map.size, found, 1, device));
   }
   return {};
 }
@@ -180,12 +217,7 @@ Status check_reflectors(const Pack& pack, const gpu::Device& device) {
       }
     }
     ORIEL_TRY_VOID(check_emitters(pack, r, where, device));
-    if (r.indices.size() % 3 != 0) return invalid(where, "found {} indices, expected triangles", r.indices.size());
-    for (const std::uint32_t index : r.indices) {
-      if (index >= pack.mesh.positions.size()) {
-        return invalid(where, "found vertex {}, expected less than {}", index, pack.mesh.positions.size());
-      }
-    }
+    ORIEL_TRY_VOID(check_triangles(where, pack, r.indices));
   }
   return {};
 }
@@ -198,6 +230,7 @@ Status check_drawable(const Pack& pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_kernels(pack, device));
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device));
+  ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
   return check_reflectors(pack, device);
 }
 

@@ -34,18 +34,18 @@ struct FrameOptions {
   float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
-enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kScene, kTransparent };
-inline constexpr std::array<const char*, 8> kPassNames{"depth",    "mask",    "reflect", "fill",
-                                                       "convolve", "compose", "scene",   "transparent"};
+enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kCurved, kScene, kTransparent };
+inline constexpr std::array<const char*, 9> kPassNames{"depth",   "mask",   "reflect", "fill",       "convolve",
+                                                       "compose", "curved", "scene",   "transparent"};
 using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
   std::uint32_t reflectors = 0;  // that had pixels in view
-  std::uint32_t maps = 0;        // radiance maps chosen
+  std::uint32_t maps = 0;        // radiance and surround maps chosen
   std::uint64_t points = 0;      // of them
-  std::uint64_t map_bytes = 0;   // of all radiance maps on the device so far
+  std::uint64_t map_bytes = 0;   // of all radiance and surround maps on the device so far
   // Of opaque reflectors, where they are counted.
   std::uint64_t reflected_pixels = 0, holes = 0;
   PassTimes ms{};  // by pass, where asked for

@@ -87,6 +87,7 @@ void GpuScene::upload_geometry() {
     (is_transparent(part.material) ? transparent_ : opaque_).push_back(range);
   }
   make_reflectors(indices);
+  make_curved_reflectors(indices);
 
   vertex_array_ = gpu::make_vertex_array();
   bind_geometry();
@@ -132,6 +133,19 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
   }
 }
 
+void GpuScene::make_curved_reflectors(std::vector<std::uint32_t>& indices) {
+  for (const CurvedReflector& r : pack_.curved_reflectors) {
+    GpuCurvedReflector out{r.material,
+                           r.map,
+                           static_cast<std::uint32_t>(indices.size()),
+                           static_cast<std::uint32_t>(r.indices.size()),
+                           {}};
+    for (const std::uint32_t index : r.indices) out.bounds.extend(pack_.mesh.positions[index]);
+    indices.insert(indices.end(), r.indices.begin(), r.indices.end());
+    curved_reflectors_.push_back(out);
+  }
+}
+
 void GpuScene::upload_images() {
   const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
   white_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, white.data());
@@ -143,6 +157,7 @@ void GpuScene::upload_images() {
   for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
   radiance_maps_.resize(pack_.radiance_maps.size());
+  surround_maps_.resize(pack_.surround_maps.size());
   sphere_maps_.resize(pack_.fresnel_maps.size());
 }
 
@@ -184,6 +199,15 @@ const MapArray& GpuScene::map_array(const ReflectorElement& element) {
     map_bytes_ += at->second.bytes();
   }
   return at->second;
+}
+
+const SurroundTextures& GpuScene::surround_map(std::uint32_t index) {
+  SurroundTextures& textures = surround_maps_[index];
+  if (!textures.light) {
+    textures = upload_surround_map(pack_.surround_maps[index]);
+    map_bytes_ += textures.light.bytes() + textures.inverse_distance.bytes();
+  }
+  return textures;
 }
 
 const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {

@@ -11,6 +11,7 @@
 #include "player/gpu/device.h"
 #include "player/maps/map_array.h"
 #include "player/maps/map_choice.h"
+#include "player/maps/surround_pyramid.h"
 #include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
@@ -38,6 +39,13 @@ struct GpuReflector {
   gpu::Texture visibility;  // of Reflector::emitters: their grids, one above the other
 };
 
+struct GpuCurvedReflector {
+  std::uint32_t material = 0;  // into Pack::materials
+  std::uint32_t map = 0;       // into Pack::surround_maps
+  std::uint32_t first_index = 0, index_count = 0;
+  Bounds bounds;
+};
+
 // K as shaders read it.
 struct GpuKernel {
   gpu::Texture taps;
@@ -58,6 +66,7 @@ class GpuScene {
   const std::vector<DrawRange>& opaque() const { return opaque_; }
   const std::vector<DrawRange>& transparent() const { return transparent_; }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
+  const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
   bool is_transparent(std::uint32_t material) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
@@ -74,7 +83,8 @@ class GpuScene {
   // Uploaded on first use and kept.
   const gpu::Texture& radiance_map(std::uint32_t index);       // as points
   const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
-  // Of radiance maps on the device.
+  const SurroundTextures& surround_map(std::uint32_t index);
+  // Of radiance and surround maps on the device.
   std::uint64_t map_bytes() const { return map_bytes_; }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
   // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
@@ -85,10 +95,13 @@ class GpuScene {
   void upload_geometry();
   void upload_images();
   void make_reflectors(std::vector<std::uint32_t>& indices);
+  void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   Pack pack_;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
   std::vector<GpuReflector> reflectors_;
+  std::vector<GpuCurvedReflector> curved_reflectors_;
+  std::vector<SurroundTextures> surround_maps_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
   std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;

@@ -10,6 +10,7 @@
 #include "formats/core/file.h"
 #include "formats/core/half.h"
 #include "formats/core/hash.h"
+#include "formats/core/octahedral.h"
 #include "formats/core/result.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,6 +20,39 @@ namespace {
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 const float kInf = std::numeric_limits<float>::infinity();
 const float kTiny = std::numeric_limits<float>::denorm_min();
+
+TEST(OctahedralMap, DirectionsComeBack) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    const Vec2 p = octahedral_from_direction(d);
+    EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1);
+    EXPECT_LT(glm::length(glm::normalize(direction_from_octahedral(p)) - d), 1e-6f);
+  }
+  EXPECT_EQ(octahedral_from_direction(Vec3(0)), Vec2(0));
+  EXPECT_EQ(octahedral_from_direction(Vec3(0, 0, -1)), Vec2(1));
+}
+
+// Across an edge of the map lies the neighbouring direction.
+TEST(OctahedralMap, GoesOnOverItsEdges) {
+  constexpr int kSize = 16;
+  const auto direction = [](const IVec2& at) {
+    return glm::normalize(direction_from_octahedral((Vec2(at) + 0.5f) / float(kSize) * 2.0f - 1.0f));
+  };
+  const float step = 2.0f * 2 / kSize * 1.5f;  // near the corners of the octahedron's faces texels are the widest
+  for (int i = 0; i < kSize; ++i)
+    for (const auto& [inside, outside] : {std::pair(IVec2(0, i), IVec2(-1, i)),
+                                          {{i, 0}, {i, -1}},
+                                          {{kSize - 1, i}, {kSize, i}},
+                                          {{i, kSize - 1}, {i, kSize}}}) {
+      const IVec2 other = wrap_octahedral(outside, kSize);
+      ASSERT_TRUE(other.x >= 0 && other.y >= 0 && other.x < kSize && other.y < kSize);
+      EXPECT_LT(glm::length(direction(other) - direction(inside)), step) << outside.x << " " << outside.y;
+    }
+  EXPECT_EQ(wrap_octahedral({5, 6}, kSize), IVec2(5, 6));
+  EXPECT_EQ(wrap_octahedral({-1, -1}, kSize), IVec2(kSize - 1, kSize - 1));
+}
 
 TEST(Half, EveryFiniteCodeComesBack) {
   for (std::uint32_t code = 0; code < 0x10000; ++code) {

@@ -226,6 +226,15 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(twice.file(), residual + "radiance map 2 is there twice");
 }
 
+TEST(Hostile, CurvedReflectors) {
+  const std::string reflectors = "section CRFL (curved reflectors): ", map = "section SMAP 0 (surround map): ";
+  expect_refusal(with_raw(kCurvedReflectorSection, 4 + 4 + 8, ~0u), reflectors + "its counts need more");
+  expect_refusal(with_raw(kSurroundMapSection, 12, 3u), map + "element 0: found 3 texels a side");
+  expect_refusal(with_raw(kSurroundMapSection, 12, 65536u), map + "element 0: found 65536 texels a side");
+  expect_refusal(with_raw(kSurroundMapSection, 12, 32768u), map + "its counts need more");
+  expect_refusal(with_raw(kSurroundMapSection, 16, 113), map + "element 0: found scale exponent 113");
+}
+
 // Sections may come in any order: what a section adds to others does not depend on theirs.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());

@@ -185,6 +185,25 @@ TEST(Pack, WhatReflectionsNeedComesBack) {
   EXPECT_EQ(grid.eye(4), Vec3(-1.25f, 0.6f, -1.25f));
 }
 
+TEST(Pack, CurvedReflectorsComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_EQ(out.curved_reflectors.size(), 1u);
+  const CurvedReflector& r = out.curved_reflectors[0];
+  EXPECT_EQ(std::tie(r.name, r.material, r.map), std::tuple("wall", 1u, 0u));
+  EXPECT_EQ(r.indices, in.curved_reflectors[0].indices);
+  ASSERT_EQ(out.surround_maps.size(), 1u);
+  const SurroundMap &a = in.surround_maps[0], &b = out.surround_maps[0];
+  EXPECT_EQ(b.centre, a.centre);
+  EXPECT_EQ(b.size, 2u);
+  EXPECT_EQ(b.valid, a.valid);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(b.inverse_distance[i], a.inverse_distance[i], 2.0f / 131070);
+    EXPECT_LE(glm::length(b.radiance[i] - a.radiance[i]), 0x1p-9f * max_component(a.radiance[i]));
+  }
+  EXPECT_EQ(b.inverse_distance[0], 2);
+  EXPECT_EQ(b.inverse_distance[1], 0);
+}
+
 // What halves do to the light shown under lamps anywhere above, with any share of even light, on normals
 // tilted up to 60 degrees: the figures of docs/format.md.
 TEST(Pack, DirectionsKeepWhatIsShown) {

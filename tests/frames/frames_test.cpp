@@ -22,6 +22,7 @@ struct Reference {
   Scene scene;
   ReferenceFrame frame;
   std::vector<std::uint8_t> mirror;  // pixels whose first surface is a mirror
+  std::vector<std::uint8_t> gloss;   // or rougher metal
 };
 
 class Frames : public testing::Test {
@@ -72,6 +73,7 @@ class Frames : public testing::Test {
         const SceneMaterial* m =
             hit ? &r.scene.materials[r.scene.surfaces[r.scene.triangle_surface[hit.triangle]].material] : nullptr;
         r.mirror.push_back(m && m->roughness == 0 && m->metallic == 1 && hit.front);
+        r.gloss.push_back(m && m->roughness > 0 && m->metallic == 1 && hit.front);
       }
     return r;
   }
@@ -113,6 +115,21 @@ TEST_F(Frames, GalleryDiffuseAndMirrorAgreeWithTheReference) {
       squared_difference(shown(play("gallery", "mirror", "all"), white), shown(r.frame.total, white)), r.mirror));
   std::printf("gallery mirror: PSNR %.1f dB over %ld pixels\n", ratio, static_cast<long>(pixels));
   EXPECT_GE(ratio, 25);
+}
+
+TEST_F(Frames, StudioBallsAgreeWithTheReference) {
+  bake("studio", "--samples 256");
+  const Reference r = reference("studio", "balls", 256);
+  const float white = white_of(r.frame.total);
+  const FloatImage difference =
+      squared_difference(shown(play("studio", "balls", "all"), white), shown(r.frame.total, white));
+  for (const auto& [name, mask] : {std::pair("mirror", &r.mirror), std::pair("glossy", &r.gloss)}) {
+    const auto pixels = std::count(mask->begin(), mask->end(), 1);
+    ASSERT_GT(pixels, kWidth * kHeight / 50) << name;
+    const double ratio = psnr_db(mean_over(difference, *mask));
+    std::printf("studio, %s metal: PSNR %.1f dB over %ld pixels\n", name, ratio, static_cast<long>(pixels));
+    EXPECT_GE(ratio, 25) << name;
+  }
 }
 
 }  // namespace

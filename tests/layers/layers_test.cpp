@@ -57,6 +57,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
+  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
   m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
   m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
   m["bake/walk"] = plus(m["bake/trace/lights"], {});             // where eyes can be
@@ -67,8 +68,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"], {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/emitters",
-                                        "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(m["bake/plan"],
+                       {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                        "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene

@@ -19,10 +19,20 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {
-    "depth",         "reflector/mask", "reflector/emitters", "scene",           "transparent",       "reproject",
-    "march",         "screen/pull",    "screen/push",        "screen/convolve", "reflector/compose", "screen/luminance",
-    "screen/tonemap"};
+constexpr const char* kPasses[] = {"depth",
+                                   "reflector/mask",
+                                   "reflector/emitters",
+                                   "scene",
+                                   "transparent",
+                                   "reproject",
+                                   "march",
+                                   "curved/light",
+                                   "screen/pull",
+                                   "screen/push",
+                                   "screen/convolve",
+                                   "reflector/compose",
+                                   "screen/luminance",
+                                   "screen/tonemap"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

@@ -30,7 +30,7 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
   const Pack whole = mirror_pack();
   for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
     const FrameStats stats = count(whole, mode);
-    const std::vector<std::int32_t> shown = renderer_->read_reflectors();
+    const std::vector<std::int32_t> shown = renderer_->read_reflective();
     ASSERT_EQ(shown.size(), 120u * 90);
     EXPECT_EQ(shown[45 * 120 + 60], 0);
     EXPECT_EQ(shown[0], -1) << "beside the mirror";

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "bake/radiance/capture.h"
+#include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
 #include "bake/run/stages/baked_light.h"
@@ -30,20 +30,20 @@ void append(std::vector<std::string>& lines, const std::vector<std::string>& mor
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
-// The reflectors that eyes see, most important first.
-Result<std::vector<FoundReflector>> reflectors_for(const BakeOptions& options, const Accel& accel,
-                                                   const MaterialMaps& materials, std::span<const Vec3> eyes,
-                                                   Context& context, std::vector<std::string>& omissions) {
+// The reflectors that eyes see, most important first, and what shines without lying in a plane.
+Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& accel,
+                                       std::span<const ReflectorMaterial> materials, std::span<const Vec3> eyes,
+                                       Context& context, std::vector<std::string>& omissions) {
   ReflectorOptions wide = options.reflectors;  // a large one that nobody sees must not push out a small one
   wide.max_reflectors = 4 * std::min(options.reflectors.max_reflectors, std::numeric_limits<std::uint32_t>::max() / 4);
-  FoundReflectors found = find_reflectors(accel, reflector_materials(materials), wide);
+  FoundReflectors found = find_reflectors(accel, materials, wide);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, eyes, options.reflectors.max_reflectors, context, found));
   append(omissions, found.omitted);
   if (found.reflectors.empty())
     omissions.push_back(fmt::format(
         "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
         options.reflectors.max_roughness, options.reflectors.min_area_m2));
-  return std::move(found.reflectors);
+  return found;
 }
 
 Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::span<const Vec3> eyes, Context& context,
@@ -65,6 +65,35 @@ Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps
   return {};
 }
 
+std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> indices;
+  for (const std::uint32_t t : triangles)
+    for (std::uint32_t corner = 0; corner < 3; ++corner)
+      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+  return indices;
+}
+
+template <class Found, class Kept>
+void keep(std::vector<Found>& found, const AssembledMesh& mesh, std::vector<Kept>& kept) {
+  for (Found& f : found) {
+    f.reflector.indices = mesh_indices(mesh, f.triangles);
+    kept.push_back(std::move(f.reflector));
+  }
+}
+
+// What shines without lying in a plane, with what surrounds it.
+Result<FoundCurvedReflectors> curved_reflectors(const BakeOptions& options, const Accel& accel,
+                                                std::span<const std::uint32_t> triangles,
+                                                std::span<const ReflectorMaterial> materials,
+                                                const OutgoingRadiance& outgoing, Context& context,
+                                                std::atomic<std::uint64_t>& rays) {
+  CurvedOptions curved = options.curved;
+  curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
+  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, curved);
+  ORIEL_TRY_VOID(capture_surroundings(accel, found, outgoing, context, &rays));
+  return found;
+}
+
 }  // namespace
 
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
@@ -75,8 +104,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   ORIEL_TRY(EyeRegion region, find_eye_region(accel, options.eyes, context));
   if (!region.note.empty()) report.omissions.push_back(region.note);
   const std::vector<Vec3> eyes = sample_eyes(region, kTrainingEyes, context.seed);
-  ORIEL_TRY(std::vector<FoundReflector> reflectors,
-            reflectors_for(options, accel, materials, eyes, context, report.omissions));
+  const std::vector<ReflectorMaterial> lobes = reflector_materials(materials);
+  ORIEL_TRY(FoundReflectors found, reflectors_for(options, accel, lobes, eyes, context, report.omissions));
+  std::vector<FoundReflector>& reflectors = found.reflectors;
   ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   std::atomic<std::uint64_t> rays{0};
@@ -91,6 +121,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
                                       report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
   ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, plan.maps, &rays));
+  ORIEL_TRY(FoundCurvedReflectors curved,
+            curved_reflectors(options, accel, found.unplanar, lobes, outgoing, context, rays));
+  append(report.omissions, curved.omitted);
   report.rays = rays;
   if (options.view_scheme == ViewScheme::kPlanned)
     ORIEL_TRY_VOID(add_residuals(surroundings, outgoing, eyes, {}, context, reflectors, plan.maps));
@@ -98,12 +131,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
       judge(surroundings, plan.maps, sample_eyes(region, kHeldOutEyes, context.seed + 1), context, report.quality));
   pack.radiance_maps = std::move(plan.maps);
   pack.walk_grids = std::move(region.grids);
-  for (FoundReflector& f : reflectors) {
-    for (const std::uint32_t t : f.triangles)
-      for (std::uint32_t corner = 0; corner < 3; ++corner)
-        f.reflector.indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
-    pack.reflectors.push_back(std::move(f.reflector));
-  }
+  keep(reflectors, mesh, pack.reflectors);
+  pack.surround_maps = std::move(curved.maps);
+  keep(curved.reflectors, mesh, pack.curved_reflectors);
   return report;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "formats/core/octahedral.h"
+
 namespace oriel {
 
 int scale_exponent(float largest, int mantissa_bits) {
@@ -14,19 +16,11 @@ int scale_exponent(float largest, int mantissa_bits) {
 }
 
 std::uint32_t octahedral_from_normal(const Vec3& normal) {
-  const DVec3 n(normal);
-  const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-  if (!(sum > 0)) return 0;
-  double x = n.x / sum, y = n.y / sum;
-  if (n.z < 0) {
-    const double folded_x = std::copysign(1 - std::abs(y), x);
-    y = std::copysign(1 - std::abs(x), y);
-    x = folded_x;
-  }
+  const DVec2 p = octahedral_from_direction(DVec3(normal));
   const auto snorm = [](double v) {
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(std::clamp(v, -1.0, 1.0) * 32767)));
   };
-  return snorm(x) | static_cast<std::uint32_t>(snorm(y)) << 16;
+  return snorm(p.x) | static_cast<std::uint32_t>(snorm(p.y)) << 16;
 }
 
 Vec3 normal_from_octahedral(std::uint32_t code) {

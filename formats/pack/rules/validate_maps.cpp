@@ -1,5 +1,6 @@
-// The maps: textures, lightmaps, reflectors with their radiance maps.
+// The maps: textures, lightmaps, reflectors with their radiance maps, curved ones with what surrounds them.
 #include <algorithm>
+#include <bit>
 
 #include "formats/pack/rules/issues.h"
 
@@ -36,6 +37,23 @@ bool is_rigid(const Mat4& m) {
   return off <= 1e-3 && glm::determinant(r) > 0 && m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
 }
 
+void check_triangles(int number, const Pack& pack, std::size_t i, const std::string& name,
+                     const std::vector<std::uint32_t>& indices, IssueList& list) {
+  const auto bad = std::count_if(indices.begin(), indices.end(),
+                                 [&](std::uint32_t index) { return index >= pack.mesh.positions.size(); });
+  if (bad > 0 || indices.size() % 3 != 0)
+    list.error(number,
+               "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}", i,
+               name, indices.size(), bad, pack.mesh.positions.size());
+}
+
+// Codes of validity, 0 to 2.
+void check_validity(int number, const std::vector<std::uint8_t>& valid, IssueList& list) {
+  list.each(
+      number, "pixels of validity", valid, [](std::uint8_t v) { return v <= 2; },
+      [](std::uint8_t v) { return fmt::format("{}", v); }, "0, 1 or 2");
+}
+
 void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
   const Reflector& r = pack.reflectors[i];
   if (r.material >= pack.materials.size())
@@ -49,11 +67,7 @@ void validate_reflector(const Pack& pack, std::size_t i, IssueList& list) {
   if (!not_negative(r.area_m2) || !not_negative(r.flatness_m))
     list.error(404, "reflector {} ('{}'): found area {} and flatness {}, expected {}", i, r.name, r.area_m2,
                r.flatness_m, kLight);
-  const auto bad = std::count_if(r.indices.begin(), r.indices.end(),
-                                 [&](std::uint32_t index) { return index >= pack.mesh.positions.size(); });
-  if (bad > 0 || r.indices.size() % 3 != 0)
-    list.error(405, "reflector {} ('{}'): found {} indices, {} of them out of range, expected a multiple of 3 below {}",
-               i, r.name, r.indices.size(), bad, pack.mesh.positions.size());
+  check_triangles(405, pack, i, r.name, r.indices, list);
   if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
     list.error(406, "reflector {} ('{}'): found radiance maps {} to {}, expected at most {}", i, r.name, r.first_map,
                std::uint64_t{r.first_map} + r.map_count, pack.radiance_maps.size());
@@ -135,9 +149,37 @@ void validate_radiance_maps(const Pack& pack, IssueList& list) {
     list.each(415, "pixels of radiance", map.radiance, light, text3, kLight);
     list.each(
         416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, text1, "0 to 1");
+    check_validity(417, map.valid, list);
+  }
+}
+
+void validate_curved_reflectors(const Pack& pack, IssueList& list) {
+  list.in_section(kCurvedReflectorSection);
+  for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
+    const CurvedReflector& r = pack.curved_reflectors[i];
+    if (r.material >= pack.materials.size() || r.map >= pack.surround_maps.size())
+      list.error(431, "curved reflector {} ('{}'): found material {} and map {}, expected less than {} and {}", i,
+                 r.name, r.material, r.map, pack.materials.size(), pack.surround_maps.size());
+    check_triangles(432, pack, i, r.name, r.indices, list);
+  }
+}
+
+void validate_surround_maps(const Pack& pack, IssueList& list) {
+  constexpr float kLimit = 1e18f;  // of lengths and their inverses, so that their squares stay finite
+  for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
+    const SurroundMap& map = pack.surround_maps[i];
+    list.in_section(kSurroundMapSection, i);
+    if (!within(map.centre, -kLimit, kLimit))
+      list.error(441, "found centre {}, expected finite numbers", text_of(map.centre));
+    if (!std::has_single_bit(map.size)) list.error(442, "found {} texels a side, expected a power of two", map.size);
+    if (!check_area(442, map.size, map.size, {map.radiance.size(), map.inverse_distance.size(), map.valid.size()},
+                    list))
+      continue;
+    list.each(443, "texels of radiance", map.radiance, light, text3, kLight);
     list.each(
-        417, "pixels of validity", map.valid, [](std::uint8_t v) { return v <= 2; },
-        [](std::uint8_t v) { return fmt::format("{}", v); }, "0, 1 or 2");
+        444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kLimit); }, text1,
+        "0 to 1e18");
+    check_validity(445, map.valid, list);
   }
 }
 

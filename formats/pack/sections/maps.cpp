@@ -1,5 +1,6 @@
-// Textures, lightmaps with their directions, radiance maps.
+// Textures, lightmaps with their directions, radiance maps, surround maps.
 #include <algorithm>
+#include <bit>
 
 #include "formats/core/half.h"
 #include "formats/pack/encoding/planes.h"
@@ -44,6 +45,22 @@ Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::ve
       values[i][c] = float_from_half(half) * scale;
     }
   return {};
+}
+
+// cd/m² over 2^exponent.
+void put_rgb9e5(ByteWriter& out, std::span<const Vec3> values, int exponent) {
+  const float scale = std::ldexp(1.0f, -exponent);
+  std::vector<std::uint32_t> colors(values.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = rgb9e5_from_rgb(values[i] * scale);
+  put_planes(out, std::span<const std::uint32_t>(colors));
+}
+
+std::vector<Vec3> get_rgb9e5(ByteReader& in, std::uint64_t count, int exponent) {
+  const float scale = std::ldexp(1.0f, exponent);
+  const auto colors = get_planes<std::uint32_t>(in, count);
+  std::vector<Vec3> values(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) values[i] = rgb_from_rgb9e5(colors[i]) * scale;
+  return values;
 }
 
 Status get_texel_states(ByteReader& in, std::uint64_t count, std::vector<TexelState>& states) {
@@ -134,15 +151,12 @@ void encode(ByteWriter& out, const RadianceMap& map) {
   put(out, map.lower);
   put(out, map.upper);
   const int exponent = scale_exponent(largest_channel(map.radiance), 9);
-  const float scale = std::ldexp(1.0f, -exponent);
   float largest_disparity = 0;
   for (const float d : map.disparity) largest_disparity = std::max(largest_disparity, d);
   const int shift = disparity_shift(largest_disparity);
   out.put(static_cast<std::int32_t>(exponent));
   out.put(static_cast<std::int32_t>(shift));
-  std::vector<std::uint32_t> colors(map.radiance.size());
-  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = rgb9e5_from_rgb(map.radiance[i] * scale);
-  put_planes(out, std::span<const std::uint32_t>(colors));
+  put_rgb9e5(out, map.radiance, exponent);
   std::vector<std::uint16_t> disparities(map.disparity.size());
   for (std::size_t i = 0; i < disparities.size(); ++i) disparities[i] = code_from_disparity(map.disparity[i], shift);
   put_planes(out, std::span<const std::uint16_t>(disparities));
@@ -164,14 +178,60 @@ Status decode(ByteReader& in, RadianceMap& map) {
   if (shift < 0 || shift > kMaxDisparityShift)
     return invalid("", "found disparity shift {}, expected 0 to {}", shift, kMaxDisparityShift);
   const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
-  const float scale = std::ldexp(1.0f, exponent);
-  const auto colors = get_planes<std::uint32_t>(in, pixels);
-  map.radiance.resize(colors.size());
-  for (std::size_t i = 0; i < colors.size(); ++i) map.radiance[i] = rgb_from_rgb9e5(colors[i]) * scale;
+  map.radiance = get_rgb9e5(in, pixels, exponent);
   const auto disparities = get_planes<std::uint16_t>(in, pixels);
   map.disparity.resize(disparities.size());
   for (std::size_t i = 0; i < disparities.size(); ++i) map.disparity[i] = disparity_from_code(disparities[i], shift);
   map.valid = get_planes<std::uint8_t>(in, pixels);
+  return {};
+}
+
+void encode(ByteWriter& out, const CurvedReflector& reflector) {
+  out.put_string(reflector.name);
+  out.put(reflector.material);
+  out.put(reflector.map);
+  out.put(static_cast<std::uint32_t>(reflector.indices.size()));
+  out.put_array(std::span<const std::uint32_t>(reflector.indices));
+}
+
+Status decode(ByteReader& in, CurvedReflector& reflector) {
+  reflector.name = in.get_string();
+  reflector.material = in.get<std::uint32_t>();
+  reflector.map = in.get<std::uint32_t>();
+  const auto count = in.get<std::uint32_t>();
+  reflector.indices = in.get_array<std::uint32_t>(count);
+  return {};
+}
+
+void encode(ByteWriter& out, const SurroundMap& map) {
+  put(out, map.centre);
+  out.put(map.size);
+  const int exponent = scale_exponent(largest_channel(map.radiance), 9);
+  out.put(static_cast<std::int32_t>(exponent));
+  const float nearest = *std::max_element(map.inverse_distance.begin(), map.inverse_distance.end());
+  out.put(nearest);
+  put_rgb9e5(out, map.radiance, exponent);
+  std::vector<std::uint16_t> codes(map.inverse_distance.size());
+  for (std::size_t i = 0; i < codes.size() && nearest > 0; ++i)
+    codes[i] = code_from_disparity(map.inverse_distance[i] / nearest, 0);
+  put_planes(out, std::span<const std::uint16_t>(codes));
+  put_planes(out, std::span<const std::uint8_t>(map.valid));
+}
+
+Status decode(ByteReader& in, SurroundMap& map) {
+  map.centre = get_vec3(in);
+  map.size = in.get<std::uint32_t>();
+  if (in.ok() && (map.size > kMaxSide || !std::has_single_bit(map.size)))
+    return invalid("", "found {} texels a side, expected a power of two up to {}", map.size, kMaxSide);
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  const auto nearest = in.get<float>();
+  const std::uint64_t texels = std::uint64_t{map.size} * map.size;
+  map.radiance = get_rgb9e5(in, texels, exponent);
+  const auto codes = get_planes<std::uint16_t>(in, texels);
+  map.inverse_distance.resize(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) map.inverse_distance[i] = disparity_from_code(codes[i], 0) * nearest;
+  map.valid = get_planes<std::uint8_t>(in, texels);
   return {};
 }
 

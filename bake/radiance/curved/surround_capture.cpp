@@ -1,0 +1,139 @@
+#include "bake/radiance/curved/surround_capture.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bake/jobs/parallel.h"
+#include "bake/scene/light/sky.h"
+#include "bake/trace/albedo.h"
+#include "formats/core/octahedral.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kMaxLayers = 64;             // of surfaces before the first opaque one
+constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
+constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
+
+// What a ray has seen so far.
+struct SurroundSight {
+  Vec3 radiance{0}, throughput{1};
+  float inverse_distance = 0;
+  std::uint8_t valid = 2;
+  bool ended = false;
+};
+
+class SurroundCapture {
+ public:
+  SurroundCapture(const Accel& accel, const CurvedObject& object, const OutgoingRadiance& outgoing, const Vec3& centre)
+      : accel_(accel), scene_(accel.scene()), object_(object), outgoing_(outgoing), centre_(centre) {}
+
+  SurroundSight look(const Vec3& direction) {
+    const float bounds_end = leaves_bounds(direction);
+    Ray ray{centre_, direction};
+    SurroundSight sight;
+    std::uint32_t last = ~0u;
+    for (int layer = 0; layer < kMaxLayers; ++layer) {
+      const Hit hit = accel_.intersect(ray);
+      ++rays_;
+      if (!hit) {
+        if (!sight.ended) sight.radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
+        return sight;
+      }
+      const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
+      if (own(hit.triangle)) {
+        if (!hit.front) sight = {};  // all before lies inside
+      } else if (!sight.ended && hit.triangle != last) {
+        meet(hit, p, direction, sight);
+      }
+      if (sight.ended && glm::length(p - centre_) >= bounds_end) return sight;
+      last = hit.triangle;
+      ray.origin = p + direction * (kStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
+    }
+    if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
+    return sight;
+  }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  bool own(std::uint32_t triangle) const {
+    const auto listed = [&](std::uint32_t t) {
+      return std::binary_search(object_.triangles.begin(), object_.triangles.end(), t);
+    };
+    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
+  }
+
+  // The distance at which a ray from the centre leaves the object's bounds.
+  float leaves_bounds(const Vec3& direction) const {
+    float nearest = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] == 0) continue;
+      const float side = direction[axis] > 0 ? object_.upper[axis] : object_.lower[axis];
+      nearest = std::min(nearest, (side - centre_[axis]) / direction[axis]);
+    }
+    return nearest;
+  }
+
+  // Adds what a surface shows; the ray ends there unless it lets light pass.
+  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) const {
+    const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    Vec3 through(0);
+    float coverage = 1;
+    if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them
+      const ShadePoint point = shade_point(scene_, hit.triangle, hit.barycentric);
+      coverage = point.coverage;
+      through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));
+    }
+    const bool back = !hit.front && !material.double_sided;
+    if (coverage > 0 && !back)
+      sight.radiance += sight.throughput * coverage * usable_light(outgoing_({hit, -direction}));
+    sight.throughput *= through;
+    if (max_component(through) >= kSeeThrough) return;
+    sight.ended = true;
+    sight.inverse_distance = 1 / std::max(glm::length(p - centre_), std::numeric_limits<float>::min());
+    sight.valid = back ? 0 : 1;
+    if (back) sight.radiance = Vec3(0);
+  }
+
+  const Accel& accel_;
+  const Scene& scene_;
+  const CurvedObject& object_;
+  const OutgoingRadiance& outgoing_;
+  Vec3 centre_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace
+
+Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
+                            Context& context, std::atomic<std::uint64_t>* rays) {
+  std::vector<UVec2> rows;  // map, row
+  for (std::uint32_t i = 0; i < found.maps.size(); ++i) {
+    SurroundMap& map = found.maps[i];
+    const std::size_t texels = std::size_t{map.size} * map.size;
+    map.radiance.resize(texels);
+    map.inverse_distance.resize(texels);
+    map.valid.resize(texels);
+    for (std::uint32_t y = 0; y < map.size; ++y) rows.emplace_back(i, y);
+  }
+  return parallel_for(
+      context, "surroundings", rows.size(),
+      [&](std::size_t row) {
+        SurroundMap& map = found.maps[rows[row].x];
+        const CurvedObject& object = found.objects[found.reflectors[rows[row].x].object];
+        SurroundCapture capture(accel, object, outgoing, map.centre);
+        const std::uint32_t y = rows[row].y;
+        for (std::uint32_t x = 0; x < map.size; ++x) {
+          const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
+          const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
+          const std::size_t texel = std::size_t{y} * map.size + x;
+          map.radiance[texel] = usable_light(sight.radiance);
+          map.inverse_distance[texel] = sight.inverse_distance;
+          map.valid[texel] = sight.valid;
+        }
+        if (rays) *rays += capture.rays();
+      },
+      rays);
+}
+
+}  // namespace oriel

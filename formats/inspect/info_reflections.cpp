@@ -1,0 +1,157 @@
+#include "formats/inspect/info_reflections.h"
+
+#include <fmt/format.h>
+
+#include "formats/inspect/summary.h"
+
+namespace oriel::inspect {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As stored, valid pixels or not; 0 where there are none.
+double radiance_bytes_per_pixel(const PackIndex& index, const Pack& pack) {
+  double bytes = 0, pixels = 0;
+  for (const auto& section : index.sections)
+    if (section.kind == kRadianceMapSection) bytes += static_cast<double>(section.stored_bytes);
+  for (const auto& map : pack.radiance_maps) pixels += static_cast<double>(map.valid.size());
+  return pixels > 0 ? bytes / pixels : 0;
+}
+
+Json reflectors_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& r : pack.reflectors)
+    out.push_back({{"name", r.name},
+                   {"material", r.material},
+                   {"area_m2", r.area_m2},
+                   {"flatness_m", r.flatness_m},
+                   {"elements", {r.elements_x, r.elements_y}},
+                   {"first_map", r.first_map},
+                   {"map_count", r.map_count},
+                   {"emitters", r.emitters},
+                   {"visibility_nodes", {r.visibility_x, r.visibility_y}}});
+  return out;
+}
+
+Json radiance_maps_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& map : pack.radiance_maps) {
+    const auto s = summarise(map);
+    out.push_back({{"reflector", map.reflector},
+                   {"width", map.width},
+                   {"height", map.height},
+                   {"eye", triple(map.eye)},
+                   {"has_emission", map.has_emission},
+                   {"residual", map.residual},
+                   {"pixels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
+                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
+  }
+  return out;
+}
+
+// Curved reflectors and what surrounds them.
+Json curved_reflectors_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& r : pack.curved_reflectors)
+    out.push_back(
+        {{"name", r.name}, {"material", r.material}, {"surround_map", r.map}, {"triangles", r.indices.size() / 3}});
+  return out;
+}
+
+Json surround_maps_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& map : pack.surround_maps) {
+    const auto s = summarise(map);
+    out.push_back({{"size", map.size},
+                   {"centre", triple(map.centre)},
+                   {"texels", {{"invalid", s.pixels[0]}, {"surface", s.pixels[1]}, {"sky", s.pixels[2]}}},
+                   {"radiance", {{"mean", s.mean}, {"max", s.max}}}});
+  }
+  return out;
+}
+
+Json emitters_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& e : pack.emitters) {
+    Json corners = Json::array();
+    for (const Vec3& corner : e.corners) corners.push_back(triple(corner));
+    out.push_back({{"corners", corners}, {"radiance", triple(e.radiance)}, {"two_sided", e.two_sided}});
+  }
+  return out;
+}
+
+Json walk_grids_json(const Pack& pack) {
+  Json out = Json::array();
+  for (const auto& g : pack.walk_grids)
+    out.push_back({{"lower", {g.lower.x, g.lower.y}},
+                   {"cell_m", g.cell_m},
+                   {"width", g.width},
+                   {"height", g.height},
+                   {"walkable_m2", g.walkable_m2()},
+                   {"eye_height_m", g.eye_height_m}});
+  return out;
+}
+
+void print_planar(const PackIndex& index, const Pack& pack) {
+  for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
+    const auto& r = pack.reflectors[i];
+    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}{}\n", i, r.name,
+               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map,
+               r.emitters.empty() ? "" : fmt::format(", {} emitters in closed form", r.emitters.size()));
+  }
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const auto& map = pack.radiance_maps[i];
+    const auto s = summarise(map);
+    fmt::print("radiance map {}: {} x {} of reflector {}, {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}{}\n", i,
+               map.width, map.height, map.reflector,
+               100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max,
+               map.residual ? ", residual" : "");
+  }
+  if (!pack.radiance_maps.empty())
+    fmt::print("{} radiance maps: {:.3g} bytes a pixel as stored\n", pack.radiance_maps.size(),
+               radiance_bytes_per_pixel(index, pack));
+}
+
+void print_curved(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
+    const auto& r = pack.curved_reflectors[i];
+    fmt::print("curved reflector {}: '{}', {} triangles, material {}, surround map {}\n", i, r.name,
+               r.indices.size() / 3, r.material, r.map);
+  }
+  for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
+    const auto& map = pack.surround_maps[i];
+    const auto s = summarise(map);
+    fmt::print(
+        "surround map {}: {} x {} around ({:.4g}, {:.4g}, {:.4g}), {:.3g} % surface, mean {:.4g} cd/m2, max {:.4g}\n",
+        i, map.size, map.size, map.centre.x, map.centre.y, map.centre.z,
+        100.0 * static_cast<double>(s.pixels[1]) / static_cast<double>(map.valid.size()), s.mean, s.max);
+  }
+}
+
+}  // namespace
+
+Json triple(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+void add_reflections(const PackIndex& index, const Pack& pack, Json& out) {
+  out["reflectors"] = reflectors_json(pack);
+  out["radiance_maps"] = radiance_maps_json(pack);
+  out["radiance_map_bytes_per_pixel"] = radiance_bytes_per_pixel(index, pack);
+  out["emitters"] = emitters_json(pack);
+  out["curved_reflectors"] = curved_reflectors_json(pack);
+  out["surround_maps"] = surround_maps_json(pack);
+  out["walk_grids"] = walk_grids_json(pack);
+}
+
+void print_reflections(const PackIndex& index, const Pack& pack) {
+  print_planar(index, pack);
+  print_curved(pack);
+  for (std::size_t i = 0; i < pack.walk_grids.size(); ++i) {
+    const auto& g = pack.walk_grids[i];
+    fmt::print("walk grid {}: {} x {} cells of {:.3g} m, {:.4g} m2 walkable, eyes {:.3g} m over the floor\n", i,
+               g.width, g.height, g.cell_m, g.walkable_m2(), g.eye_height_m);
+  }
+}
+
+}  // namespace oriel::inspect
