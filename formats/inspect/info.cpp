@@ -138,7 +138,11 @@ Json small_maps_json(const Pack& pack, Json out) {
   out["cameras"] = Json::array();
   for (const auto& c : pack.cameras) out["cameras"].push_back(c.name);
   out["paths"] = Json::array();
-  for (const auto& p : pack.paths) out["paths"].push_back({{"name", p.name}, {"keys", p.keys.size()}});
+  for (const auto& p : pack.paths) {
+    Json eyes = Json::array();
+    for (const CameraKey& key : p.keys) eyes.push_back(triple(key.eye));
+    out["paths"].push_back({{"name", p.name}, {"keys", p.keys.size()}, {"eyes", eyes}});
+  }
   return out;
 }
 

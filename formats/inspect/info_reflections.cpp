@@ -24,6 +24,8 @@ Json reflectors_json(const Pack& pack) {
     out.push_back({{"name", r.name},
                    {"material", r.material},
                    {"area_m2", r.area_m2},
+                   {"centre", triple(Vec3(r.pack_from_reflector * Vec4(0.5f * (r.lower + r.upper), 0, 1)))},
+                   {"normal", triple(Vec3(r.pack_from_reflector[2]))},
                    {"flatness_m", r.flatness_m},
                    {"elements", {r.elements_x, r.elements_y}},
                    {"first_map", r.first_map},
