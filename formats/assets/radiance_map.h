@@ -32,6 +32,9 @@ struct Reflector {
 
 inline constexpr std::size_t kMaxReflectorEmitters = 16;
 
+// Maps of an element that the player can blend at once, a residual included: no more are planned.
+inline constexpr std::size_t kMostMapsPerElement = 16;
+
 // A radiance map: an off-axis perspective image from `eye` (behind the plane, z < 0) through the element's rectangle on
 // the plane. Pixel (x, y), row 0 at the element's lower y, is the ray from eye through the rectangle's point
 // lower + ((x+½)/width, (y+½)/height) * (upper - lower). It starts on the plane: what lies behind it is not seen.
@@ -40,9 +43,9 @@ struct RadianceMap {
   Vec3 eye{0, 0, -1};           // reflector space
   Vec2 lower{0}, upper{0};      // the element, reflector x, y
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light, emission not included
-                               // unless has_emission
-  bool has_emission = false;   // the reflector's emitters are seen in the map at their own radiance
+  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light and its emission, but
+                               // without has_emission not that of Reflector::emitters
+  bool has_emission = false;   // all that shines is seen in the map at its own radiance
   // Shows only what no map of the reflector sees (second surfaces along the rays of another map with the same eye and
   // element): valid is 0 everywhere else. Consulted last.
   bool residual = false;

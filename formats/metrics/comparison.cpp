@@ -14,6 +14,16 @@ namespace {
 constexpr std::array<const char*, 7> kLayers = {"",      "direct",        "indirect",      "specular",
                                                 "error", "diffuse_error", "specular_error"};
 
+Status check_finite(const FloatImage& image, ErrorCode code, const char* whose, const char* layer) {
+  const auto is_bad = [](float v) { return !std::isfinite(v); };
+  const auto& values = image.pixels;
+  const auto first = static_cast<std::size_t>(std::find_if(values.begin(), values.end(), is_bad) - values.begin());
+  if (first == values.size()) return {};
+  const std::size_t pixel = first / image.channels;
+  return fail(code, whose, "layer \"{}\" holds {} values that are not finite, the first in pixel {}, {}", layer,
+              std::count_if(values.begin(), values.end(), is_bad), pixel % image.width, pixel / image.width);
+}
+
 Status check_reference(const LayeredImage& reference, std::uint32_t width, std::uint32_t height) {
   for (const char* name : kLayers) {
     const auto found = reference.layers.find(name);
@@ -23,6 +33,7 @@ Status check_reference(const LayeredImage& reference, std::uint32_t width, std::
     if (layer.channels != 3 || layer.width != width || layer.height != height)
       return invalid("reference", "layer \"{}\" has {} x {} pixels of {} channels, expected {} x {} of 3", name,
                      layer.width, layer.height, layer.channels, width, height);
+    ORIEL_TRY_VOID(check_finite(layer, ErrorCode::kInvalid, "reference", name));
   }
   return {};
 }
@@ -58,6 +69,9 @@ std::string error_text(const RelativeError& e) {
 
 Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& reference, float white) {
   ORIEL_TRY_VOID(check_reference(reference, frame.total.width, frame.total.height));
+  ORIEL_TRY_VOID(check_finite(frame.total, ErrorCode::kDifferent, "frame", "all"));
+  ORIEL_TRY_VOID(check_finite(frame.diffuse, ErrorCode::kDifferent, "frame", "D"));
+  ORIEL_TRY_VOID(check_finite(frame.specular, ErrorCode::kDifferent, "frame", "MKR"));
   const auto layer = [&](const char* name) -> const FloatImage& { return reference.layers.at(name); };
   const FloatImage diffuse = sum(layer("direct"), layer("indirect"));
   Comparison out{frame.total.width, frame.total.height, white > 0 ? white : white_of(layer("")), frame.holes, {}, {}};

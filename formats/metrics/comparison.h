@@ -37,8 +37,9 @@ struct Comparison {
   FloatImage picture;                     // reference, frame, FLIP (white is 1), side by side, sRGB in [0, 1]
 };
 
-// white: 0 takes the reference's log-average luminance for middle grey. Error kInvalid where the reference is not of
-// the frame's size or lacks a layer of `oriel-bake render`.
+// white: 0 takes the reference's log-average luminance for middle grey. Errors: kInvalid where the reference is not
+// of the frame's size, lacks a layer of `oriel-bake render` or holds values that are not finite; kDifferent where the
+// frame holds such.
 Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& reference, float white);
 
 // A table for people; and the same as JSON.

@@ -1,5 +1,7 @@
 #include "formats/metrics/relative_error.h"
 
+#include <limits>
+
 #include "formats/core/vec.h"
 
 namespace oriel {
@@ -22,7 +24,8 @@ double sum(const DVec3& v) {
 }  // namespace
 
 double RelativeError::net() const {
-  return std::sqrt(std::max(0.0, rel_rmse * rel_rmse - noise * noise));
+  const double square = rel_rmse * rel_rmse - noise * noise;
+  return square < 0 ? 0 : std::sqrt(square);  // what is not a number stays one that is none
 }
 
 Result<RelativeError> relative_error(const FloatImage& frame, const FloatImage& reference, const FloatImage& noise,
@@ -40,7 +43,10 @@ Result<RelativeError> relative_error(const FloatImage& frame, const FloatImage& 
     ++count;
   }
   RelativeError e;
-  if (!(sum(mean) > 0)) return e;
+  if (sum(mean) == 0) {
+    if (sum(mean_frame) != 0) e.rel_rmse = e.n_rmse = e.bias = std::numeric_limits<double>::infinity();
+    return e;
+  }
   mean /= count;
   mean_frame /= count;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -49,7 +55,7 @@ Result<RelativeError> relative_error(const FloatImage& frame, const FloatImage& 
     const DVec3 scale = r * r + 1e-4 * mean * mean;
     e.n_rmse += sum(off * off) / (3 * count);
     for (int c = 0; c < 3; ++c) {
-      if (!(scale[c] > 0)) continue;
+      if (scale[c] == 0) continue;
       e.rel_rmse += off[c] * off[c] / scale[c] / (3 * count);
       e.noise += s[c] * s[c] / scale[c] / (3 * count);
     }

@@ -15,8 +15,9 @@ struct RelativeError {
 };
 
 // Pictures of three channels and one size, linear; noise: the reference's standard error, or an empty picture where it
-// has none. Means are those of the region, by channel. What is 0 in a reference of 0 does not count; all numbers are 0
-// where the reference is black. Error kInvalid for shapes that differ.
+// has none. Means are those of the region, by channel. What is 0 in a reference of 0 does not count. Where the
+// reference is black all numbers are 0 if the frame is black too, else its errors are infinite. NaN gives NaN. Error
+// kInvalid for shapes that differ.
 Result<RelativeError> relative_error(const FloatImage& frame, const FloatImage& reference, const FloatImage& noise = {},
                                      const Region& region = {});
 

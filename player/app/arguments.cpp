@@ -3,7 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
-#include <map>
+
+#include "player/app/option_names.h"
 
 namespace oriel {
 namespace {
@@ -58,29 +59,22 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
          "log-average luminance becomes middle grey")
       ->type_name("EV|auto")
       ->default_str("auto");
-  const std::map<std::string, ToneCurve> curves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
   app.add_option("--tonemap", out.curve, "Tone curve: aces rolls highlights off like film, none clips them")
-      ->transform(CLI::CheckedTransformer(curves).description(""))
+      ->transform(CLI::CheckedTransformer(kToneCurves).description(""))
       ->type_name("aces|none")
       ->default_str("aces");
-  const std::map<std::string, Show> stages{
-      {"all", Show::kAll}, {"M", Show::kM}, {"MK", Show::kMK}, {"MKR", Show::kMKR}, {"D", Show::kD}};
   app.add_option(
          "--show", out.frame.show,
          "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
          "(MKR), the diffuse light alone (D), or the whole frame (all)")
-      ->transform(CLI::CheckedTransformer(stages).description(""))
+      ->transform(CLI::CheckedTransformer(kStages).description(""))
       ->type_name("M|MK|MKR|D|all")
       ->default_str("all");
-  const std::map<std::string, Reflections> modes{{"march", Reflections::kMarch},
-                                                 {"points", Reflections::kPoints},
-                                                 {"geometry", Reflections::kGeometry},
-                                                 {"off", Reflections::kOff}};
   app.add_option(
          "--reflections", out.frame.reflections,
          "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et "
          "al. published it, the mirrored scene drawn again, or nothing")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->transform(CLI::CheckedTransformer(kReflections).description(""))
       ->type_name("march|points|geometry|off")
       ->default_str("march");
   app.add_option("--maps", out.frame.maps_per_element,
@@ -88,32 +82,28 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
                  "shows none")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
-  const std::map<std::string, Selection> selections{{"angle", Selection::kAngle}, {"distance", Selection::kDistance}};
   app.add_option("--select", out.frame.selection,
                  "Which maps: taken from the direction nearest to the mirrored eye's, or from the nearest place")
-      ->transform(CLI::CheckedTransformer(selections).description(""))
+      ->transform(CLI::CheckedTransformer(kSelections).description(""))
       ->type_name("angle|distance")
       ->default_str("angle");
-  const std::map<std::string, Blur> blurs{
-      {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
   app.add_option("--blur", out.frame.blur,
                  "K's width in the image: by the distance of what is reflected, one for all distances as Bastos et al. "
-                 "published it (of the reflector's mean one), or as sharp as a mirror")
-      ->transform(CLI::CheckedTransformer(blurs).description(""))
+                 "published it (of the reflector's mean one), or as sharp as a mirror. Lamps that a glossy reflector's "
+                 "maps leave "
+                 "out are exact for the first two")
+      ->transform(CLI::CheckedTransformer(kBlurs).description(""))
       ->type_name("distance|constant|off")
       ->default_str("distance");
-  const std::map<std::string, KernelPlace> places{{"lobe", KernelPlace::kLobe}, {"centred", KernelPlace::kCentred}};
   app.add_option("--kernel", out.frame.kernel,
                  "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as "
-                 "Bastos et al. published it")
-      ->transform(CLI::CheckedTransformer(places).description(""))
+                 "Bastos et al. published it; not of lamps that a glossy reflector's maps leave out")
+      ->transform(CLI::CheckedTransformer(kKernelPlaces).description(""))
       ->type_name("lobe|centred")
       ->default_str("lobe");
-  const std::map<std::string, Reflectance> reflectances{{"table", Reflectance::kTable},
-                                                        {"sphere", Reflectance::kSphereMap}};
   app.add_option("--fresnel", out.frame.reflectance,
                  "R from the exact table by angle, or from the sphere map as Bastos et al. published it")
-      ->transform(CLI::CheckedTransformer(reflectances).description(""))
+      ->transform(CLI::CheckedTransformer(kReflectances).description(""))
       ->type_name("table|sphere")
       ->default_str("table");
   app.add_flag(
@@ -126,6 +116,7 @@ void add_compare_options(CLI::App& app, PlayArguments& out) {
   app.add_option("--compare", out.reference,
                  "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
                  "reflectors; -o is then the picture of reference, frame and FLIP side by side")
+      ->excludes(app.get_option("--tonemap"))
       ->type_name("FILE.exr");
   app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
   app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
@@ -160,6 +151,7 @@ void add_options(CLI::App& app, PlayArguments& out) {
   add_compare_options(app, out);
   app.add_option("--format", out.format, "Of the files written to a folder")
       ->check(CLI::IsMember({"png", "exr"}))
+      ->excludes(app.get_option("--compare"))
       ->type_name("png|exr")
       ->capture_default_str();
   app.add_option(
@@ -167,11 +159,12 @@ void add_options(CLI::App& app, PlayArguments& out) {
          "Close the window after so many frames. Offscreen: draw each camera so often and report the median time, or "
          "so many frames along --path")
       ->check(CLI::PositiveNumber)
+      ->excludes(app.get_option("--compare"))
       ->type_name("N");
   app.add_option("--path", out.path,
                  "Offscreen: frames along this path of the pack instead of cameras; prints how they flicker")
       ->type_name("NAME");
-  app.add_option("--stats", out.stats, "Offscreen: time each pass and write times and counts as JSON")
+  app.add_option("--stats", out.stats, "Offscreen: time each pass and write times, counts and the options as JSON")
       ->type_name("FILE");
   app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");
 }
@@ -184,7 +177,6 @@ std::string contradiction(const PlayArguments& out) {
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
   if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
     return "--compare takes one camera";
-  if (compares && measures) return "--compare takes neither --path nor --stats";
   if (compares && out.frame.show != Show::kAll) return "--compare draws the stages that it needs: leave --show out";
   if (compares && !out.output.empty() && std::filesystem::path(out.output).extension() != ".png")
     return "--compare writes its picture as .png";

@@ -1,5 +1,6 @@
 #include "player/app/compare.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "formats/camera/camera_spec.h"
@@ -89,7 +90,8 @@ Result<Camera> choose_camera(const GpuScene& scene, const PlayArguments& argumen
 
 Status write_difference(const std::string& path, const FloatImage& picture) {
   ByteImage bytes{picture.width, picture.height, 3, {}};
-  for (const float v : picture.pixels) bytes.pixels.push_back(static_cast<std::uint8_t>(255 * v + 0.5f));
+  for (const float v : picture.pixels)
+    bytes.pixels.push_back(static_cast<std::uint8_t>(255 * std::clamp(v, 0.0f, 1.0f) + 0.5f));
   return write_png(path, bytes);
 }
 
@@ -118,7 +120,7 @@ Status play_compare(Pack pack, const PlayArguments& arguments) {
   }
   if (!arguments.output.empty()) ORIEL_TRY_VOID(write_difference(arguments.output, comparison.picture));
   const double flip = comparison.regions.front().flip;
-  if (arguments.max_flip && flip > *arguments.max_flip)
+  if (arguments.max_flip && !(flip <= *arguments.max_flip))
     return fail(ErrorCode::kDifferent, arguments.reference, "found a FLIP of {:.4f}, expected at most {}", flip,
                 *arguments.max_flip);
   return {};

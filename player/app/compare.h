@@ -8,7 +8,8 @@ namespace oriel {
 
 // Draws the view of the arguments' one camera, compares it with the file of `oriel-bake render`, prints a table to
 // stdout and writes what the arguments ask for. The size is a whole multiple of the reference's: pixels are then
-// averaged. Errors: kUsage, kIo, kInvalid, kRuntime; kDifferent where FLIP exceeds arguments.max_flip.
+// averaged. Errors: kUsage, kIo, kInvalid, kRuntime; kDifferent where FLIP exceeds
+// arguments.max_flip or the frame holds values that are not finite.
 Status play_compare(Pack pack, const PlayArguments& arguments);
 
 }  // namespace oriel

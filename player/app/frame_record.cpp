@@ -5,6 +5,7 @@
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
+#include "player/app/option_names.h"
 
 namespace oriel {
 namespace {
@@ -18,21 +19,38 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
   const FrameStats& s = record.stats;
   nlohmann::ordered_json passes;
   for (std::size_t i = 0; i < kPassNames.size(); ++i) passes[kPassNames[i]] = s.ms[i];
-  return {{"camera", record.camera},  {"ms", record.ms},          {"pass_ms", passes},
-          {"draws", s.draws},         {"triangles", s.triangles}, {"reflectors", s.reflectors},
-          {"maps", s.maps},           {"points", s.points},       {"map_bytes", s.map_bytes},
-          {"in_zone", record.in_zone}};
+  return {{"camera", record.camera},  {"ms", record.ms},
+          {"pass_ms", passes},        {"draws", s.draws},
+          {"triangles", s.triangles}, {"reflectors", s.reflectors},
+          {"maps", s.maps},           {"points", s.points},
+          {"map_bytes", s.map_bytes}, {"reflected_pixels", s.reflected_pixels},
+          {"holes", s.holes},         {"in_zone", record.in_zone}};
+}
+
+nlohmann::ordered_json as_json(const PlayArguments& arguments) {
+  const FrameOptions& o = arguments.frame;
+  nlohmann::ordered_json exposure = "auto";
+  if (arguments.ev100) exposure = *arguments.ev100;
+  return {{"show", name_of(kStages, o.show)},
+          {"reflections", name_of(kReflections, o.reflections)},
+          {"maps", o.maps_per_element},
+          {"select", name_of(kSelections, o.selection)},
+          {"blur", name_of(kBlurs, o.blur)},
+          {"kernel", name_of(kKernelPlaces, o.kernel)},
+          {"fresnel", name_of(kReflectances, o.reflectance)},
+          {"mipmaps", o.mipmaps},
+          {"exposure", exposure}};
 }
 
 }  // namespace
 
-std::string describe(const FrameStats& stats) {
+std::string describe(const FrameStats& stats, bool in_zone) {
   std::string text = fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points, {:.1f} MB of maps",
                                  stats.draws, stats.triangles, stats.reflectors, stats.maps, stats.points,
                                  static_cast<double>(stats.map_bytes) * 1e-6);
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);
-  return text;
+  return text + (in_zone ? "" : ", outside the zone that reflections were planned for");
 }
 
 FrameRecord median_record(const std::vector<FrameRecord>& records) {
@@ -74,18 +92,15 @@ void FlickerMeter::add(const std::vector<float>& light) {
 
 Status write_stats(const std::string& file, const PlayArguments& arguments, const std::string& renderer,
                    const std::vector<FrameRecord>& records, const FlickerMeter* flicker) {
-  nlohmann::ordered_json out{{"pack", arguments.pack},
-                             {"renderer", renderer},
-                             {"width", arguments.width},
-                             {"height", arguments.height},
-                             {"maps_per_element", arguments.frame.maps_per_element},
-                             {"frames", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out{{"pack", arguments.pack},        {"renderer", renderer},
+                             {"width", arguments.width},      {"height", arguments.height},
+                             {"options", as_json(arguments)}, {"frames", nlohmann::ordered_json::array()}};
   for (const FrameRecord& record : records) out["frames"].push_back(as_json(record));
   if (!records.empty()) out["median"] = as_json(median_record(records));
   if (flicker != nullptr) {
     out["flicker"] = {{"mean", flicker->mean()}, {"worst", flicker->worst()}, {"worst_frame", flicker->worst_frame()}};
   }
-  const std::string text = out.dump(1) + "\n";
+  const std::string text = out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   return write_file_atomically(file, Bytes(bytes, bytes + text.size()));
 }

@@ -16,8 +16,8 @@ struct FrameRecord {
   bool in_zone = true;  // the eye is where reflections were planned for
 };
 
-// One line of counts, and of the passes' times where they were taken.
-std::string describe(const FrameStats& stats);
+// One line of counts, of the passes' times where they were taken, and a warning outside the zone.
+std::string describe(const FrameStats& stats, bool in_zone);
 
 // The record whose time is the median, with passes' times that are medians too: the first frame's uploads do not count.
 FrameRecord median_record(const std::vector<FrameRecord>& records);

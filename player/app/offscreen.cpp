@@ -144,7 +144,19 @@ class Studio {
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
       records.push_back({shot.name, took.count(), stats, in_walkable_zone(scene_.pack().walk_grids, shot.camera.eye)});
     }
-    return median_record(records);
+    FrameRecord record = median_record(records);
+    if (!arguments_.stats.empty()) ORIEL_TRY_VOID(count_holes(view, record.stats));
+    return record;
+  }
+
+  // In a frame of its own: it reads images back.
+  Status count_holes(const View& view, FrameStats& stats) {
+    FrameOptions counting = options_;
+    counting.count_holes = true;
+    ORIEL_TRY(const FrameStats counted, renderer_.render(scene_, view, counting));
+    stats.reflected_pixels = counted.reflected_pixels;
+    stats.holes = counted.holes;
+    return {};
   }
 
   // Into its file, if it has one; says so.
@@ -156,9 +168,9 @@ class Studio {
       ORIEL_TRY_VOID(
           write_picture(renderer_, shot.file, arguments_.width, arguments_.height, ev100, arguments_.curve, shot.name));
     }
-    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({}){}\n", shot.file.empty() ? "frame" : shot.file,
-               arguments_.width, arguments_.height, record.ms, ev100, describe(record.stats), shot.name,
-               record.in_zone ? "" : ", outside the zone that reflections were planned for");
+    fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file.empty() ? "frame" : shot.file,
+               arguments_.width, arguments_.height, record.ms, ev100, describe(record.stats, record.in_zone),
+               shot.name);
     return {};
   }
 

@@ -10,6 +10,7 @@
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
 #include "player/passes/frame.h"
+#include "player/walk/zone.h"
 
 namespace oriel {
 namespace {
@@ -175,6 +176,7 @@ class Loop {
 
  private:
   Status draw(int width, int height, float dt_s) {
+    session_.frame.timed = title_is_due();  // only that one: timing waits for the device
     session_.frame.white = white_of_exposure(session_.shown_ev100);
     const View view = make_view(session_.camera, width, height, scene_.bounds());
     ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view, session_.frame));
@@ -193,12 +195,15 @@ class Loop {
     return {};
   }
 
+  bool title_is_due() const { return seconds_since(rate_start_) >= 0.5; }
+
   void show_rate(const FrameStats& stats) {
     ++rate_frames_;
-    const double elapsed = seconds_since(rate_start_);
-    if (elapsed < 0.5) return;
-    const std::string title = fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
-                                          rate_frames_ / elapsed, session_.shown_ev100, describe(stats));
+    if (!session_.frame.timed) return;
+    const bool in_zone = in_walkable_zone(scene_.pack().walk_grids, session_.camera.eye);
+    const std::string title =
+        fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
+                    rate_frames_ / seconds_since(rate_start_), session_.shown_ev100, describe(stats, in_zone));
     glfwSetWindowTitle(window_.get(), title.c_str());
     rate_start_ = Clock::now();
     rate_frames_ = 0;

@@ -18,6 +18,7 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
   filtered.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   out.light = gpu::TextureArray(gpu::kRgb9e5, size.x, size.y, layers, filtered);
   out.ranges = gpu::TextureArray(gpu::kRg32f, range_size.x, 2 * range_size.y, layers);
+  const std::vector<std::uint32_t> black(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   for (int layer = 0; layer < layers; ++layer) {
     const RadianceMap& map = maps[indices[static_cast<std::size_t>(layer)]];
     const Relief relief = make_relief(map);
@@ -26,6 +27,10 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
       const IVec2 cells = relief.range_size(level);
       const int row = 2 * range_size.y - (4 * range_size.y >> level);
       out.ranges.upload(0, layer, row, cells.x, cells.y, relief.ranges[static_cast<std::size_t>(level - 1)].data());
+    }
+    for (int level = 0; relief.size != size && level < filtered.levels;
+         ++level) {  // filters may touch what is beside it
+      out.light.upload(level, layer, 0, std::max(size.x >> level, 1), std::max(size.y >> level, 1), black.data());
     }
     const LightLevels levels = make_light_levels(map);
     for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level) {

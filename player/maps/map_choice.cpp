@@ -1,6 +1,8 @@
 #include "player/maps/map_choice.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <tuple>
 
 namespace oriel {
@@ -31,13 +33,14 @@ struct Ranked {
 
 std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps) {
   std::vector<ReflectorElement> elements;
+  std::map<std::array<float, 4>, std::size_t> by_rectangle;
   for (std::uint32_t i = 0; i < reflector.map_count; ++i) {
     const std::uint32_t index = reflector.first_map + i;
     const RadianceMap& map = maps[index];
-    if (elements.empty() || elements.back().lower != map.lower || elements.back().upper != map.upper) {
-      elements.push_back({map.lower, map.upper, {}});
-    }
-    elements.back().maps.push_back(index);
+    const auto [element, is_new] =
+        by_rectangle.try_emplace({map.lower.x, map.lower.y, map.upper.x, map.upper.y}, elements.size());
+    if (is_new) elements.push_back({map.lower, map.upper, {}});
+    elements[element->second].maps.push_back(index);
   }
   return elements;
 }

@@ -16,7 +16,8 @@ struct ReflectorElement {
   std::vector<std::uint32_t> maps;  // into Pack::radiance_maps
 };
 
-// The maps of `reflector`, grouped by the rectangle they look through, in their order.
+// The maps of `reflector`, grouped by the rectangle they look through, in their order, whether
+// or not those of an element lie side by side.
 std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps);
 
 struct WeighedMap {

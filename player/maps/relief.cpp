@@ -44,20 +44,24 @@ RangeGrid halved(const RangeGrid& fine, const IVec2& size, int around) {
 // Light with its weight in a.
 using LightLevel = std::vector<Vec4>;
 
-void fill_beside(const RadianceMap& map, LightLevel& level) {
-  const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
+// The same, and beside what has light the mean of that.
+LightLevel filled_beside(const LightLevel& level, int width, int height) {
+  LightLevel out = level;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x);
-      if (is_usable(map, i)) continue;
+      if (level[at(x, y)].w > 0) continue;
       Vec4 sum(0);
       for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-          const std::size_t k = static_cast<std::size_t>(v) * map.width + static_cast<std::size_t>(u);
-          if (is_usable(map, k)) sum += level[k];
+          const Vec4& light = level[at(u, v)];
+          sum += light.w * Vec4(Vec3(light), 1);
         }
-      level[i] = sum.w > 0 ? sum / sum.w : Vec4(0);
+      if (sum.w > 0) out[at(x, y)] = Vec4(Vec3(sum) / sum.w, 0);
     }
+  return out;
 }
 
 LightLevel halved_light(const LightLevel& fine, int width, int height) {
@@ -106,12 +110,12 @@ LightLevels make_light_levels(const RadianceMap& map) {
     brightest = std::max(brightest, max_component(map.radiance[i]));
   }
   if (brightest > 0) out.scale = std::ldexp(1.0f, std::clamp(std::ilogb(brightest) - 14, -120, 120));
-  fill_beside(map, level);
   int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
   while (true) {
     std::vector<std::uint32_t> packed;
     packed.reserve(level.size());
-    for (const Vec4& light : level) packed.push_back(rgb9e5_from_rgb(Vec3(light) / out.scale));
+    for (const Vec4& light : filled_beside(level, width, height))
+      packed.push_back(rgb9e5_from_rgb(Vec3(light) / out.scale));
     out.rgb9e5.push_back(std::move(packed));
     if (width == 1 && height == 1) return out;
     level = halved_light(level, width, height);

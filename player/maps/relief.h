@@ -37,7 +37,8 @@ struct Relief {
 Relief make_relief(const RadianceMap& map);
 
 // Radiance over `scale`, a power of two that keeps it within RGB9E5, with averages over 2^i pixels at level i; sizes
-// halve, rounded down, to 1. Unseen pixels beside seen ones take their mean, so that filtering brings in no black.
+// halve, rounded down, to 1. At each level what is unseen takes the mean of what is seen beside it, so that filtering
+// brings in no black.
 struct LightLevels {
   float scale = 1;
   std::vector<std::vector<std::uint32_t>> rgb9e5;

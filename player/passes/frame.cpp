@@ -108,7 +108,7 @@ void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflecto
       reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
       break;
     case Reflections::kGeometry:
-      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, stats);
+      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, options.white, stats);
       break;
     default:
       march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);

@@ -17,7 +17,7 @@ Mat4 with_near_plane(const Mat4& clip, const Vec4& plane) {
 }
 
 void draw_geometry(const ScenePass& pass, const GpuScene& scene, const GpuReflector& reflector, const View& view,
-                   const ImageRect& rect, const ImageTarget& target, FrameStats& stats) {
+                   const ImageRect& rect, const ImageTarget& target, float white, FrameStats& stats) {
   const Pack& pack = scene.pack();
   clear_image(target, rect, Vec4(pack.sky, kClosest));
   const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
@@ -29,9 +29,9 @@ void draw_geometry(const ScenePass& pass, const GpuScene& scene, const GpuReflec
   Vec4 plane = glm::transpose(reflector.reflector_from_pack)[2];  // height over the reflector
   plane.w -= shape.flatness_m + 1e-5f * reflector.size;           // without the reflector itself
   mirrored.clip_from_pack = with_near_plane(reflected.image_from_view * mirrored.view_from_pack, plane);
-  const bool emission = shape.map_count == 0 || pack.radiance_maps[shape.first_map].has_emission;
   const Vec4 depth_row = -glm::transpose(mirrored.view_from_pack)[2];
-  pass.draw_reflected(scene, mirrored, depth_row, kClosest, {1, 1, emission ? 1.0f : 0.0f}, stats);
+  pass.draw_reflected(scene, mirrored, depth_row, kClosest, shape.emitters, stats);
+  pass.draw_transparent(scene, mirrored, {}, white, stats);
 }
 
 }  // namespace oriel

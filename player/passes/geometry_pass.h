@@ -12,8 +12,9 @@ namespace oriel {
 // frustum or lies before it.
 Mat4 with_near_plane(const Mat4& clip, const Vec4& plane);
 
-// Fills the image with the scene mirrored in the reflector's plane: the light that radiance maps hold.
+// Fills the image with the scene mirrored in the reflector's plane: the light that radiance maps hold, without the
+// emitters that the reflector leaves out of them. Reflectors in it show their undirected light. white: as FrameOptions.
 void draw_geometry(const ScenePass& pass, const GpuScene& scene, const GpuReflector& reflector, const View& view,
-                   const ImageRect& rect, const ImageTarget& target, FrameStats& stats);
+                   const ImageRect& rect, const ImageTarget& target, float white, FrameStats& stats);
 
 }  // namespace oriel

@@ -128,6 +128,7 @@ bool ReflectorPass::set_emitters(GpuScene& scene, const GpuReflector& reflector,
   emitters_.set("u_lower", shape.lower);
   emitters_.set("u_upper", shape.upper);
   emitters_.set("u_lobe_rows", kernel.fits.width());
+  emitters_.set("u_sharp", options.blur == Blur::kOff ? 1 : 0);
   emitters_.set("u_reflector_from_pack", reflector.reflector_from_pack);
   return true;
 }

@@ -139,21 +139,26 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
 }
 
 void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
-                               const SceneWeights& weights, FrameStats& stats) const {
+                               std::span<const std::uint32_t> dark, FrameStats& stats) const {
   set_frame(opaque_, scene, view);
   opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
   opaque_.set("u_depth_row", depth_row);
   opaque_.set("u_closest", closest);
-  opaque_.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.mirrored = view.mirrored;
-  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
-    state.cull = cull_of(scene.pack().materials[range.material]);
-    gpu::apply(state);
-    set_material(opaque_, scene, range);
-    draw_indices(range.first_index, range.index_count, stats);
-  }
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  const auto draw = [&](const std::vector<DrawRange>& ranges, float emission) {
+    opaque_.set("u_weights", Vec3(1, 1, emission));
+    for (const DrawRange& range : visible_ranges(ranges, frustum)) {
+      state.cull = cull_of(scene.pack().materials[range.material]);
+      gpu::apply(state);
+      set_material(opaque_, scene, range);
+      draw_indices(range.first_index, range.index_count, stats);
+    }
+  };
+  draw(scene.opaque(), 1);
+  for (const std::uint32_t emitter : dark) draw(scene.emitter(emitter), 0);  // the same depths again
 }
 
 void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
@@ -171,6 +176,7 @@ void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const 
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
+  state.mirrored = view.mirrored;
   state.stencil_read = kSeeThroughBit;
   for (const auto& [depth, range] : sorted) {
     state.cull = cull_of(scene.pack().materials[range->material]);
@@ -184,8 +190,8 @@ void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const 
       draw_indices(range->first_index, range->index_count, stats);
     };
     draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
-    draw(gpu::Blend::kAdd, false, GL_EQUAL, weights.undirected);
-    draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
+    draw(gpu::Blend::kAdd, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
+    if (!view.mirrored) draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
   }
 }
 

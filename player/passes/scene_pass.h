@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <span>
 
 #include "player/gpu/program.h"
 #include "player/scene/frame_options.h"
@@ -33,10 +34,11 @@ class ScenePass {
   void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
                    const std::set<std::uint32_t>& reflective, FrameStats& stats) const;
   // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
-  // orthographic view 1 / dot(depth_row, point). At least `closest`.
+  // orthographic view 1 / dot(depth_row, point). At least `closest`. dark: of Pack::emitters, those that do not shine.
   void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
-                      const SceneWeights& weights, FrameStats& stats) const;
-  // See-through surfaces, blended; the undirected part only where the see-through bit is clear. white: as FrameOptions.
+                      std::span<const std::uint32_t> dark, FrameStats& stats) const;
+  // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
+  // which has no stencil, everywhere. white: as FrameOptions.
   void draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
                         FrameStats& stats) const;
 

@@ -8,8 +8,6 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kMaps = 8;  // as in march.frag: maps of an element that can be asked
-
 struct PlaneRect {
   Vec2 from{0}, to{0};
 };
@@ -76,9 +74,9 @@ void MarchPass::choose_maps(GpuScene& scene, const ReflectorElement& element, co
   // Where not all can be asked, residual ones come before the worst of the others.
   const auto residual = std::find_if(chosen.begin(), chosen.end(),
                                      [&](const WeighedMap& m) { return maps[element.maps[m.map]].residual; });
-  const auto excess = static_cast<std::ptrdiff_t>(chosen.size()) - static_cast<std::ptrdiff_t>(kMaps);
+  const auto excess = static_cast<std::ptrdiff_t>(chosen.size()) - static_cast<std::ptrdiff_t>(kMostMapsPerElement);
   if (excess > 0) chosen.erase(residual - std::min(excess, residual - chosen.begin()), residual);
-  chosen.resize(std::min(chosen.size(), kMaps));
+  chosen.resize(std::min(chosen.size(), kMostMapsPerElement));
 
   const MapArray& array = scene.map_array(element);
   array.light.bind(0);

@@ -1,5 +1,6 @@
 #include "player/scene/check.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "player/maps/map_choice.h"
@@ -61,6 +62,13 @@ Status check_size(const std::string& where, std::uint64_t width, std::uint64_t h
   return {};
 }
 
+Status check_rectangle(const std::string& where, const Vec2& lower, const Vec2& upper) {
+  const bool finite = is_finite(Vec3(lower, 0)) && is_finite(Vec3(upper, 0));
+  if (finite && lower.x < upper.x && lower.y < upper.y) return {};
+  return invalid(where, "found a rectangle from {}, {} to {}, {}, expected finite numbers that rise", lower.x, lower.y,
+                 upper.x, upper.y);
+}
+
 Status check_images(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.textures.size(); ++i) {
     const Texture& t = pack.textures[i];
@@ -87,6 +95,7 @@ Status check_images(const Pack& pack, const gpu::Device& device) {
     if (!(m.eye.z < 0) || !is_finite(m.eye)) {
       return invalid(where, "found its eye at z = {}, expected behind the reflector's plane", m.eye.z);
     }
+    ORIEL_TRY_VOID(check_rectangle(where, m.lower, m.upper));
   }
   return {};
 }
@@ -108,6 +117,16 @@ Status check_materials(const Pack& pack) {
   return {};
 }
 
+// Shaders divide by its determinant, and turn it by up to a right angle.
+Status check_fit(const std::string& where, const LobeFit& f) {
+  constexpr float kMost = 1e12f;
+  for (const float v : {f.m11, f.m13, f.m22, f.m31})
+    if (!(std::fabs(v) <= kMost)) return invalid(where, "found a fit's matrix entry {}, expected up to {}", v, kMost);
+  if (f.m22 > 0 && f.m11 - f.m13 * f.m31 > 0) return {};
+  return invalid(where, "found a fit of m11 {}, m13 {}, m22 {}, m31 {}, expected a positive determinant", f.m11, f.m13,
+                 f.m22, f.m31);
+}
+
 // Weights of a kernel are read here; what becomes of them has a row of taps per slice.
 Status check_kernels(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) {
@@ -126,6 +145,7 @@ Status check_kernels(const Pack& pack, const gpu::Device& device) {
                   device.texture_size, device.renderer);
     if (!k.fits.empty() && k.fits.size() != k.slices.size())
       return invalid(where, "found {} fits, expected {}", k.fits.size(), k.slices.size());
+    for (const LobeFit& f : k.fits) ORIEL_TRY_VOID(check_fit(where, f));
   }
   return {};
 }
@@ -156,7 +176,8 @@ Status check_triangles(const std::string& where, const Pack& pack, const std::ve
   return {};
 }
 
-Status check_emitters(const Pack& pack, const Reflector& r, const std::string& where, const gpu::Device& device) {
+Status check_reflector_emitters(const Pack& pack, const Reflector& r, const std::string& where,
+                                const gpu::Device& device) {
   if (r.emitters.empty()) return {};
   if (r.emitters.size() > kMaxReflectorEmitters || r.visibility_x < 2 || r.visibility_y < 2) {
     return invalid(where, "found {} emitters seen from {}x{} nodes, expected at most {} and at least 2x2 nodes",
@@ -168,8 +189,21 @@ Status check_emitters(const Pack& pack, const Reflector& r, const std::string& w
     if (emitter >= pack.emitters.size()) {
       return invalid(where, "found emitter {}, expected less than {}", emitter, pack.emitters.size());
     }
-    const std::size_t corners = pack.emitters[emitter].corners.size();
+  }
+  return {};
+}
+
+Status check_emitters(const Pack& pack) {
+  for (std::size_t i = 0; i < pack.emitters.size(); ++i) {
+    const Emitter& e = pack.emitters[i];
+    const std::string where = fmt::format("emitter {}", i);
+    const std::size_t corners = e.corners.size();
     if (corners < 3 || corners > 4) return invalid(where, "found an emitter of {} corners, expected 3 or 4", corners);
+    if (!std::all_of(e.corners.begin(), e.corners.end(), [](const Vec3& c) { return is_finite(c); }))
+      return invalid(where, "found a corner that is not finite");
+    if (!is_finite(e.radiance) || !(glm::all(glm::greaterThanEqual(e.radiance, Vec3(0)))))
+      return invalid(where, "found radiance {}, {}, {}, expected finite numbers from 0 up", e.radiance.x, e.radiance.y,
+                     e.radiance.z);
   }
   return {};
 }
@@ -206,6 +240,7 @@ Status check_reflectors(const Pack& pack, const gpu::Device& device) {
     if (r.material >= pack.materials.size()) {
       return invalid(where, "found material {}, expected less than {}", r.material, pack.materials.size());
     }
+    ORIEL_TRY_VOID(check_rectangle(where, r.lower, r.upper));
     if (std::uint64_t{r.first_map} + r.map_count > pack.radiance_maps.size()) {
       return invalid(where, "found maps {} + {}, expected within {}", r.first_map, r.map_count,
                      pack.radiance_maps.size());
@@ -216,7 +251,7 @@ Status check_reflectors(const Pack& pack, const gpu::Device& device) {
                     element.maps.size(), device.array_layers, device.renderer);
       }
     }
-    ORIEL_TRY_VOID(check_emitters(pack, r, where, device));
+    ORIEL_TRY_VOID(check_reflector_emitters(pack, r, where, device));
     ORIEL_TRY_VOID(check_triangles(where, pack, r.indices));
   }
   return {};
@@ -231,6 +266,7 @@ Status check_drawable(const Pack& pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device));
   ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
+  ORIEL_TRY_VOID(check_emitters(pack));
   return check_reflectors(pack, device);
 }
 

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "player/scene/check.h"
+#include "player/scene/emitter_ranges.h"
 
 namespace oriel {
 namespace {
@@ -87,6 +88,7 @@ void GpuScene::upload_geometry() {
     (is_transparent(part.material) ? transparent_ : opaque_).push_back(range);
   }
   make_reflectors(indices);
+  make_emitters(indices);
   make_curved_reflectors(indices);
 
   vertex_array_ = gpu::make_vertex_array();
@@ -130,6 +132,25 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     out.mean_distance = means.distance;
     if (!r.emitters.empty()) out.visibility = upload_visibility(r);
     reflectors_.push_back(std::move(out));
+  }
+}
+
+void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {
+  for (const Emitter& emitter : pack_.emitters) {
+    std::vector<DrawRange> ranges;
+    for (const EmitterTriangles& found : triangles_of(emitter, pack_)) {
+      const MeshPart& part = pack_.mesh.parts[found.part];
+      if (is_transparent(part.material)) continue;
+      DrawRange range{static_cast<std::uint32_t>(indices.size()),
+                      static_cast<std::uint32_t>(found.indices.size()),
+                      part.material,
+                      part.lightmap_page,
+                      {}};
+      for (const std::uint32_t index : found.indices) range.bounds.extend(pack_.mesh.positions[index]);
+      indices.insert(indices.end(), found.indices.begin(), found.indices.end());
+      ranges.push_back(range);
+    }
+    emitters_.push_back(std::move(ranges));
   }
 }
 

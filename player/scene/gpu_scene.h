@@ -67,6 +67,8 @@ class GpuScene {
   const std::vector<DrawRange>& transparent() const { return transparent_; }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
   const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
+  // The opaque triangles of one of Pack::emitters.
+  const std::vector<DrawRange>& emitter(std::uint32_t index) const { return emitters_[index]; }
   bool is_transparent(std::uint32_t material) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
@@ -95,10 +97,12 @@ class GpuScene {
   void upload_geometry();
   void upload_images();
   void make_reflectors(std::vector<std::uint32_t>& indices);
+  void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   Pack pack_;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
+  std::vector<std::vector<DrawRange>> emitters_;
   std::vector<GpuReflector> reflectors_;
   std::vector<GpuCurvedReflector> curved_reflectors_;
   std::vector<SurroundTextures> surround_maps_;

@@ -56,3 +56,17 @@ float reflected_polygon(vec4 inverse, float amplitude, vec3 v[kMostCorners], int
   for (int i = 0; i < count; ++i) sum += edge_z(v[i], v[i + 1 == count ? 0 : i + 1]);
   return -amplitude * 0.15915494309 * sum;
 }
+
+// The same of a lobe that is one direction: 1 where a ray along it meets the polygon's bright side, -1 the other, 0 none.
+float polygon_met(vec3 v[kMostCorners], int count, vec3 direction) {
+  float least = 0.0, most = 0.0;
+  for (int i = 0; i < count; ++i) {
+    float side = dot(cross(v[i], v[i + 1 == count ? 0 : i + 1]), direction);
+    least = min(least, side);
+    most = max(most, side);
+  }
+  vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
+  bool ahead = dot(normal, v[0]) * dot(normal, direction) > 0.0;
+  if (!ahead || least * most < 0.0) return 0.0;
+  return most > 0.0 ? -1.0 : 1.0;
+}

@@ -2,7 +2,7 @@
 // where those see nothing.
 #include "lib/march.glsl"
 
-const int kMaps = 8;
+const int kMaps = 16;             // kMostMapsPerElement
 const float kEnough = 0.05;       // trust after which no further map is asked
 const float kLeastWeight = 0.01;  // of a map whose own weight is 0
 const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
@@ -25,13 +25,18 @@ uniform float u_closest;      // 1 / distance is never stored smaller: marks the
 in vec2 v_on_plane;
 layout(location = 0) out vec4 o_light;
 
-vec3 light_of_hit(MapHit hit, vec4 map, vec3 eye, float inverse) {
-  vec2 at = clamp(hit.at, vec2(0.5), map.xy - 0.5) / vec2(textureSize(u_light, 0).xy);
+// s_distance: the hit's disparity times its distance from the mirrored eye, finite for the sky too.
+vec3 light_of_hit(MapHit hit, vec4 map, float s_distance) {
   // Pixels of the map under one of the image.
-  float footprint = u_pixel * (u_ortho > 0.5 ? 1.0 : 1.0 / inverse);
   vec2 pixel = (u_upper - u_lower) / map.xy;
-  float level = log2(max(footprint * hit.s / max(pixel.x, pixel.y), 1e-6));
-  return textureLod(u_light, vec3(at, map.z), max(level, 0.0)).rgb * map.w;
+  float footprint = u_pixel * (u_ortho > 0.5 ? hit.s : s_distance);
+  float coarsest = floor(log2(max(map.x, map.y)) + 1e-3);
+  float level = clamp(log2(max(footprint / max(pixel.x, pixel.y), 1e-6)), 0.0, coarsest);
+  // Beyond the map's own texels of a level lies nothing.
+  float texel = exp2(ceil(level));
+  vec2 last = (max(floor(map.xy / texel), 1.0) - 0.5) * texel;
+  vec2 at = clamp(hit.at, vec2(0.5 * texel), last) / vec2(textureSize(u_light, 0).xy);
+  return textureLod(u_light, vec3(at, map.z), level).rgb * map.w;
 }
 
 void main() {
@@ -55,7 +60,8 @@ void main() {
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
     if (hit.trust <= 0.0) continue;
     float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
-    vec4 light = vec4(light_of_hit(hit, map, eye, inverse), inverse);
+    float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
+    vec4 light = vec4(light_of_hit(hit, map, s_distance), inverse);
     // Maps that do not agree about the distance do not mix: the weightier ones win.
     float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
     if (total > 0.0) {

@@ -68,6 +68,9 @@ TEST_F(Play, UsageErrors) {
                           "--path", "--stats", "--tonemap filmic", "--size 100000x2", "--frames 0"}) {
     EXPECT_EQ(run(std::string("tiny.oriel --offscreen -o a.png ") + bad).code, 1) << bad;
   }
+  for (const char* ignored : {"--frames 2", "--format exr", "--tonemap none", "--show M", "--stats s.json"}) {
+    EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --compare a.exr ") + ignored), 1, "--compare")) << ignored;
+  }
   const Outcome unknown = run("tiny.oriel --offscreen -o a.png --camera nowhere");
   EXPECT_TRUE(ends(unknown, 1, "nowhere"));
   EXPECT_FALSE(fs::exists(folder() / "a.png"));
@@ -128,6 +131,21 @@ TEST_F(Play, EveryStageAndOption) {
   }
 }
 
+// Names that are no UTF-8 come from the file; options are there, so that two files can be told apart.
+TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
+  Pack named = oriel::testing::tiny_pack();
+  named.cameras[0].name = "caf\xe9";
+  ASSERT_TRUE(write_pack(folder() / "named.oriel", named));
+  ASSERT_EQ(run("named.oriel --offscreen --size 32x18 --camera 0 --reflections points --blur off --stats s.json").code,
+            0);
+  std::ifstream in(folder() / "s.json");
+  std::stringstream text;
+  text << in.rdbuf();
+  for (const char* found : {"\"reflections\": \"points\"", "\"blur\": \"off\"", "\"select\": \"angle\"",
+                            "\"holes\":", "\"in_zone\":", "caf"})
+    EXPECT_NE(text.str().find(found), std::string::npos) << found << " in " << text.str();
+}
+
 TEST_F(Play, WithoutADisplayTheWindowSaysWhatToDo) {
   EXPECT_TRUE(ends(run("tiny.oriel"), 4, "--offscreen"));
 }
@@ -179,6 +197,16 @@ wait $pid
   EXPECT_NE(first->pixels, second->pixels) << "W has moved the camera";
   EXPECT_EQ(resized->width, 200u);
   EXPECT_EQ(resized->height, 120u);
+}
+
+TEST_F(PlayWindow, TheTitleTellsWhatAFrameCosts) {
+  const Outcome r = in_display(std::string(kStart) + R"(
+for i in $(seq 50); do xdotool getwindowname "$window" | grep -q ' ms' && break; sleep 0.2; done
+xdotool getwindowname "$window"
+kill -TERM $pid; wait $pid
+)");
+  EXPECT_TRUE(ends(r, 130, " fps, ")) << r.out;
+  EXPECT_NE(r.out.find("scene "), std::string::npos) << r.out;
 }
 
 TEST_F(PlayWindow, ControlQQuits) {

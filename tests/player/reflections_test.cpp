@@ -32,38 +32,8 @@ Pack mirror_pack() {
   return pack;
 }
 
-class Reflected : public FrameTest {};
-
-// Red at the left and green at the right of the eye, behind it; blue behind the mirror, where it must be clipped.
-TEST_F(Reflected, GeometryIsMirroredAndClippedAtThePlane) {
-  Pack pack = mirror_pack();
-  add_quad(pack, {0, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
-  add_quad(pack, {8, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 2, -1);
-  add_quad(pack, {2, -2, -0.5f}, {-4, 0, 0}, {0, 4, 0}, 3, -1);
-  FrameOptions options;
-  options.reflections = Reflections::kGeometry;
-  options.show = Show::kM;
-  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
-  EXPECT_NEAR(glm::length(p.at(24, 24) - Vec3(8, 0, 0)), 0, 1e-4f);
-  EXPECT_NEAR(glm::length(p.at(40, 24) - Vec3(0, 8, 0)), 0, 1e-4f);
-  EXPECT_TRUE(p.finite());
-}
-
-TEST(NearPlane, CutsThereAndKeepsTheRest) {
-  const View view = make_view(camera_at({0, 0, 0}, {0, 0, -1}), 64, 48, {{-9, -9, -9}, {9, 9, 9}});
-  const Vec4 plane = glm::normalize(Vec4(0.3f, 0.1f, -1, -2));
-  const Mat4 cut = with_near_plane(view.clip_from_pack, plane);
-  for (const Vec3& p : {Vec3(0, 0, -2.5f), Vec3(0.5f, 0, -1.9f), Vec3(0, 0.4f, -2.1f), Vec3(-0.3f, 0.2f, -6)}) {
-    const Vec4 before = view.clip_from_pack * Vec4(p, 1), after = cut * Vec4(p, 1);
-    EXPECT_NEAR(before.x / before.w, after.x / after.w, 1e-5f);
-    EXPECT_NEAR(before.y / before.w, after.y / after.w, 1e-5f);
-    EXPECT_EQ(after.z >= -after.w, glm::dot(plane, Vec4(p, 1)) >= 0) << p.x << " " << p.y << " " << p.z;
-    EXPECT_LE(after.z, after.w * 1.0001f);
-  }
-}
-
-// A lobe that is a cosine shows a parallel square as its form factor from a point under its centre (Nusselt).
-TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
+// Maps that are black, a lobe that is a cosine, and a square lamp over the mirror's middle that they leave out.
+Pack lamp_pack() {
   Pack pack = mirror_pack();
   BrdfKernel kernel;
   kernel.alpha = 1;
@@ -86,6 +56,64 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   reflector.emitters = {0};
   reflector.visibility_x = reflector.visibility_y = 2;
   reflector.visibility.assign(4, 255);
+  return pack;
+}
+
+class Reflected : public FrameTest {};
+
+// Red at the left and green at the right of the eye, behind it; blue behind the mirror, where it must be clipped.
+TEST_F(Reflected, GeometryIsMirroredAndClippedAtThePlane) {
+  Pack pack = mirror_pack();
+  add_quad(pack, {0, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
+  add_quad(pack, {8, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 2, -1);
+  add_quad(pack, {2, -2, -0.5f}, {-4, 0, 0}, {0, 4, 0}, 3, -1);
+  FrameOptions options;
+  options.reflections = Reflections::kGeometry;
+  options.show = Show::kM;
+  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
+  EXPECT_NEAR(glm::length(p.at(24, 24) - Vec3(8, 0, 0)), 0, 1e-4f);
+  EXPECT_NEAR(glm::length(p.at(40, 24) - Vec3(0, 8, 0)), 0, 1e-4f);
+  EXPECT_TRUE(p.finite());
+}
+
+// Of two lamps of one material the one that the maps leave out is dark, and a pane before the other dims it.
+TEST_F(Reflected, GeometryLeavesOutTheListedEmittersAndShowsPanes) {
+  Pack pack = lamp_pack();
+  pack.emitters[0].corners = {{0, -4, 4}, {-8, -4, 4}, {-8, 4, 4}, {0, 4, 4}};
+  add_quad(pack, {0, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
+  add_quad(pack, {8, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
+  pack.materials.resize(5);
+  pack.materials[4].alpha_mode = AlphaMode::kBlend;
+  pack.materials[4].alpha = 0.25f;
+  pack.materials[4].double_sided = true;
+  pack.materials[4].emission = {0, 4, 0};
+  add_quad(pack, {8, 0, 3}, {-8, 0, 0}, {0, 4, 0}, 4, -1);
+  FrameOptions options;
+  options.reflections = Reflections::kGeometry;
+  options.show = Show::kM;
+  const Picture p = draw(pack, camera_at({0, 0, 2}), 64, 48, options);
+  EXPECT_NEAR(glm::length(p.at(24, 32)), 0, 1e-4f);
+  EXPECT_NEAR(glm::length(p.at(40, 32) - Vec3(8, 0, 0)), 0, 1e-4f);
+  EXPECT_NEAR(glm::length(p.at(40, 16) - Vec3(6, 1, 0)), 0, 1e-4f);
+}
+
+TEST(NearPlane, CutsThereAndKeepsTheRest) {
+  const View view = make_view(camera_at({0, 0, 0}, {0, 0, -1}), 64, 48, {{-9, -9, -9}, {9, 9, 9}});
+  const Vec4 plane = glm::normalize(Vec4(0.3f, 0.1f, -1, -2));
+  const Mat4 cut = with_near_plane(view.clip_from_pack, plane);
+  for (const Vec3& p : {Vec3(0, 0, -2.5f), Vec3(0.5f, 0, -1.9f), Vec3(0, 0.4f, -2.1f), Vec3(-0.3f, 0.2f, -6)}) {
+    const Vec4 before = view.clip_from_pack * Vec4(p, 1), after = cut * Vec4(p, 1);
+    EXPECT_NEAR(before.x / before.w, after.x / after.w, 1e-5f);
+    EXPECT_NEAR(before.y / before.w, after.y / after.w, 1e-5f);
+    EXPECT_EQ(after.z >= -after.w, glm::dot(plane, Vec4(p, 1)) >= 0) << p.x << " " << p.y << " " << p.z;
+    EXPECT_LE(after.z, after.w * 1.0001f);
+  }
+}
+
+// The lobe shows a parallel square as its form factor from a point under its centre (Nusselt).
+TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
+  Pack pack = lamp_pack();
+  Reflector& reflector = pack.reflectors[0];
   // Of a square of half side a at height h, over its centre: (2/π) · 2 · x/√(1+x²) atan(x/√(1+x²)), x = a / h.
   const float x = 0.5f / std::sqrt(1.25f);
   const float expected = 4 / kPi * x * std::atan(x);
@@ -105,14 +133,66 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   EXPECT_EQ(middle().x, 0) << "M is the world without them";
 }
 
-TEST_F(Reflected, EmittersOutOfRangeAreRefused) {
-  Pack pack = mirror_pack();
-  pack.reflectors[0].emitters = {0};
-  pack.reflectors[0].visibility_x = pack.reflectors[0].visibility_y = 2;
-  pack.reflectors[0].visibility.assign(4, 255);
-  const auto scene = GpuScene::create(pack, device_);
-  ASSERT_FALSE(scene);
-  EXPECT_NE(scene.error().message.find("emitter"), std::string::npos) << scene.error().text();
+// Without blur a lamp is where the mirror ray meets it, as bright as it is.
+TEST_F(Reflected, EmittersAreSharpWithoutBlur) {
+  Pack pack = lamp_pack();
+  FrameOptions options;
+  options.show = Show::kMK;
+  options.blur = Blur::kOff;
+  const Camera camera = camera_at({0.3f, 0, 1});
+  const View view = make_view(camera, 65, 49, {});
+  const auto check = [&](float bright) {
+    const Picture p = draw(pack, camera, 65, 49, options);
+    int lit = 0;
+    for (int y = 0; y < 49; ++y)
+      for (int x = 0; x < 65; ++x) {
+        const Vec2 ndc((static_cast<float>(x) + 0.5f) / 32.5f - 1, 1 - (static_cast<float>(y) + 0.5f) / 24.5f);
+        const Vec3 direction = glm::transpose(Mat3(view.view_from_pack)) * Vec3(ndc * view.tangents, -1);
+        const Vec2 on_plane = Vec2(camera.eye) + Vec2(direction) / -direction.z;
+        if (std::max(std::fabs(on_plane.x), std::fabs(on_plane.y)) > 0.98f) continue;
+        const Vec2 hit = on_plane + Vec2(direction) * (2 / -direction.z);
+        const float off = std::max(std::fabs(hit.x), std::fabs(hit.y));
+        if (std::fabs(off - 1) < 1e-3f) continue;  // on its edge to the last digits
+        lit += off < 1;
+        EXPECT_NEAR(p.at(x, y).x, off < 1 ? bright : 0, 1e-3f) << x << "," << y;
+      }
+    EXPECT_GT(lit, 50);
+  };
+  check(100);
+  std::swap(pack.emitters[0].corners[1], pack.emitters[0].corners[3]);  // its dark side
+  check(0);
+  pack.emitters[0].two_sided = true;
+  check(100);
+  pack.emitters[0].corners.pop_back();  // a triangle
+  EXPECT_TRUE(draw(pack, camera, 65, 49, options).finite());
+}
+
+// What would put numbers that are none into the frame is refused before it is drawn.
+TEST_F(Reflected, BrokenReflectorsAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  const std::vector<std::pair<const char*, std::function<void(Pack&)>>> breaks = {
+      {"found emitter 7", [](Pack& p) { p.reflectors[0].emitters = {7}; }},
+      {"2 corners", [](Pack& p) { p.emitters[0].corners.resize(2); }},
+      {"corner", [&](Pack& p) { p.emitters[0].corners[1].y = nan; }},
+      {"radiance", [&](Pack& p) { p.emitters[0].radiance.y = infinite; }},
+      {"radiance", [](Pack& p) { p.emitters[0].radiance.z = -1; }},
+      {"entry", [&](Pack& p) { p.kernels[0].fits[1].m31 = nan; }},
+      {"determinant", [](Pack& p) { p.kernels[0].fits[0].m11 = 0; }},
+      {"determinant", [](Pack& p) { p.kernels[0].fits[0].m22 = 0; }},
+      {"radiance map 0", [&](Pack& p) { p.radiance_maps[0].lower.x = nan; }},
+      {"radiance map 0", [](Pack& p) { p.radiance_maps[0].upper.y = p.radiance_maps[0].lower.y; }},
+      {"radiance map 0", [&](Pack& p) { p.radiance_maps[0].upper.y = infinite; }},
+      {"rectangle", [](Pack& p) { p.reflectors[0].upper = p.reflectors[0].lower; }},
+  };
+  ASSERT_TRUE(GpuScene::create(lamp_pack(), device_));
+  for (const auto& [says, break_it] : breaks) {
+    Pack pack = lamp_pack();
+    break_it(pack);
+    const auto scene = GpuScene::create(pack, device_);
+    ASSERT_FALSE(scene) << says;
+    EXPECT_EQ(scene.error().code, ErrorCode::kInvalid);
+    EXPECT_NE(scene.error().text().find(says), std::string::npos) << scene.error().text();
+  }
 }
 
 // From a coin to a kilometre, from straight before to edge-on, in every mode: no number that is none.

@@ -169,6 +169,10 @@ TEST(SelectMaps, ElementsAreTheMapsRectangles) {
   ASSERT_EQ(elements.size(), 2u);
   EXPECT_EQ(elements[0].maps.size(), 2u);
   EXPECT_EQ(elements[1].maps, std::vector<std::uint32_t>{2});
+  std::swap(maps[1], maps[2]);
+  const auto apart = group_by_element(reflector, maps);
+  ASSERT_EQ(apart.size(), 2u) << "maps of an element are one's, even where others lie between";
+  EXPECT_EQ(apart[0].maps, (std::vector<std::uint32_t>{0, 2}));
 }
 
 TEST(KernelTaps, HaveTheKernelsMoments) {

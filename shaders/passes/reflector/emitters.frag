@@ -15,6 +15,7 @@ uniform vec2 u_upper;
 uniform sampler2D u_lobes;       // inverse matrices in the mirror direction's frame by incidence, rows as kernel_row()
 uniform int u_lobe_rows;
 uniform mat4 u_reflector_from_pack;
+uniform bool u_sharp;            // without a lobe: what the mirror ray meets
 layout(location = 0) out vec4 o_light;
 
 const float kLeastCosine = 1e-3;  // of the incidences that lobes are known for
@@ -38,7 +39,9 @@ vec3 emitters_in_lobe(float cos_theta) {
       corners[i] = vec3(dot(v.xy, x), dot(v.xy, vec2(-x.y, x.x)), v.z);
     }
     float kind = u_emitter_corners[4 * k].w;
-    float share = reflected_polygon(inverse, 1.0, corners, int(abs(kind)));
+    int count = int(abs(kind));
+    float share = u_sharp ? polygon_met(corners, count, vec3(-sqrt(max(0.0, 1.0 - cos_theta * cos_theta)), 0.0, cos_theta))
+                          : reflected_polygon(inverse, 1.0, corners, count);
     sum += visible * max(kind < 0.0 ? abs(share) : share, 0.0) * u_emitter_light[k];
   }
   return sum;

@@ -84,5 +84,28 @@ TEST(Comparison, RefusesWhatIsNoReference) {
   EXPECT_FALSE(compare(played(), grey, 0));
 }
 
+// One value that is no number, in any layer, is an error: neither 0 nor a pass.
+TEST(Comparison, RefusesWhatIsNotFinite) {
+  constexpr std::size_t kAt = 3 * (2 * kWidth + 7) + 1;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (const auto& [name, layer] : reference().layers) {
+      LayeredImage broken = reference();
+      broken.layers[name].pixels[kAt] = bad;
+      const auto compared = compare(played(), broken, 0);
+      ASSERT_FALSE(compared) << name;
+      EXPECT_EQ(compared.error().code, ErrorCode::kInvalid);
+      EXPECT_NE(compared.error().message.find("\"" + name + "\" holds 1 "), std::string::npos);
+      EXPECT_NE(compared.error().message.find("pixel 7, 2"), std::string::npos) << compared.error().message;
+    }
+    for (FloatImage PlayedFrame::*layer : {&PlayedFrame::total, &PlayedFrame::diffuse, &PlayedFrame::specular}) {
+      PlayedFrame broken = played();
+      (broken.*layer).pixels[kAt] = bad;
+      const auto compared = compare(broken, reference(), 0);
+      ASSERT_FALSE(compared);
+      EXPECT_EQ(compared.error().code, ErrorCode::kDifferent);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace oriel

@@ -89,10 +89,20 @@ TEST(RelativeError, CountsTheRegionOnly) {
 }
 
 TEST(RelativeError, BlackAndMisshapenPictures) {
-  EXPECT_EQ(relative_error(plain(Vec3(1)), plain(Vec3(0)))->rel_rmse, 0);
+  EXPECT_EQ(relative_error(plain(Vec3(0)), plain(Vec3(0)))->rel_rmse, 0);
+  EXPECT_TRUE(std::isinf(relative_error(plain(Vec3(1)), plain(Vec3(0)))->net())) << "light where there is none";
   std::vector<std::uint8_t> none(kSide * kSide, 0);
   EXPECT_EQ(relative_error(plain(Vec3(1)), plain(Vec3(2)), {}, none)->rel_rmse, 0);
   EXPECT_EQ(relative_error({2, 2, 3, std::vector<float>(12)}, plain(Vec3(0))).error().code, ErrorCode::kInvalid);
+}
+
+TEST(RelativeError, NotANumberIsNeverNone) {
+  FloatImage broken = plain(Vec3(2));
+  broken.pixels[100] = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& e : {relative_error(broken, plain(Vec3(2))), relative_error(plain(Vec3(2)), broken)}) {
+    EXPECT_TRUE(std::isnan(e->rel_rmse));
+    EXPECT_TRUE(std::isnan(e->net()));
+  }
 }
 
 TEST(Shrink, AveragesSquares) {

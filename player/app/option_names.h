@@ -1,0 +1,35 @@
+// What options' values are called on the command line, and in what the player writes.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "player/passes/display_pass.h"
+#include "player/scene/frame_options.h"
+
+namespace oriel {
+
+inline const std::map<std::string, ToneCurve> kToneCurves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
+inline const std::map<std::string, Show> kStages{
+    {"all", Show::kAll}, {"M", Show::kM}, {"MK", Show::kMK}, {"MKR", Show::kMKR}, {"D", Show::kD}};
+inline const std::map<std::string, Reflections> kReflections{{"march", Reflections::kMarch},
+                                                             {"points", Reflections::kPoints},
+                                                             {"geometry", Reflections::kGeometry},
+                                                             {"off", Reflections::kOff}};
+inline const std::map<std::string, Selection> kSelections{{"angle", Selection::kAngle},
+                                                          {"distance", Selection::kDistance}};
+inline const std::map<std::string, Blur> kBlurs{
+    {"distance", Blur::kDistance}, {"constant", Blur::kConstant}, {"off", Blur::kOff}};
+inline const std::map<std::string, KernelPlace> kKernelPlaces{{"lobe", KernelPlace::kLobe},
+                                                              {"centred", KernelPlace::kCentred}};
+inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflectance::kTable},
+                                                              {"sphere", Reflectance::kSphereMap}};
+
+// The name of a value that the map has.
+template <class T>
+const std::string& name_of(const std::map<std::string, T>& names, T value) {
+  return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.second == value; })->first;
+}
+
+}  // namespace oriel
