@@ -1,5 +1,7 @@
 #include "player/app/compare.h"
 
+#include "player/movers/poses.h"
+
 #include <cstdio>
 
 #include "formats/camera/camera_spec.h"
@@ -25,8 +27,9 @@ Result<std::uint32_t> supersampling(const PlayArguments& arguments, const FloatI
 // Draws the stages that are compared, as large pictures, and averages them.
 class Stages {
  public:
-  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments, std::uint32_t n)
-      : scene_(scene), renderer_(renderer), view_(view), options_(arguments.frame), n_(n) {
+  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments,
+         const FrameOptions& options, std::uint32_t n)
+      : scene_(scene), renderer_(renderer), view_(view), options_(options), n_(n) {
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
@@ -106,9 +109,11 @@ Status play_compare(Pack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
   ORIEL_TRY(const Camera camera, choose_camera(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  const View view =
-      make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height), scene->bounds());
-  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, n).draw());
+  FrameOptions options = arguments.frame;
+  ORIEL_TRY(options.poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
+  const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
+                              bounds_with_movers(*scene, options.poses));
+  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, options, n).draw());
   ORIEL_TRY(const Comparison comparison,
             compare(frame, reference, arguments.ev100 ? white_of_exposure(*arguments.ev100) : 0));
   const std::string text = comparison_text(comparison);

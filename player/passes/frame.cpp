@@ -45,6 +45,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   renderer->device_ = device;
   renderer->clock_ = PassClock(device.dialect);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
+  ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
@@ -168,6 +169,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
   clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
+  if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
   const std::vector<Candidate> candidates =
       clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); });
   std::set<std::uint32_t> reflective;
@@ -179,6 +182,11 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
+    if (!movers.empty()) {
+      clock_.time(Pass::kMovers, [&] {
+        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission}, nullptr, stats);
+      });
+    }
     ORIEL_TRY(const float white, white_for(scene, options));
     clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "player/movers/mover_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
@@ -55,6 +56,7 @@ class Renderer {
 
   gpu::Device device_;
   ScenePass scene_pass_;
+  MoverPass mover_pass_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   ReprojectPass reproject_pass_;

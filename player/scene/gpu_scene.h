@@ -11,19 +11,11 @@
 #include "player/gpu/device.h"
 #include "player/maps/map_array.h"
 #include "player/maps/map_choice.h"
-#include "player/scene/culling.h"
+#include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
-
-// Triangles of one part: one material, one lightmap page.
-struct DrawRange {
-  std::uint32_t first_index = 0, index_count = 0;  // into GpuScene's index buffer
-  std::uint32_t material = 0;
-  std::int32_t lightmap_page = -1;
-  Bounds bounds;
-};
 
 struct GpuReflector {
   std::uint32_t index = 0;     // into Pack::reflectors
@@ -58,6 +50,7 @@ class GpuScene {
   const std::vector<DrawRange>& opaque() const { return opaque_; }
   const std::vector<DrawRange>& transparent() const { return transparent_; }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
+  const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
   bool is_transparent(std::uint32_t material) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
@@ -89,6 +82,7 @@ class GpuScene {
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
   std::vector<GpuReflector> reflectors_;
+  std::vector<GpuMover> movers_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
   std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;
