@@ -34,6 +34,7 @@ struct TextureOptions {
   GLenum wrap_s = GL_CLAMP_TO_EDGE;
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
   int levels = 1;             // mip levels that are allocated
+  bool compare = false;       // depth: a lookup says whether its reference is nearer or as near
   bool make_mipmaps = false;  // fill the levels from level 0
 };
 
@@ -68,6 +69,7 @@ class TextureArray {
   // Rows at the left edge of a layer's level, from `row` on.
   void upload(int level, int layer, int row, int width, int height, const void* pixels) const;
   void bind(int unit) const;
+  GLuint name() const { return handle_.name(); }
   std::size_t bytes() const { return bytes_; }
   explicit operator bool() const { return static_cast<bool>(handle_); }
 

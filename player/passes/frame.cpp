@@ -46,6 +46,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   renderer->clock_ = PassClock(device.dialect);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
+  ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
@@ -144,6 +145,18 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   return {};
 }
 
+Result<const gpu::Texture*> Renderer::draw_change(const GpuScene& scene, const View& view,
+                                                  std::span<const PlacedMover> movers, const FrameOptions& options,
+                                                  FrameStats& stats) {
+  if (movers.empty()) return nullptr;
+  ORIEL_TRY_VOID(clock_.time(Pass::kMovers, [&] {
+    return bright_pass_.draw(scene, view, movers, options.mover_lights, frame_->depth, stats);
+  }));
+  frame_->framebuffer.bind();
+  glViewport(0, 0, view.width, view.height);
+  return &bright_pass_.change();
+}
+
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
   if (options.white > 0 || !needs_white(scene)) return options.white;
   ORIEL_TRY(const std::optional<float> ev100, meter());
@@ -181,10 +194,11 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   }
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
+    ORIEL_TRY(const gpu::Texture* const change, draw_change(scene, view, movers, options, stats));
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, change, stats); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
-        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission}, nullptr, stats);
+        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission}, change, stats);
       });
     }
     ORIEL_TRY(const float white, white_for(scene, options));

@@ -4,7 +4,7 @@
 #include <memory>
 #include <set>
 
-#include "player/movers/mover_pass.h"
+#include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
@@ -52,11 +52,15 @@ class Renderer {
                            const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
+  // What movers change of the light on what is seen; null where there are none.
+  Result<const gpu::Texture*> draw_change(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                                          const FrameOptions& options, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;
   ScenePass scene_pass_;
   MoverPass mover_pass_;
+  BrightPass bright_pass_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   ReprojectPass reproject_pass_;

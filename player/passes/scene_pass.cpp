@@ -34,6 +34,7 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   program.set("u_reflectance", kReflectanceUnit);
   program.set("u_direction", kDirectionUnit);
   program.set("u_normal_texture", kNormalUnit);
+  program.set("u_change", kChangeUnit);
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
   scene.bind_geometry();
@@ -79,8 +80,11 @@ void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& 
 }
 
 void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                            const std::set<std::uint32_t>& reflective, FrameStats& stats) const {
+                            const std::set<std::uint32_t>& reflective, const gpu::Texture* change,
+                            FrameStats& stats) const {
   set_frame(opaque_, scene, view);
+  opaque_.set("u_changed", change != nullptr ? 1 : 0);
+  if (change != nullptr) change->bind(kChangeUnit);
   opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
@@ -106,6 +110,7 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
 void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
                                const SceneWeights& weights, FrameStats& stats) const {
   set_frame(opaque_, scene, view);
+  opaque_.set("u_changed", 0);
   opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
   opaque_.set("u_depth_row", depth_row);
   opaque_.set("u_closest", closest);

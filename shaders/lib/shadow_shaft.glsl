@@ -6,6 +6,7 @@ struct Shaft {
   vec3 from;      // the point; of a direction, the sphere's centre
   float tangent;  // of half its width; of a direction: half its width, metres
   bool parallel;
+  float away;  // from `from` to the sphere's centre
 };
 
 mat3 frame_from_normal(vec3 n) {
@@ -24,6 +25,7 @@ Shaft make_shaft(vec4 at, vec4 sphere) {
   s.frame = frame_from_normal(to * inversesqrt(distance2));
   s.from = s.parallel ? sphere.xyz : at.xyz;
   s.tangent = s.parallel ? sphere.w : min(sphere.w * inversesqrt(max(distance2 - sphere.w * sphere.w, 1e-12)), 4.0);
+  s.away = s.parallel ? 0.0 : sqrt(distance2);
   return s;
 }
 
@@ -41,4 +43,13 @@ float shaft_depth(Shaft s, vec2 range, float along) {
   float reach = range.y - range.x;
   float depth = s.parallel ? (along - range.x) / reach : range.y / reach * (1.0 - range.x / max(along, 1e-12));
   return clamp(depth, 0.0, 1.0);
+}
+
+// Nearest and farthest that a map of the mover alone holds, and one of the scene.
+vec2 mover_range(Shaft s, float radius) {
+  float reach = max(1.01 * radius, 1e-6);
+  return s.parallel ? vec2(-reach, reach) : vec2(max(s.away - reach, 0.01 * s.away), s.away + reach);
+}
+vec2 scene_range(Shaft s, float reach) {
+  return s.parallel ? vec2(-reach, reach) : vec2(0.01 * s.away, s.away + reach);
 }
