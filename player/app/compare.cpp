@@ -44,8 +44,14 @@ class Stages {
     options_.count_holes = false;
     ORIEL_TRY(frame.total, draw_stage(Show::kAll));
     const std::vector<std::int32_t> reflectors = renderer_.read_reflectors();
-    frame.mirrors = region(reflectors, false);
-    frame.glossy = region(reflectors, true);
+    const auto blurs = [&](std::int32_t reflector) {
+      const Pack& pack = scene_.pack();
+      const std::int32_t kernel = pack.materials[pack.reflectors[static_cast<std::size_t>(reflector)].material].kernel;
+      return kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1;
+    };
+    frame.mirrors = region(reflectors, [&](std::int32_t r) { return r >= 0 && !blurs(r); });
+    frame.glossy = region(reflectors, [&](std::int32_t r) { return r >= 0 && blurs(r); });
+    frame.movers = region(reflectors, [](std::int32_t r) { return r == Renderer::kMoverPixel; });
     return frame;
   }
 
@@ -57,22 +63,14 @@ class Stages {
     return shrink(FloatImage{width, height, 3, renderer_.read_light()}, n_);
   }
 
-  // Pixels of the small picture all of whose parts show reflectors that blur, or that do not.
-  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& reflectors, bool blurs) const {
-    const Pack& pack = scene_.pack();
-    const std::size_t width = static_cast<std::size_t>(view_.width) / n_,
+  // Pixels of the small picture all of whose parts count.
+  template <class Counts>
+  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& reflectors, Counts counts) const {
+    const std::size_t large = static_cast<std::size_t>(view_.width), width = large / n_,
                       height = static_cast<std::size_t>(view_.height) / n_;
     std::vector<std::uint8_t> out(width * height, 1);
-    for (std::size_t i = 0; i < reflectors.size(); ++i) {
-      bool counts = reflectors[i] >= 0;
-      if (counts) {
-        const std::int32_t kernel =
-            pack.materials[pack.reflectors[static_cast<std::size_t>(reflectors[i])].material].kernel;
-        counts = (kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1) == blurs;
-      }
-      const std::size_t large = static_cast<std::size_t>(view_.width);
-      if (!counts) out[i / large / n_ * width + i % large / n_] = 0;
-    }
+    for (std::size_t i = 0; i < reflectors.size(); ++i)
+      if (!counts(reflectors[i])) out[i / large / n_ * width + i % large / n_] = 0;
     return out;
   }
 

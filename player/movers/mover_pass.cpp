@@ -96,6 +96,8 @@ void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const Pl
   if (change != nullptr) change->bind(kChangeUnit);
   gpu::RasterState state;
   state.depth_test = true;
+  state.stencil_ref = static_cast<GLint>(kMoverBits);
+  state.stencil_write = kMoverBits;
   for (const PlacedMover& placed : movers) {
     const Vec3 half = 0.5f * (placed.mover->bounds.upper - placed.mover->bounds.lower);
     light_.set("u_clip_from_pack", clip_from_object(view, placed));

@@ -30,6 +30,9 @@ inline Mat4 clip_from_object(const View& view, const PlacedMover& placed) {
   return view.clip_from_pack * placed.pack_from_object;
 }
 
+// In the stencil, where a mover is seen.
+inline constexpr GLuint kMoverBits = 0x7f;
+
 class MoverPass {
  public:
   static Result<MoverPass> create(gpu::Dialect dialect);

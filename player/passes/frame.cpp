@@ -82,7 +82,7 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
     if (candidate.screen.empty) continue;
     const bool see_through = scene.is_transparent(reflector.material);
-    if (!see_through && marked_.size() >= kReflectorBits) continue;  // more than the stencil counts
+    if (!see_through && marked_.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
     if (!see_through) {
       marked_.push_back(reflector.index);
       candidate.value = static_cast<GLint>(marked_.size());
@@ -233,7 +233,9 @@ std::vector<std::int32_t> Renderer::read_reflectors() const {
   for (std::size_t y = height; y-- > 0;)
     for (std::size_t x = 0; x < width; ++x) {
       const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
-      reflectors.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
+      reflectors.push_back(value == kMoverBits ? kMoverPixel
+                           : value > 0         ? static_cast<std::int32_t>(marked_[value - 1])
+                                               : -1);
     }
   return reflectors;
 }

@@ -29,8 +29,9 @@ class Renderer {
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
-  // By pixel of the last frame, row 0 at the top: which of Pack::reflectors shows its image there; -1: none that is
-  // opaque.
+  // By pixel of the last frame, row 0 at the top: which of Pack::reflectors shows its image there; kMoverPixel: a
+  // mover; -1: no opaque reflector.
+  static constexpr std::int32_t kMoverPixel = -2;
   std::vector<std::int32_t> read_reflectors() const;
   // The last frame as display() shows it, RGB, row 0 at the top. Leaves its own framebuffer bound.
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);

@@ -17,8 +17,8 @@ struct SceneWeights {
   float emission = 1;
 };
 
-// Bits of the stencil: the number of the opaque reflector that a pixel shows, and whether a see-through one lies before
-// it.
+// Bits of the stencil: the number of the opaque reflector that a pixel shows (kMoverBits: a mover), and whether a
+// see-through one lies before it.
 inline constexpr GLuint kReflectorBits = 0x7f;
 inline constexpr GLuint kSeeThroughBit = 0x80;
 
