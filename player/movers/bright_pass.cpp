@@ -6,7 +6,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kMapSize = 512;                // texels of a layer, as in passes/bright_light.frag
+constexpr int kMapSize = 512;                // texels of a layer, as in passes/mover/bright_light.frag
 constexpr int kTilesAside = 4;               // of a light of several points
 constexpr int kNoShadows = -2, kScene = -1;  // u_receiver
 
@@ -33,14 +33,14 @@ gpu::TextureArray make_maps(int layers) {
 Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("bright_light", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("mover/bright_light", dialect));
   return pass;
 }
 
 Status BrightPass::ensure_targets(int width, int height, const gpu::Texture& depth, int layers) {
-  if (!framebuffer_ || change_.width() != width || change_.height() != height || depth_of_frame_ != &depth) {
+  if (!framebuffer_ || change_.width() != width || change_.height() != height || depth_of_frame_ != depth.name()) {
     change_ = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
-    depth_of_frame_ = &depth;
+    depth_of_frame_ = depth.name();
     ORIEL_TRY(framebuffer_, gpu::Framebuffer::create("bright lights", &change_, &depth, true));
   }
   if (layers > layers_) {

@@ -37,7 +37,7 @@ class BrightPass {
 
   gpu::Program depth_, light_;
   gpu::Texture change_;
-  const gpu::Texture* depth_of_frame_ = nullptr;
+  GLuint depth_of_frame_ = 0;
   gpu::Framebuffer framebuffer_, layers_target_;
   gpu::TextureArray mover_depth_, scene_depth_;
   int layers_ = 0;

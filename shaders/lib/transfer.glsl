@@ -3,7 +3,7 @@
 const int kWeightsWidth = 2048;  // texels a row
 
 // q: where the vertex is in its mover's box, [-1,1].
-vec3 transferred_light(highp isampler2D weights, sampler2D table, int components, int vertex, int cluster, vec3 q) {
+vec3 transferred_light(isampler2D weights, sampler2D table, int components, int vertex, int cluster, vec3 q) {
   vec4 red = texelFetch(table, ivec2(0, cluster), 0);
   vec4 green = texelFetch(table, ivec2(1, cluster), 0);
   vec4 blue = texelFetch(table, ivec2(2, cluster), 0);

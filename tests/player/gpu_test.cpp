@@ -19,10 +19,11 @@ namespace oriel {
 namespace {
 using gpu::Dialect;
 
-constexpr const char* kPasses[] = {
-    "depth",         "reflector/mask", "reflector/emitters", "scene",           "transparent",       "reproject",
-    "march",         "screen/pull",    "screen/push",        "screen/convolve", "reflector/compose", "screen/luminance",
-    "screen/tonemap"};
+constexpr const char* kPasses[] = {"depth",           "reflector/mask",    "reflector/emitters",
+                                   "scene",           "transparent",       "reproject",
+                                   "march",           "screen/pull",       "screen/push",
+                                   "screen/convolve", "reflector/compose", "screen/luminance",
+                                   "screen/tonemap",  "mover/light",       "mover/bright_light"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

@@ -23,8 +23,8 @@ uniform int u_movers;
 uniform float u_reach;  // metres: Shaft's scene_range
 uniform int u_receiver;  // layer of the mover that is drawn; -1: the scene; -2: a mover without shadows
 uniform vec4 u_share;    // of the light, linear over the mover's box
-uniform highp sampler2DArrayShadow u_mover_depth;
-uniform highp sampler2DArrayShadow u_scene_depth;
+uniform sampler2DArrayShadow u_mover_depth;
+uniform sampler2DArrayShadow u_scene_depth;
 
 in vec3 v_position;
 in vec3 v_normal;
@@ -46,7 +46,7 @@ bool may_block(vec4 sphere, vec3 p) {
 }
 
 // Share of the light that passes what a map holds; 1 outside of it.
-float passes(highp sampler2DArrayShadow map, int layer, int i, int side, Shaft shaft, vec2 range, vec3 place) {
+float passes(sampler2DArrayShadow map, int layer, int i, int side, Shaft shaft, vec2 range, vec3 place) {
   if (max(abs(place.x), abs(place.y)) >= 1.0 || place.z <= range.x) return 1.0;
   float tile = kMapSize / float(side);
   vec2 corner = tile * vec2(float(i % side), float(i / side));

@@ -12,7 +12,7 @@ uniform mat4 u_clip_from_pack;  // from the object, as passes/depth.vert takes i
 uniform mat4 u_pack_from_object;
 uniform vec3 u_box_center;
 uniform vec3 u_box_scale;  // one over half its size, 0 where flat
-uniform highp isampler2D u_codes;
+uniform isampler2D u_codes;
 uniform sampler2D u_table;
 uniform int u_components;
 invariant gl_Position;
