@@ -7,7 +7,6 @@ namespace oriel {
 namespace {
 
 constexpr int kMapSize = 512;                // texels of a layer, as in passes/mover/bright_light.frag
-constexpr int kTilesAside = 4;               // of a light of several points
 constexpr int kNoShadows = -2, kScene = -1;  // u_receiver
 
 Vec3 inverse_half(const Bounds& box) {
@@ -19,6 +18,11 @@ const LinearShare* share_of(const PlacedMover& placed, std::uint32_t light) {
   for (const LinearShare& share : placed.light.bright)
     if (share.light == light) return &share;
   return nullptr;
+}
+
+// A layer's maps, one for each point, lie side by side.
+int tiles_aside(const LightSamples& light) {
+  return light.at.size() > 4 ? 4 : light.at.size() > 1 ? 2 : 1;
 }
 
 gpu::TextureArray make_maps(int layers) {
@@ -68,7 +72,7 @@ void BrightPass::draw_depth(const GpuScene& scene, const std::vector<DrawRange>&
 
 void BrightPass::draw_maps(const GpuScene& scene, const LightSamples& light,
                            std::span<const PlacedMover* const> casters, FrameStats& stats) const {
-  const int side = light.at.size() > 1 ? kTilesAside : 1, tile = kMapSize / side;
+  const int side = tiles_aside(light), tile = kMapSize / side;
   const float reach = 2 * scene.bounds().radius();
   depth_.use();
   depth_.set("u_base_texture", kBaseUnit);
@@ -108,6 +112,7 @@ void BrightPass::set_light(const LightSamples& light, std::span<const PlacedMove
   light_.set("u_scene_depth", kStaticUnit);
   light_.set("u_at", std::span<const Vec4>(light.at));
   light_.set("u_samples", static_cast<int>(light.at.size()));
+  light_.set("u_side", tiles_aside(light));
   light_.set("u_intensity", light.intensity);
   light_.set("u_axis", light.axis);
   light_.set("u_cones", light.cones);
@@ -138,8 +143,8 @@ void BrightPass::draw_receiver(const GpuScene& scene, const std::vector<DrawRang
   }
 }
 
-Status BrightPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, MoverLights how,
-                        const gpu::Texture& depth, FrameStats& stats) {
+Status BrightPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                        const FrameOptions& options, const gpu::Texture& depth, FrameStats& stats) {
   ORIEL_TRY_VOID(
       ensure_targets(view.width, view.height, depth, std::min(static_cast<int>(movers.size()), kMaxShadowMovers)));
   framebuffer_.bind();
@@ -153,12 +158,13 @@ Status BrightPass::draw(const GpuScene& scene, const View& view, std::span<const
     std::vector<const PlacedMover*> lit;
     for (const PlacedMover& placed : movers)
       if (share_of(placed, l) != nullptr) lit.push_back(&placed);
-    const LightSamples light = sample_light(lights[l]);
+    const LightSamples light = sample_light(lights[l], std::clamp(options.light_points, 1, kMaxLightSamples));
     if (lit.empty() || light.at.empty()) continue;
     std::stable_sort(lit.begin(), lit.end(), [&](const PlacedMover* a, const PlacedMover* b) {
       return length2(Vec3(a->sphere) - light.center) < length2(Vec3(b->sphere) - light.center);
     });
-    const std::size_t casting = how == MoverLights::kShadowed ? std::min<std::size_t>(lit.size(), kMaxShadowMovers) : 0;
+    const std::size_t casting =
+        options.mover_lights == MoverLights::kShadowed ? std::min<std::size_t>(lit.size(), kMaxShadowMovers) : 0;
     const std::span<const PlacedMover* const> casters(lit.data(), casting);
     draw_maps(scene, light, casters, stats);
     framebuffer_.bind();

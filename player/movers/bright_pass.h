@@ -20,7 +20,7 @@ class BrightPass {
 
   // Into a picture of the view's size: lux by pixel that bright lights add on movers, or that movers take from the
   // scene. depth: of the frame, the movers included. Its own framebuffer stays bound. Error kRuntime.
-  Status draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, MoverLights how,
+  Status draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const FrameOptions& options,
               const gpu::Texture& depth, FrameStats& stats);
   // Of the last draw.
   const gpu::Texture& change() const { return change_; }

@@ -11,7 +11,7 @@ Vec2 hammersley(int i, int count) {
   return {(static_cast<float>(i) + 0.5f) / static_cast<float>(count), y + 0.5f / static_cast<float>(count)};
 }
 
-void sample_polygon(const BrightLight& light, LightSamples& out) {
+void sample_polygon(const BrightLight& light, int points, LightSamples& out) {
   std::vector<float> areas;
   float area = 0;
   for (std::size_t t = 0; t + 2 < light.corners.size(); t += 3) {
@@ -20,8 +20,8 @@ void sample_polygon(const BrightLight& light, LightSamples& out) {
     areas.push_back(area);
   }
   if (!(area > 0)) return;
-  for (int i = 0; i < kMaxLightSamples; ++i) {
-    Vec2 u = hammersley(i, kMaxLightSamples);
+  for (int i = 0; i < points; ++i) {
+    Vec2 u = hammersley(i, points);
     const float at = u.x * area;
     std::size_t t = 0;
     while (t + 1 < areas.size() && areas[t] <= at) ++t;
@@ -36,9 +36,9 @@ void sample_polygon(const BrightLight& light, LightSamples& out) {
 }
 
 // Points of the disk of directions, as even as they come (Vogel 1979, "A Better Way to Construct the Sunflower Head").
-void sample_disk(const BrightLight& light, LightSamples& out) {
+void sample_disk(const BrightLight& light, int points, LightSamples& out) {
   const float tangent = std::tan(std::min(light.angular_radius_rad, 1.5f));
-  const int count = tangent > 0 ? kMaxLightSamples : 1;
+  const int count = tangent > 0 ? points : 1;
   const Mat3 frame = frame_from_normal(-light.direction);
   for (int i = 0; i < count; ++i) {
     const float r = count > 1 ? tangent * std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(count)) : 0;
@@ -49,14 +49,14 @@ void sample_disk(const BrightLight& light, LightSamples& out) {
 
 }  // namespace
 
-LightSamples sample_light(const BrightLight& light) {
+LightSamples sample_light(const BrightLight& light, int points) {
   LightSamples out;
   out.intensity = light.intensity;
   out.axis = light.direction;
   if (light.kind == BrightLightKind::kPolygon) {
-    sample_polygon(light, out);
+    sample_polygon(light, points, out);
   } else if (light.kind == BrightLightKind::kDirectional) {
-    sample_disk(light, out);
+    sample_disk(light, points, out);
   } else {
     out.at.emplace_back(light.position, 1);
     if (light.kind == BrightLightKind::kSpot) {

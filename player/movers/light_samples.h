@@ -21,7 +21,8 @@ struct LightSamples {
   Vec3 center{0};       // of the points, or the direction to it where directional
   float radius = 0;     // that holds the points, metres; directional: tangent of its angular radius
 };
-LightSamples sample_light(const BrightLight& light);
+// points: of lights that have a size, 1 to kMaxLightSamples.
+LightSamples sample_light(const BrightLight& light, int points = kMaxLightSamples);
 
 // Irradiance of a surface at p that faces sample i, unshadowed, times `count`: the sum over i is that of the light.
 // towards: unit, from p to the sample.

@@ -150,7 +150,7 @@ Result<const gpu::Texture*> Renderer::draw_change(const GpuScene& scene, const V
                                                   FrameStats& stats) {
   if (movers.empty()) return nullptr;
   ORIEL_TRY_VOID(clock_.time(Pass::kMovers, [&] {
-    return bright_pass_.draw(scene, view, movers, options.mover_lights, frame_->depth, stats);
+    return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats);
   }));
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);

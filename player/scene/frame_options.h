@@ -38,7 +38,8 @@ struct FrameOptions {
   bool count_holes = false;
   std::vector<MoverPose> poses;  // by Pack::movers; empty: all at rest
   MoverLights mover_lights = MoverLights::kShadowed;
-  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
+  float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
 enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kScene, kTransparent, kMovers };

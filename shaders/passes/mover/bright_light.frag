@@ -12,6 +12,7 @@ uniform float u_alpha;
 uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform vec4 u_at[kSamples];   // LightSamples
 uniform int u_samples;
+uniform int u_side;            // maps beside each other in a layer
 uniform vec3 u_intensity;
 uniform vec3 u_axis;
 uniform vec2 u_cones;
@@ -57,13 +58,15 @@ float passes(sampler2DArrayShadow map, int layer, int i, int side, Shaft shaft, 
 void main() {
   if (u_alpha_cutoff >= 0.0 && texture(u_base_texture, v_uv).a * u_alpha * v_alpha < u_alpha_cutoff) discard;
   o_lux = vec4(0.0);
-  bool any = u_receiver != -1;
-  for (int m = 0; m < u_movers; ++m) any = any || may_block(u_spheres[m], v_position);
+  int blockers[kMovers];
+  int count = 0;
+  for (int m = 0; m < u_movers; ++m)
+    if (m == u_receiver || may_block(u_spheres[m], v_position)) blockers[count++] = m;
   float length2 = dot(v_normal, v_normal);
-  if (!any || length2 == 0.0) return;
+  if ((u_receiver == -1 && count == 0) || length2 == 0.0) return;
+  if (u_receiver == -2) count = 0;
   vec3 normal = v_normal * inversesqrt(length2);
   if (!gl_FrontFacing) normal = -normal;
-  int side = u_samples > 1 ? 4 : 1;
   float sum = 0.0;
   for (int i = 0; i < u_samples; ++i) {
     vec3 towards;
@@ -71,16 +74,16 @@ void main() {
     float cosine = dot(normal, towards);
     if (!(cosine > 0.0 && lux > 0.0)) continue;
     float scene = 1.0, movers = 1.0;
-    for (int m = 0; m < u_movers; ++m) {
-      if (u_receiver == -2 || !may_block(u_spheres[m], v_position)) continue;
+    for (int k = 0; k < count; ++k) {
+      int m = blockers[k];
       Shaft shaft = make_shaft(u_at[i], u_spheres[m]);
       // Texels of the map are that wide here: p leaves its surface by as much.
       float along = dot(v_position - shaft.from, shaft.frame[2]);
-      float texel = 2.0 * shaft_width(shaft, along) * float(side) / kMapSize;
+      float texel = 2.0 * shaft_width(shaft, along) * float(u_side) / kMapSize;
       vec3 place = in_shaft(shaft, v_position + texel * (normal * (2.0 - cosine) + towards));
-      float blocked = passes(u_mover_depth, m, i, side, shaft, mover_range(shaft, u_spheres[m].w), place);
+      float blocked = passes(u_mover_depth, m, i, u_side, shaft, mover_range(shaft, u_spheres[m].w), place);
       if (u_receiver == m || (u_receiver == -1 && blocked < movers))
-        scene = passes(u_scene_depth, m, i, side, shaft, scene_range(shaft, u_reach), place);
+        scene = passes(u_scene_depth, m, i, u_side, shaft, scene_range(shaft, u_reach), place);
       movers = min(movers, blocked);
     }
     sum += lux * cosine * scene * (u_receiver == -1 ? 1.0 - movers : movers);
