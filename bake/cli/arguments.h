@@ -6,6 +6,7 @@
 #include "bake/reference/reference.h"
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
+#include "formats/motion/mover_pose.h"
 
 namespace oriel {
 
@@ -13,6 +14,7 @@ struct RenderArguments {
   bool wanted = false;  // the subcommand was asked for
   std::filesystem::path scene, output;
   std::string camera;  // as written; empty: the scene's first
+  std::vector<MoverMove> moves;
   ImportOptions import;
   ReferenceOptions frame{.width = 1280, .height = 720, .samples = 256};
   bool reproducible = false;  // the same pixels on every CPU type

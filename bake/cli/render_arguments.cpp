@@ -50,6 +50,15 @@ CLI::App* add_render(CLI::App& app, RenderTexts& texts, SharedTexts& shared, Arg
       ->capture_default_str();
   render->add_flag("!--no-antialias", out.frame.antialias,
                    "Every ray through its pixel's centre, as a rasteriser without supersampling sees the scene");
+  render
+      ->add_option("--move", texts.moves,
+                   "Puts a mover there, world metres, and turns it about up by degrees from its rest; repeatable")
+      ->type_name("NODE=x,y,z[,yaw]")
+      ->allow_extra_args(false);
+  render
+      ->add_option("--mover", args.bake.import.movers, "A node that --move can move, beside those that the file marks")
+      ->type_name("NODE")
+      ->allow_extra_args(false);
   add_light_options(*render, shared, args);
   add_run_options(*render, shared, args);
   return render;
@@ -61,6 +70,10 @@ Status resolve_render(const RenderTexts& texts, Arguments& args) {
   if (!texts.error.empty()) {
     ORIEL_TRY(out.frame.error, parse_fraction(texts.error));
     out.frame.samples = kMostSamples;
+  }
+  for (const std::string& text : texts.moves) {
+    ORIEL_TRY(MoverMove move, parse_move(text));
+    out.moves.push_back(std::move(move));
   }
   out.import = args.bake.import;
   out.reproducible = args.bake.reproducible;

@@ -8,6 +8,7 @@ namespace oriel {
 // Values as typed, and the options that they belong to.
 struct RenderTexts {
   std::string size = "1280x720", error;
+  std::vector<std::string> moves;
 };
 
 // Adds the subcommand; it is told by parsed() whether the user asked for it.

@@ -2,6 +2,7 @@
 #include "bake/cli/render_arguments.h"
 #include "bake/jobs/parallel.h"
 #include "bake/run/pipeline.h"
+#include "bake/scene/motion/movers.h"
 #include "formats/camera/camera_spec.h"
 #include "formats/image/exr.h"
 
@@ -14,10 +15,24 @@ Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
   return parse_camera(text, choices);
 }
 
+Status move_movers(std::span<const MoverMove> moves, Scene& scene) {
+  if (moves.empty()) return {};
+  std::vector<std::string> names;
+  std::vector<MoverPose> poses;
+  for (const SceneMover& mover : scene.movers) {
+    names.push_back(mover.name);
+    poses.push_back(mover.rest);
+  }
+  ORIEL_TRY_VOID(apply_moves(moves, names, scene.origin, poses));
+  for (std::size_t i = 0; i < poses.size(); ++i) move_mover(scene, i, poses[i]);
+  return {};
+}
+
 }  // namespace
 
 Status run_render(const RenderArguments& args, Context& context) {
-  ORIEL_TRY(const ImportedScene imported, import_gltf(args.scene, args.import, context));
+  ORIEL_TRY(ImportedScene imported, import_gltf(args.scene, args.import, context));
+  ORIEL_TRY_VOID(move_movers(args.moves, imported.scene));
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Camera camera, choose_camera(scene, args.camera));
   ORIEL_TRY(const Accel accel, Accel::build(scene, {args.reproducible, thread_count(context)}));

@@ -1,8 +1,9 @@
-// Letters.
+// Letters and names.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oriel {
 
@@ -13,5 +14,8 @@ inline std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return lower;
 }
+
+// For a message about a name that is none of `names`: the few that are nearest to it, in quotes.
+std::string names_like(const std::string& wanted, const std::vector<std::string>& names);
 
 }  // namespace oriel

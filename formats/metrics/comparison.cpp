@@ -84,8 +84,11 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
   std::vector<std::uint8_t> both = frame.mirrors;
   for (std::size_t i = 0; i < both.size(); ++i) both[i] |= frame.glossy[i];
   const std::vector<std::uint8_t> all(both.size(), 1);
-  const std::array<std::pair<const char*, const std::vector<std::uint8_t>*>, 4> regions = {
-      {{"frame", &all}, {"reflectors", &both}, {"mirrors", &frame.mirrors}, {"glossy", &frame.glossy}}};
+  const std::array<std::pair<const char*, const std::vector<std::uint8_t>*>, 5> regions = {{{"frame", &all},
+                                                                                            {"reflectors", &both},
+                                                                                            {"mirrors", &frame.mirrors},
+                                                                                            {"glossy", &frame.glossy},
+                                                                                            {"movers", &frame.movers}}};
   for (const auto& [name, region] : regions) {
     RegionComparison r;
     r.name = name;
@@ -93,7 +96,7 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
     if (r.pixels == 0) continue;
     ORIEL_TRY(r.total, relative_error(frame.total, layer(""), layer("error"), *region));
     ORIEL_TRY(r.diffuse, relative_error(frame.diffuse, diffuse, layer("diffuse_error"), *region));
-    if (region != &all) {
+    if (region != &all && region != &frame.movers) {
       ORIEL_TRY(r.specular, relative_error(frame.specular, layer("specular"), layer("specular_error"), *region));
     }
     r.mse = mean_over(squares, *region);

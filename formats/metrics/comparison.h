@@ -16,15 +16,16 @@ struct PlayedFrame {
   FloatImage total, diffuse, specular;  // specular: (M * K) R where a reflector shows its image
   std::vector<std::uint8_t> mirrors;    // by pixel: 1 where all of it shows an image that is not blurred,
   std::vector<std::uint8_t> glossy;     // and one that is
+  std::vector<std::uint8_t> movers;     // and where all of it shows an object that moves; empty: none
   double holes = 0;                     // share of the reflected images' pixels that were filled from beside
 };
 
-// Over the whole frame, or over the pixels that show reflected images.
+// Over the whole frame, over the pixels that show reflected images, or those that show movers.
 struct RegionComparison {
-  std::string name;  // frame, reflectors, mirrors, glossy
+  std::string name;  // frame, reflectors, mirrors, glossy, movers
   std::size_t pixels = 0;
   RelativeError total, diffuse;
-  std::optional<RelativeError> specular;  // not of the whole frame: the player's S is not apart elsewhere
+  std::optional<RelativeError> specular;  // of reflectors: the player's S is not apart elsewhere
   double mse = 0, noise_mse = 0;          // mean square of the difference of what is shown; what noise alone makes
   double ssim = 0, flip = 0;              // means
 };

@@ -112,6 +112,39 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       "comparing frames");
 }
 
+void add_mover_options(CLI::App& app, PlayArguments& out) {
+  app.add_option_function<std::vector<std::string>>(
+         "--move",
+         [&out](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             const Result<MoverMove> move = parse_move(text);
+             if (!move) throw CLI::ValidationError("--move", move.error().message);
+             out.moves.push_back(*move);
+           }
+         },
+         "Puts a mover there, world metres, and turns it about up by degrees; repeatable")
+      ->type_name("NODE=x,y,z[,yaw]")
+      ->allow_extra_args(false);
+  app.add_option("--time", out.time_s,
+                 "Seconds into the movers' animations, which repeat; the window goes on from there")
+      ->check(CLI::Range(-1e9, 1e9))
+      ->type_name("S")
+      ->capture_default_str();
+  const std::map<std::string, MoverLights> lights{{"shadowed", MoverLights::kShadowed},
+                                                  {"unshadowed", MoverLights::kUnshadowed},
+                                                  {"harmonics", MoverLights::kHarmonics}};
+  app.add_option("--mover-lights", out.frame.mover_lights,
+                 "How the brightest lights shine on movers: pixel by pixel with shadows from and onto them, without "
+                 "shadows, or in harmonics as all other light")
+      ->transform(CLI::CheckedTransformer(lights).description(""))
+      ->type_name("shadowed|unshadowed|harmonics")
+      ->default_str("shadowed");
+  app.add_option("--light-points", out.frame.light_points,
+                 "Points of each bright light that movers' shadows are taken from: more are softer and cost more")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+}
+
 void add_compare_options(CLI::App& app, PlayArguments& out) {
   app.add_option("--compare", out.reference,
                  "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
@@ -144,6 +177,7 @@ void add_options(CLI::App& app, PlayArguments& out) {
          "May be repeated offscreen; all: every camera of the pack")
       ->type_name("NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all")
       ->allow_extra_args(false);
+  add_mover_options(app, out);
   add_picture_options(app, out);
   app.add_option("-o,--output", out.output,
                  "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/core/result.h"
+#include "formats/motion/mover_pose.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
 
@@ -19,6 +20,8 @@ struct PlayArguments {
   int width = 1280, height = 720;
   bool sized = false;                // --size was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
+  std::vector<MoverMove> moves;
+  double time_s = 0;                 // of animations; the window's clock starts there
   std::optional<float> ev100;        // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   FrameOptions frame;

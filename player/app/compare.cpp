@@ -7,6 +7,7 @@
 #include "formats/core/file.h"
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
+#include "player/movers/poses.h"
 #include "player/gpu/headless.h"
 #include "player/passes/frame.h"
 
@@ -26,8 +27,9 @@ Result<std::uint32_t> supersampling(const PlayArguments& arguments, const FloatI
 // Draws the stages that are compared, as large pictures, and averages them.
 class Stages {
  public:
-  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments, std::uint32_t n)
-      : scene_(scene), renderer_(renderer), view_(view), options_(arguments.frame), n_(n) {
+  Stages(GpuScene& scene, Renderer& renderer, const View& view, const PlayArguments& arguments,
+         const FrameOptions& options, std::uint32_t n)
+      : scene_(scene), renderer_(renderer), view_(view), options_(options), n_(n) {
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
@@ -42,8 +44,14 @@ class Stages {
     options_.count_holes = false;
     ORIEL_TRY(frame.total, draw_stage(Show::kAll));
     const std::vector<std::int32_t> materials = renderer_.read_reflective();
-    frame.mirrors = region(materials, false);
-    frame.glossy = region(materials, true);
+    const auto blurs = [&](std::int32_t material) {
+      const Pack& pack = scene_.pack();
+      const std::int32_t kernel = pack.materials[static_cast<std::size_t>(material)].kernel;
+      return kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1;
+    };
+    frame.mirrors = region(materials, [&](std::int32_t m) { return m >= 0 && !blurs(m); });
+    frame.glossy = region(materials, [&](std::int32_t m) { return m >= 0 && blurs(m); });
+    frame.movers = region(materials, [](std::int32_t m) { return m == Renderer::kMoverPixel; });
     return frame;
   }
 
@@ -55,21 +63,14 @@ class Stages {
     return shrink(FloatImage{width, height, 3, renderer_.read_light()}, n_);
   }
 
-  // Pixels of the small picture all of whose parts show reflectors that blur, or that do not.
-  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& materials, bool blurs) const {
-    const Pack& pack = scene_.pack();
-    const std::size_t width = static_cast<std::size_t>(view_.width) / n_,
+  // Pixels of the small picture all of whose parts count.
+  template <class Counts>
+  std::vector<std::uint8_t> region(const std::vector<std::int32_t>& materials, Counts counts) const {
+    const std::size_t large = static_cast<std::size_t>(view_.width), width = large / n_,
                       height = static_cast<std::size_t>(view_.height) / n_;
     std::vector<std::uint8_t> out(width * height, 1);
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-      bool counts = materials[i] >= 0;
-      if (counts) {
-        const std::int32_t kernel = pack.materials[static_cast<std::size_t>(materials[i])].kernel;
-        counts = (kernel >= 0 && pack.kernels[static_cast<std::size_t>(kernel)].size > 1) == blurs;
-      }
-      const std::size_t large = static_cast<std::size_t>(view_.width);
-      if (!counts) out[i / large / n_ * width + i % large / n_] = 0;
-    }
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (!counts(materials[i])) out[i / large / n_ * width + i % large / n_] = 0;
     return out;
   }
 
@@ -107,9 +108,11 @@ Status play_compare(Pack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
   ORIEL_TRY(const Camera camera, choose_camera(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  const View view =
-      make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height), scene->bounds());
-  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, n).draw());
+  FrameOptions options = arguments.frame;
+  ORIEL_TRY(options.poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
+  const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
+                              bounds_with_movers(*scene, options.poses));
+  ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, options, n).draw());
   ORIEL_TRY(const Comparison comparison,
             compare(frame, reference, arguments.ev100 ? white_of_exposure(*arguments.ev100) : 0));
   const std::string text = comparison_text(comparison);

@@ -20,6 +20,10 @@ void list_cameras(const Pack& pack) {
     fmt::print("camera {} {} at {:.2f},{:.2f},{:.2f}\n", i, camera.name, eye.x, eye.y, eye.z);
   }
   for (const CameraPath& path : pack.paths) fmt::print("path {} {:.2f} s\n", path.name, path_duration_s(path));
+  for (const Mover& mover : pack.movers) {
+    const DVec3 at = DVec3(mover.rest.position) + pack.mesh.origin;
+    fmt::print("mover {} at {:.2f},{:.2f},{:.2f}\n", mover.name, at.x, at.y, at.z);
+  }
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
 

@@ -12,6 +12,7 @@
 #include "player/app/frame_record.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
+#include "player/movers/poses.h"
 #include "player/passes/frame.h"
 #include "player/walk/zone.h"
 
@@ -126,15 +127,17 @@ namespace {
 
 class Studio {
  public:
-  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments)
+  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, std::vector<MoverPose> poses)
       : scene_(scene), renderer_(renderer), arguments_(arguments), options_(arguments.frame) {
+    options_.poses = std::move(poses);
     options_.timed = !arguments.stats.empty();
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
-    const View view = make_view(shot.camera, arguments_.width, arguments_.height, scene_.bounds());
+    const View view =
+        make_view(shot.camera, arguments_.width, arguments_.height, bounds_with_movers(scene_, options_.poses));
     std::vector<FrameRecord> records;
     for (int i = 0; i < times; ++i) {
       if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
@@ -191,7 +194,8 @@ Status play_offscreen(Pack pack, const PlayArguments& arguments) {
   const bool along_path = !arguments.path.empty();
   ORIEL_TRY(const auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  Studio studio(*scene, *renderer, arguments);
+  ORIEL_TRY(std::vector<MoverPose> poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
+  Studio studio(*scene, *renderer, arguments, std::move(poses));
   std::vector<FrameRecord> records;
   FlickerMeter flicker;
   for (const Shot& shot : shots) {

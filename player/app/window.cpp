@@ -9,6 +9,7 @@
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
+#include "player/movers/poses.h"
 #include "player/passes/frame.h"
 #include "player/walk/zone.h"
 
@@ -178,7 +179,9 @@ class Loop {
   Status draw(int width, int height, float dt_s) {
     session_.frame.timed = title_is_due();  // only that one: timing waits for the device
     session_.frame.white = white_of_exposure(session_.shown_ev100);
-    const View view = make_view(session_.camera, width, height, scene_.bounds());
+    ORIEL_TRY(session_.frame.poses,
+              poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + seconds_since(start_)));
+    const View view = make_view(session_.camera, width, height, bounds_with_movers(scene_, session_.frame.poses));
     ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view, session_.frame));
     ORIEL_TRY_VOID(update_exposure(renderer_, dt_s, session_));
     if (session_.screenshot != 0) {
@@ -215,6 +218,7 @@ class Loop {
   const PlayArguments& arguments_;
   WindowInput input_;
   Session session_;
+  const Clock::time_point start_ = Clock::now();
   Clock::time_point rate_start_ = Clock::now();
   int rate_frames_ = 0;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "player/gpu/handle.h"
 
@@ -24,5 +25,14 @@ class Buffer {
  private:
   Handle<ObjectKind::kBuffer> handle_;
 };
+
+// A vertex attribute of the bound vertex array, in a buffer of its own.
+template <class T>
+void add_attribute(std::vector<Buffer>& buffers, GLuint location, const std::vector<T>& values, int components,
+                   GLenum type, bool normalized) {
+  buffers.emplace_back(GLenum{GL_ARRAY_BUFFER}, std::span<const T>(values));
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
+}
 
 }  // namespace oriel::gpu

@@ -23,6 +23,22 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, 
   return framebuffer;
 }
 
+Framebuffer Framebuffer::create_for_layers() {
+  Framebuffer framebuffer;
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  framebuffer.handle_ = Handle<ObjectKind::kFramebuffer>(name);
+  framebuffer.bind();
+  const GLenum none = GL_NONE;
+  glDrawBuffers(1, &none);
+  glReadBuffer(GL_NONE);
+  return framebuffer;
+}
+
+void Framebuffer::attach_depth_layer(const TextureArray& depth, int layer) const {
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
+}
+
 void Framebuffer::attach_color_level(const Texture& color, int level) const {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), level);
 }

@@ -12,9 +12,14 @@ class Framebuffer {
   // combination. The textures must outlive the framebuffer.
   static Result<Framebuffer> create(const char* what, const Texture* color, const Texture* depth, bool stencil = false);
 
+  // For depth alone: attach_depth_layer() comes before drawing.
+  static Framebuffer create_for_layers();
+
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, handle_.name()); }
   // Draws into a level of a texture from now on.
   void attach_color_level(const Texture& color, int level) const;
+  // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.
+  void attach_depth_layer(const TextureArray& depth, int layer) const;
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
  private:

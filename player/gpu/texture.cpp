@@ -17,6 +17,7 @@ void set_sampling(GLenum target, const TextureOptions& options) {
   glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, options.levels - 1);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(options.min_filter));
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(options.mag_filter));
+  if (options.compare) glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(target, GL_TEXTURE_WRAP_S, static_cast<GLint>(options.wrap_s));
   glTexParameteri(target, GL_TEXTURE_WRAP_T, static_cast<GLint>(options.wrap_t));
 }

@@ -19,6 +19,7 @@ inline constexpr TextureFormat kSrgbAlpha8{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED
 inline constexpr TextureFormat kRgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
 inline constexpr TextureFormat kRgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TextureFormat kRgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+inline constexpr TextureFormat kRgba16i{GL_RGBA16I, GL_RGBA_INTEGER, GL_SHORT, 8};
 inline constexpr TextureFormat kR8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TextureFormat kRgb9e5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4};
 inline constexpr TextureFormat kR32f{GL_R32F, GL_RED, GL_FLOAT, 4};
@@ -33,6 +34,7 @@ struct TextureOptions {
   GLenum wrap_s = GL_CLAMP_TO_EDGE;
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
   int levels = 1;             // mip levels that are allocated
+  bool compare = false;       // depth: a lookup says whether its reference is nearer or as near
   bool make_mipmaps = false;  // fill the levels from level 0
 };
 
@@ -67,6 +69,7 @@ class TextureArray {
   // Rows at the left edge of a layer's level, from `row` on.
   void upload(int level, int layer, int row, int width, int height, const void* pixels) const;
   void bind(int unit) const;
+  GLuint name() const { return handle_.name(); }
   std::size_t bytes() const { return bytes_; }
   explicit operator bool() const { return static_cast<bool>(handle_); }
 

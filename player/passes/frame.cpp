@@ -45,6 +45,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   renderer->device_ = device;
   renderer->clock_ = PassClock(device.dialect);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
+  ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
+  ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
@@ -81,7 +83,7 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
     if (candidate.screen.empty) continue;
     const bool see_through = scene.is_transparent(reflector.material);
-    if (!see_through && marked_.size() >= kReflectorBits) continue;  // more than the stencil counts
+    if (!see_through && marked_.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
     if (!see_through) {
       marked_.push_back(reflector.material);
       candidate.value = static_cast<GLint>(marked_.size());
@@ -156,7 +158,7 @@ std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, co
     if (scene.is_transparent(reflector.material)) {
       curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
       see_through.push_back(&reflector);
-    } else if (marked_.size() < kReflectorBits) {
+    } else if (marked_.size() + 1 < kMoverBits) {
       marked_.push_back(reflector.material);
       curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(marked_.size()), kReflectorBits, options,
                               stats);
@@ -164,6 +166,18 @@ std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, co
     }
   }
   return see_through;
+}
+
+Result<const gpu::Texture*> Renderer::draw_change(const GpuScene& scene, const View& view,
+                                                  std::span<const PlacedMover> movers, const FrameOptions& options,
+                                                  FrameStats& stats) {
+  if (movers.empty()) return nullptr;
+  ORIEL_TRY_VOID(clock_.time(Pass::kMovers, [&] {
+    return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats);
+  }));
+  frame_->framebuffer.bind();
+  glViewport(0, 0, view.width, view.height);
+  return &bright_pass_.change();
 }
 
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
@@ -191,6 +205,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
   clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
+  if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
   const std::vector<Candidate> candidates =
       clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); });
   std::set<std::uint32_t> reflective;
@@ -203,7 +219,13 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, stats); });
+    ORIEL_TRY(const gpu::Texture* const change, draw_change(scene, view, movers, options, stats));
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, change, stats); });
+    if (!movers.empty()) {
+      clock_.time(Pass::kMovers, [&] {
+        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission}, change, stats);
+      });
+    }
     ORIEL_TRY(const float white, white_for(scene, options));
     clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
   }
@@ -240,7 +262,9 @@ std::vector<std::int32_t> Renderer::read_reflective() const {
   for (std::size_t y = height; y-- > 0;)
     for (std::size_t x = 0; x < width; ++x) {
       const std::uint32_t value = stencil[y * width + x] & kReflectorBits;
-      materials.push_back(value > 0 ? static_cast<std::int32_t>(marked_[value - 1]) : -1);
+      materials.push_back(value == kMoverBits ? kMoverPixel
+                          : value > 0         ? static_cast<std::int32_t>(marked_[value - 1])
+                                              : -1);
     }
   return materials;
 }

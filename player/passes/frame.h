@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
@@ -30,7 +31,8 @@ class Renderer {
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
   // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
-  // curved, that shows its image there; -1: none that is opaque.
+  // curved, that shows its image there; kMoverPixel: a mover; -1: no opaque reflector.
+  static constexpr std::int32_t kMoverPixel = -2;
   std::vector<std::int32_t> read_reflective() const;
   // The last frame as display() shows it, RGB, row 0 at the top. Leaves its own framebuffer bound.
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
@@ -55,10 +57,15 @@ class Renderer {
   // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
   std::vector<const GpuCurvedReflector*> draw_curved(GpuScene& scene, const View& view, const FrameOptions& options,
                                                      std::set<std::uint32_t>& reflective, FrameStats& stats);
+  // What movers change of the light on what is seen; null where there are none.
+  Result<const gpu::Texture*> draw_change(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                                          const FrameOptions& options, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;
   ScenePass scene_pass_;
+  MoverPass mover_pass_;
+  BrightPass bright_pass_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   ReprojectPass reproject_pass_;

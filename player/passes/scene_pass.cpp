@@ -2,23 +2,10 @@
 
 #include <algorithm>
 
-#include "player/gpu/raster_state.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
-
-enum Unit { kBaseUnit = 0, kLightmapUnit = 1, kReflectanceUnit = 2, kDirectionUnit = 3, kNormalUnit = 4 };
-
-gpu::Cull cull_of(const Material& material) {
-  return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack;
-}
-
-void draw_indices(std::uint32_t first, std::uint32_t count, FrameStats& stats) {
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(std::uintptr_t{first} * sizeof(std::uint32_t)));
-  ++stats.draws;
-  stats.triangles += count / 3;
-}
 
 // Visible ranges, neighbours of the same material and page joined.
 std::vector<DrawRange> visible_ranges(const std::vector<DrawRange>& ranges, const Frustum& frustum) {
@@ -38,10 +25,6 @@ std::vector<DrawRange> visible_ranges(const std::vector<DrawRange>& ranges, cons
   return out;
 }
 
-float cutoff_of(const Material& material) {
-  return material.alpha_mode == AlphaMode::kMask ? std::max(material.alpha_cutoff, 0.0f) : -1.0f;
-}
-
 void set_frame(const gpu::Program& program, const GpuScene& scene, const View& view) {
   program.use();
   program.set("u_clip_from_pack", view.clip_from_pack);
@@ -51,37 +34,20 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   program.set("u_reflectance", kReflectanceUnit);
   program.set("u_direction", kDirectionUnit);
   program.set("u_normal_texture", kNormalUnit);
+  program.set("u_change", kChangeUnit);
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
   scene.bind_geometry();
 }
 
 void set_material(const gpu::Program& program, const GpuScene& scene, const DrawRange& range) {
-  const Material& m = scene.pack().materials[range.material];
-  const Vec3 base = glm::clamp(m.base_color, Vec3(0), Vec3(1));
-  program.set("u_base_color", Vec4(base, m.alpha));
-  program.set("u_alpha_cutoff", cutoff_of(m));
-  program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
-  program.set("u_diffuse_share", (1 - m.metallic) * (1 - m.transmission));
-  program.set("u_transmission", m.transmission);
-  program.set("u_emission", m.emission);
-  program.set("u_unlit", m.unlit ? 1 : 0);
-  program.set("u_reflectance_row", m.fresnel_map);
-  if (m.fresnel_map >= 0) {
-    const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(m.fresnel_map)].table;
-    program.set("u_reflectance_count", static_cast<int>(table.size()));
-  }
-  scene.albedo(m.base_color_texture).bind(kBaseUnit);
+  set_surface(program, scene, range.material, !scene.pack().mesh.normal_uvs.empty());
   const LightmapTexture& lightmap = scene.lightmap(range.lightmap_page);
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
   const bool directional = static_cast<bool>(lightmap.direction);
   program.set("u_directional", directional ? 1 : 0);
   (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
-  const bool mapped = m.normal_texture >= 0 && !scene.pack().mesh.normal_uvs.empty();
-  program.set("u_normal_mapped", mapped ? 1 : 0);
-  program.set("u_normal_scale", m.normal_scale);
-  scene.normal_map(m.normal_texture).bind(kNormalUnit);
 }
 
 }  // namespace
@@ -114,8 +80,11 @@ void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& 
 }
 
 void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                            const std::set<std::uint32_t>& reflective, FrameStats& stats) const {
+                            const std::set<std::uint32_t>& reflective, const gpu::Texture* change,
+                            FrameStats& stats) const {
   set_frame(opaque_, scene, view);
+  opaque_.set("u_changed", change != nullptr ? 1 : 0);
+  if (change != nullptr) change->bind(kChangeUnit);
   opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
@@ -141,6 +110,7 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
 void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
                                std::span<const std::uint32_t> dark, FrameStats& stats) const {
   set_frame(opaque_, scene, view);
+  opaque_.set("u_changed", 0);
   opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
   opaque_.set("u_depth_row", depth_row);
   opaque_.set("u_closest", closest);

@@ -18,8 +18,8 @@ struct SceneWeights {
   float emission = 1;
 };
 
-// Bits of the stencil: the number of the opaque reflector that a pixel shows, and whether a see-through one lies before
-// it.
+// Bits of the stencil: the number of the opaque reflector that a pixel shows (kMoverBits: a mover), and whether a
+// see-through one lies before it.
 inline constexpr GLuint kReflectorBits = 0x7f;
 inline constexpr GLuint kSeeThroughBit = 0x80;
 
@@ -30,9 +30,10 @@ class ScenePass {
   // Depth of the opaque scene into the bound framebuffer.
   void draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const;
   // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
-  // added to, without the undirected part. reflective: materials with such pixels.
+  // added to, without the undirected part. reflective: materials with such pixels. change: lux by pixel that movers
+  // take; may be null.
   void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                   const std::set<std::uint32_t>& reflective, FrameStats& stats) const;
+                   const std::set<std::uint32_t>& reflective, const gpu::Texture* change, FrameStats& stats) const;
   // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
   // orthographic view 1 / dot(depth_row, point). At least `closest`. dark: of Pack::emitters, those that do not shine.
   void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,

@@ -8,31 +8,31 @@
 namespace oriel {
 namespace {
 
-Status check_mesh(const Pack& pack) {
-  const Mesh& mesh = pack.mesh;
+// what: "mesh", or whose.
+Status check_mesh(const Pack& pack, const Mesh& mesh, const std::string& what) {
   const std::size_t count = mesh.positions.size();
   if (mesh.normals.size() != count || mesh.uvs.size() != count || mesh.lightmap_uvs.size() != count ||
       (!mesh.colors.empty() && mesh.colors.size() != count)) {
-    return invalid("mesh", "found {} normals, {} uvs, {} lightmap uvs and {} colours, expected {} of each",
+    return invalid(what, "found {} normals, {} uvs, {} lightmap uvs and {} colours, expected {} of each",
                    mesh.normals.size(), mesh.uvs.size(), mesh.lightmap_uvs.size(), mesh.colors.size(), count);
   }
   if (mesh.normal_uvs.size() != mesh.tangents.size() || (!mesh.tangents.empty() && mesh.tangents.size() != count)) {
-    return invalid("mesh", "found {} uvs and {} tangents of normal maps, expected none or {}", mesh.normal_uvs.size(),
+    return invalid(what, "found {} uvs and {} tangents of normal maps, expected none or {}", mesh.normal_uvs.size(),
                    mesh.tangents.size(), count);
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_finite(mesh.positions[i]))
-      return invalid(fmt::format("mesh: vertex {}", i), "found a position that is not finite");
+      return invalid(fmt::format("{}: vertex {}", what, i), "found a position that is not finite");
   }
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
     if (mesh.indices[i] >= count) {
-      return invalid(fmt::format("mesh: index {}", i), "found vertex {}, expected less than {}", mesh.indices[i],
+      return invalid(fmt::format("{}: index {}", what, i), "found vertex {}, expected less than {}", mesh.indices[i],
                      count);
     }
   }
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const MeshPart& part = mesh.parts[i];
-    const std::string where = fmt::format("mesh: part {} '{}'", i, part.name);
+    const std::string where = fmt::format("{}: part {} '{}'", what, i, part.name);
     if (std::uint64_t{part.first_index} + part.index_count > mesh.indices.size() || part.index_count % 3 != 0) {
       return invalid(where, "found indices {} + {}, expected triangles within {}", part.first_index, part.index_count,
                      mesh.indices.size());
@@ -257,17 +257,74 @@ Status check_reflectors(const Pack& pack, const gpu::Device& device) {
   return {};
 }
 
+// Whatever light_at() would read.
+Status check_field(const LightField& field) {
+  if (field.bands == 0) return {};
+  const auto coefficients = static_cast<std::size_t>(3 * field.bands * field.bands);
+  const std::size_t texels = std::size_t{field.depth_side} * field.depth_side;
+  const std::size_t grid = std::size_t{field.size[0]} * field.size[1] * field.size[2];
+  if (grid == 0 || field.cells.size() < grid || texels == 0 || field.lights.size() > kMaxBrightLights)
+    return invalid("light field", "found {} cells of a grid of {}, {} depths, {} lights", field.cells.size(), grid,
+                   texels, field.lights.size());
+  for (std::size_t i = 0; i < field.cells.size(); ++i) {
+    const FieldCell& cell = field.cells[i];
+    const bool probes =
+        std::all_of(cell.probes.begin(), cell.probes.end(), [&](std::uint32_t p) { return p < field.probes.size(); });
+    // Parts follow their cell, so that none holds itself.
+    if (!probes ||
+        (cell.children != 0 && (cell.children <= i || std::uint64_t{cell.children} + 8 > field.cells.size())))
+      return invalid(fmt::format("light field: cell {}", i), "found parts from {}, expected later cells and {} probes",
+                     cell.children, field.probes.size());
+  }
+  for (std::size_t i = 0; i < field.probes.size(); ++i)
+    if (field.probes[i].sh.size() != coefficients || field.probes[i].depth.size() != texels)
+      return invalid(fmt::format("light field: probe {}", i), "found {} coefficients and {} depths, expected {} and {}",
+                     field.probes[i].sh.size(), field.probes[i].depth.size(), coefficients, texels);
+  return {};
+}
+
+Status check_movers(const Pack& pack, const gpu::Device& device) {
+  for (std::size_t i = 0; i < pack.movers.size(); ++i) {
+    const Mover& mover = pack.movers[i];
+    const CompressedTransfer& t = mover.transfer;
+    const std::string where = fmt::format("mover {} '{}'", i, mover.name);
+    ORIEL_TRY_VOID(check_mesh(pack, mover.mesh, where));
+    const std::size_t vertices = mover.mesh.positions.size();
+    if (t.components < 0 || t.clusters < 1 || t.vertices() != vertices ||
+        t.weight.size() != vertices * static_cast<std::size_t>(t.components))
+      return invalid(where, "found transfer of {} vertices in {} clusters of {} components, expected {} vertices",
+                     t.vertices(), t.clusters, t.components, vertices);
+    // Four weights a texel, 2048 texels a row; a row of light a cluster.
+    const auto limit = static_cast<std::size_t>(device.texture_size);
+    if (vertices * static_cast<std::size_t>(t.components + 3) / 4 > 2048 * limit)
+      return fail(ErrorCode::kRuntime, where, "found {} vertices, expected fewer ({})", vertices, device.renderer);
+    if (t.basis.size() !=
+            static_cast<std::size_t>(t.clusters) * static_cast<std::size_t>(t.components + 1) * t.stride() ||
+        t.weight_scale.size() != static_cast<std::size_t>(t.clusters) * static_cast<std::size_t>(t.components))
+      return invalid(where, "found a basis of {} numbers and {} scales for {} clusters of {} components",
+                     t.basis.size(), t.weight_scale.size(), t.clusters, t.components);
+    if (t.bands > pack.light_field.bands && pack.light_field.bands > 0)
+      return invalid(where, "found transfer of {} bands, expected at most the light field's {}", t.bands,
+                     pack.light_field.bands);
+    for (const std::uint8_t cluster : t.cluster)
+      if (cluster >= t.clusters) return invalid(where, "found cluster {}, expected less than {}", cluster, t.clusters);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status check_drawable(const Pack& pack, const gpu::Device& device) {
-  ORIEL_TRY_VOID(check_mesh(pack));
+  ORIEL_TRY_VOID(check_mesh(pack, pack.mesh, "mesh"));
   ORIEL_TRY_VOID(check_materials(pack));
   ORIEL_TRY_VOID(check_kernels(pack, device));
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device));
   ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
   ORIEL_TRY_VOID(check_emitters(pack));
-  return check_reflectors(pack, device);
+  ORIEL_TRY_VOID(check_reflectors(pack, device));
+  ORIEL_TRY_VOID(check_field(pack.light_field));
+  return check_movers(pack, device);
 }
 
 }  // namespace oriel

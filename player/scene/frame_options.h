@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include "formats/assets/mover.h"
 #include "player/maps/map_choice.h"
 #include "player/scene/kernel_taps.h"
 
@@ -19,6 +21,9 @@ enum class Reflections { kMarch, kPoints, kGeometry, kOff };
 enum class Blur { kDistance, kConstant, kOff };
 enum class Reflectance { kTable, kSphereMap };
 
+// How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
+enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
+
 struct FrameOptions {
   Show show = Show::kAll;
   Reflections reflections = Reflections::kMarch;
@@ -31,12 +36,15 @@ struct FrameOptions {
   bool timed = false;   // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels and holes: reads images back, which is slow.
   bool count_holes = false;
-  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  std::vector<MoverPose> poses;  // by Pack::movers; empty: all at rest
+  MoverLights mover_lights = MoverLights::kShadowed;
+  int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
+  float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
-enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kCurved, kScene, kTransparent };
-inline constexpr std::array<const char*, 9> kPassNames{"depth",   "mask",   "reflect", "fill",       "convolve",
-                                                       "compose", "curved", "scene",   "transparent"};
+enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kCurved, kScene, kTransparent, kMovers };
+inline constexpr std::array<const char*, 10> kPassNames{"depth",   "mask",   "reflect", "fill",        "convolve",
+                                                        "compose", "curved", "scene",   "transparent", "movers"};
 using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {

@@ -1,7 +1,6 @@
 #include "player/scene/gpu_scene.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
@@ -10,14 +9,6 @@ namespace oriel {
 namespace {
 
 constexpr int kKernelTaps = 48;
-
-template <class T>
-void add_attribute(std::vector<gpu::Buffer>& buffers, GLuint location, const std::vector<T>& values, int components,
-                   GLenum type, bool normalized) {
-  buffers.emplace_back(GLenum{GL_ARRAY_BUFFER}, std::span<const T>(values));
-  glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
-}
 
 // Over the pixels of a reflector's maps.
 struct MapMeans {
@@ -56,6 +47,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(Pack pack, const gpu::Device&
   scene->pack_ = std::move(pack);
   scene->upload_geometry();
   scene->upload_images();
+  for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
   ORIEL_TRY_VOID(gpu::check_gl("uploading the pack"));
   return scene;
 }
@@ -67,25 +59,10 @@ bool GpuScene::is_transparent(std::uint32_t material) const {
 
 void GpuScene::upload_geometry() {
   const Mesh& mesh = pack_.mesh;
-  std::vector<std::uint32_t> order(mesh.parts.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const MeshPart &p = mesh.parts[a], &q = mesh.parts[b];
-    return std::tie(p.material, p.lightmap_page) < std::tie(q.material, q.lightmap_page);
-  });
   std::vector<std::uint32_t> indices;
-  indices.reserve(mesh.indices.size());
-  for (const std::uint32_t i : order) {
-    const MeshPart& part = mesh.parts[i];
-    if (part.index_count == 0) continue;
-    DrawRange range{
-        static_cast<std::uint32_t>(indices.size()), part.index_count, part.material, part.lightmap_page, {}};
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      indices.push_back(mesh.indices[part.first_index + k]);
-      range.bounds.extend(mesh.positions[indices.back()]);
-    }
+  for (const DrawRange& range : sorted_ranges(mesh, indices)) {
     bounds_.extend(range.bounds);
-    (is_transparent(part.material) ? transparent_ : opaque_).push_back(range);
+    (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
   make_reflectors(indices);
   make_emitters(indices);
@@ -93,19 +70,7 @@ void GpuScene::upload_geometry() {
 
   vertex_array_ = gpu::make_vertex_array();
   bind_geometry();
-  add_attribute(buffers_, 0, mesh.positions, 3, GL_FLOAT, false);
-  add_attribute(buffers_, 1, mesh.normals, 3, GL_FLOAT, false);
-  add_attribute(buffers_, 2, mesh.uvs, 2, GL_FLOAT, false);
-  add_attribute(buffers_, 3, mesh.lightmap_uvs, 2, GL_FLOAT, false);
-  if (mesh.colors.empty()) {
-    glVertexAttrib4f(4, 1, 1, 1, 1);
-  } else {
-    add_attribute(buffers_, 4, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
-  }
-  if (!mesh.normal_uvs.empty()) {
-    add_attribute(buffers_, 5, mesh.normal_uvs, 2, GL_FLOAT, false);
-    add_attribute(buffers_, 6, mesh.tangents, 4, GL_FLOAT, false);
-  }
+  upload_vertices(mesh, buffers_);
   buffers_.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
 }

@@ -13,18 +13,11 @@
 #include "player/maps/map_choice.h"
 #include "player/maps/surround_pyramid.h"
 #include "player/scene/culling.h"
+#include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
-
-// Triangles of one part: one material, one lightmap page.
-struct DrawRange {
-  std::uint32_t first_index = 0, index_count = 0;  // into GpuScene's index buffer
-  std::uint32_t material = 0;
-  std::int32_t lightmap_page = -1;
-  Bounds bounds;
-};
 
 struct GpuReflector {
   std::uint32_t index = 0;     // into Pack::reflectors
@@ -69,6 +62,7 @@ class GpuScene {
   const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
   // The opaque triangles of one of Pack::emitters.
   const std::vector<DrawRange>& emitter(std::uint32_t index) const { return emitters_[index]; }
+  const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
   bool is_transparent(std::uint32_t material) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
@@ -106,6 +100,7 @@ class GpuScene {
   std::vector<GpuReflector> reflectors_;
   std::vector<GpuCurvedReflector> curved_reflectors_;
   std::vector<SurroundTextures> surround_maps_;
+  std::vector<GpuMover> movers_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
   std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;

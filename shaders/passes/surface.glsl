@@ -1,13 +1,9 @@
-// What opaque and see-through surfaces share: their normals, reflectance and baked light.
+// What shaded surfaces share: their normals and reflectance.
 #include "lib/normal_map.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/shading.glsl"
 
 uniform vec4 u_eye;
-uniform sampler2D u_lightmap;
-uniform float u_lightmap_scale;  // lux; 0: nothing was baked
-uniform sampler2D u_direction;   // of a directional lightmap
-uniform bool u_directional;
 uniform sampler2D u_normal_texture;
 uniform float u_normal_scale;
 uniform bool u_normal_mapped;
@@ -17,7 +13,6 @@ uniform int u_reflectance_count;
 
 in vec3 v_position;
 in vec3 v_normal;
-in vec2 v_lightmap_uv;
 in vec2 v_normal_uv;
 in vec4 v_tangent;
 
@@ -41,12 +36,4 @@ vec3 reflectance_of(vec3 tilted) {
   if (u_reflectance_row < 0) return vec3(0.0);
   float cos_theta = view_cosine(tilted, v_normal, v_position, u_eye);
   return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
-}
-
-// Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
-vec3 irradiance_on(vec3 tilted) {
-  vec3 irradiance = texture(u_lightmap, v_lightmap_uv).rgb * u_lightmap_scale;
-  if (!gl_FrontFacing) return vec3(0.0);
-  if (!u_normal_mapped || !u_directional) return irradiance;
-  return irradiance * directional_ratio(texture(u_direction, v_lightmap_uv).xyz, tilted, front_normal());
 }

@@ -1,5 +1,5 @@
 // See-through surfaces, drawn twice: once to dim what lies behind, once to add their own light.
-#include "passes/surface.glsl"
+#include "passes/lightmap.glsl"
 
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;

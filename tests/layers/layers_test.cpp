@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = plus(core, {"formats/sh"});
   m["formats/camera"] = m["formats/lobes"] = assets;
+  m["formats/motion"] = assets;                              // where movers stand
   m["formats/light"] = assets;                               // baked light at a point, for baker and player
   m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
@@ -41,7 +42,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
-  m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});  // what animations move
+  m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf", "formats/motion"});  // what animations move
   m["bake/scene"] =
       plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
   m["bake/trace"] = m["bake/atlas"] =
@@ -70,7 +71,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
   m["bake/run"] = plus(m["bake/plan"],
                        {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                        "bake/radiance/plan", "bake/walk", "formats/pack", "formats/image"});
+                        "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
@@ -79,8 +80,9 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
   m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps"});
+  m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
-  m["player/passes"] = plus(m["player/reflections"], {"player/reflections"});
+  m["player/passes"] = plus(m["player/reflections"], {"formats/motion", "player/movers", "player/reflections"});
   m["player/app"] =
       plus(m["player/passes"], {"player/passes", "player/walk", "formats/camera", "formats/metrics", "formats/image"});
   m["scenes/kit"] = core;
@@ -99,7 +101,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},
-    {"epoxy/", {"player/gpu", "player/maps", "player/scene", "player/reflections", "player/passes", "player/app"}},
+    {"epoxy/", {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/passes", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {

@@ -32,7 +32,9 @@ constexpr const char* kPasses[] = {"depth",
                                    "screen/convolve",
                                    "reflector/compose",
                                    "screen/luminance",
-                                   "screen/tonemap"};
+                                   "screen/tonemap",
+                                   "mover/light",
+                                   "mover/bright_light"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();

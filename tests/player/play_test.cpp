@@ -76,6 +76,16 @@ TEST_F(Play, UsageErrors) {
   EXPECT_FALSE(fs::exists(folder() / "a.png"));
 }
 
+TEST_F(Play, MoversAreMoved) {
+  ASSERT_TRUE(write_pack(folder() / "moving.oriel", oriel::testing::tiny_mapped_pack()));
+  EXPECT_TRUE(ends(run("moving.oriel --list"), 0, "mover door at"));
+  EXPECT_TRUE(ends(run("moving.oriel --offscreen -o a.png --move dor=0,0,0"), 1, "\"door\""));
+  EXPECT_TRUE(ends(run("moving.oriel --offscreen -o a.png --move door=0,0"), 1, "NODE=x,y,z"));
+  EXPECT_FALSE(fs::exists(folder() / "a.png"));
+  for (const char* options : {"--time 0.7", "--move door=1,0,1,45 --time -3", "--mover-lights harmonics"})
+    EXPECT_TRUE(ends(run(std::string("moving.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"));
+}
+
 TEST_F(Play, FilesThatAreMissingOrBroken) {
   EXPECT_TRUE(ends(run("absent.oriel --list"), 2, "absent.oriel"));
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o no/such/folder/a.png"), 2, "no/such/folder"));

@@ -1,6 +1,7 @@
 #include "bake/run/stages/movers.h"
 
 #include "bake/run/stages/baked_light.h"
+#include "formats/motion/mover_pose.h"
 
 namespace oriel {
 namespace {
@@ -68,7 +69,7 @@ FieldBox field_box(const Scene& scene, std::span<const WalkGrid> grids, std::spa
     std::vector<MoverKey> keys = t.mover.keys;
     keys.push_back({0, t.mover.rest});
     for (const MoverKey& key : keys) {
-      const DMat4 scene_from = scene_from_object(key.pose);
+      const DMat4 scene_from = pack_from_object(key.pose);
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 upper(corner & 1, corner >> 1 & 1, corner >> 2);
         box.add(Vec3(scene_from * DVec4(DVec3(glm::mix(t.scene.lower, t.scene.upper, upper)), 1)));

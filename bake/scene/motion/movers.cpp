@@ -3,45 +3,24 @@
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <numeric>
+
+#include "formats/core/text.h"
+#include "formats/motion/mover_pose.h"
 
 namespace oriel {
 namespace {
 
 using gltf::Document;
 
-// Levenshtein's distance.
-std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t changed = diagonal + (a[i - 1] != b[k - 1]);
-      diagonal = row[k];
-      row[k] = std::min({changed, row[k] + 1, row[k - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string names_like(const std::string& wanted, const Document& document, std::span<const NodePose> poses) {
-  constexpr std::size_t kShown = 5;
-  std::vector<std::pair<std::size_t, std::string>> names;
-  for (const NodePose& pose : poses)
-    if (const std::string& name = document.nodes[pose.node].name; !name.empty())
-      names.emplace_back(edits_between(wanted, name), name);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i)
-    text += fmt::format("{}\"{}\"", i > 0 ? ", " : "", names[i].second);
-  return text.empty() ? "none has a name" : "the nearest are " + text;
-}
-
 std::string mover_name(const Document& document, std::uint32_t node) {
   const std::string& name = document.nodes[node].name;
   return name.empty() ? fmt::format("node {}", node) : name;
+}
+
+std::vector<std::string> node_names(const Document& document, std::span<const NodePose> poses) {
+  std::vector<std::string> names;
+  for (const NodePose& pose : poses) names.push_back(document.nodes[pose.node].name);
+  return names;
 }
 
 // By node: 0 no mover, 1 because it moves, 2 because it was asked for.
@@ -63,7 +42,7 @@ Result<std::vector<char>> mark(const Document& document, std::span<const NodePos
     }
     if (!found)
       return fail(ErrorCode::kUsage, "mover", "found the node \"{}\", expected one of the scene's: {}", name,
-                  names_like(name, document, poses));
+                  names_like(name, node_names(document, poses)));
   }
   return marks;
 }
@@ -176,7 +155,7 @@ Scene object_scene(const Scene& scene, std::size_t mover) {
   object.materials = scene.materials;
   for (const Surface& surface : scene.surfaces)
     if (surface.mover == static_cast<std::int32_t>(mover)) copy_surface(scene, surface, object);
-  const DMat4 scene_from = scene_from_object(scene.movers[mover].rest);
+  const DMat4 scene_from = pack_from_object(scene.movers[mover].rest);
   const DMat3 object_from(glm::transpose(DMat3(scene_from)));
   const auto turned = [&](const Vec3& v) { return Vec3(object_from * DVec3(v)); };
   for (Vec3& p : object.positions) p = Vec3(object_from * (DVec3(p) - DVec3(scene_from[3])));
@@ -237,6 +216,24 @@ Status place_movers(const Document& document, std::span<const NodePose> poses, c
   return {};
 }
 
+void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose) {
+  SceneMover& moving = scene.movers[mover];
+  const DMat4 change = pack_from_object(pose) * glm::inverse(pack_from_object(moving.rest));
+  const DMat3 turn(change);
+  const auto turned = [&](const Vec3& v) { return normalize_or(Vec3(turn * DVec3(v)), Vec3(0, 0, 1)); };
+  for (const Surface& surface : scene.surfaces) {
+    if (surface.mover != static_cast<std::int32_t>(mover)) continue;
+    for (std::uint32_t v = surface.first_vertex; v < surface.first_vertex + surface.vertex_count; ++v) {
+      scene.positions[v] = Vec3(change * DVec4(DVec3(scene.positions[v]), 1));
+      scene.normals[v] = turned(scene.normals[v]);
+      if (!scene.tangents.empty()) scene.tangents[v] = Vec4(turned(Vec3(scene.tangents[v])), scene.tangents[v].w);
+    }
+  }
+  moving.rest = pose;
+  scene.face_normals.clear();
+  find_bounds(scene);
+}
+
 Result<std::vector<TakenMover>> take_movers(Scene& scene) {
   std::vector<TakenMover> taken;
   if (scene.movers.empty()) return taken;
@@ -265,13 +262,6 @@ Result<std::vector<TakenMover>> take_movers(Scene& scene) {
   scene.movers.clear();
   find_bounds(scene);
   return taken;
-}
-
-DMat4 scene_from_object(const MoverPose& pose) {
-  const Vec4& r = pose.rotation;
-  DMat4 matrix = glm::mat4_cast(glm::normalize(glm::dquat(r.w, r.x, r.y, r.z)));
-  matrix[3] = DVec4(DVec3(pose.position), 1);
-  return matrix;
 }
 
 }  // namespace oriel

@@ -34,7 +34,7 @@ struct TakenMover {
 // be left.
 Result<std::vector<TakenMover>> take_movers(Scene& scene);
 
-// Object space to scene space.
-DMat4 scene_from_object(const MoverPose& pose);
+// Puts the mover elsewhere, its surfaces in the scene included; its new pose is its rest. The bounds grow as needed.
+void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose);
 
 }  // namespace oriel

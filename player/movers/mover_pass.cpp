@@ -1,0 +1,121 @@
+#include "player/movers/mover_pass.h"
+
+#include "formats/motion/mover_pose.h"
+#include "player/scene/surface.h"
+
+namespace oriel {
+namespace {
+
+MoverPose pose_of(const Pack& pack, std::span<const MoverPose> poses, std::size_t i) {
+  return i < poses.size() ? poses[i] : pack.movers[i].rest;
+}
+
+}  // namespace
+
+std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions& options) {
+  const Pack& pack = scene.pack();
+  std::vector<PlacedMover> out;
+  for (std::size_t i = 0; i < scene.movers().size(); ++i) {
+    const Mover& mover = pack.movers[i];
+    PlacedMover placed;
+    placed.mover = &scene.movers()[i];
+    const Bounds& box = placed.mover->bounds;
+    if (box.empty()) continue;
+    const MoverPose pose = pose_of(pack, options.poses, i);
+    placed.pack_from_object = Mat4(pack_from_object(pose));
+    placed.sphere = Vec4(Vec3(placed.pack_from_object * Vec4(box.center(), 1)), box.radius());
+    placed.normal_mapped = !mover.mesh.normal_uvs.empty();
+    placed.components = mover.transfer.components;
+    placed.light =
+        light_mover(pack.light_field, mover.transfer, box, pose, options.mover_lights == MoverLights::kHarmonics);
+    placed.table =
+        gpu::Texture(gpu::kRgba32f, 3 * (placed.components + 1), mover.transfer.clusters, placed.light.table.data());
+    out.push_back(std::move(placed));
+  }
+  return out;
+}
+
+Bounds bounds_with_movers(const GpuScene& scene, std::span<const MoverPose> poses) {
+  Bounds bounds = scene.bounds();
+  for (std::size_t i = 0; i < scene.movers().size(); ++i) {
+    const Bounds& box = scene.movers()[i].bounds;
+    if (box.empty()) continue;
+    const DMat4 pack_from = pack_from_object(pose_of(scene.pack(), poses, i));
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 upper(corner & 1, corner >> 1 & 1, corner >> 2);
+      bounds.extend(Vec3(pack_from * DVec4(DVec3(glm::mix(box.lower, box.upper, upper)), 1)));
+    }
+  }
+  return bounds;
+}
+
+Result<MoverPass> MoverPass::create(gpu::Dialect dialect) {
+  MoverPass pass;
+  ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("mover/light", dialect));
+  return pass;
+}
+
+void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                           FrameStats& stats) const {
+  depth_.use();
+  depth_.set("u_base_texture", kBaseUnit);
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
+  state.color_write = false;
+  for (const PlacedMover& placed : movers) {
+    depth_.set("u_clip_from_pack", clip_from_object(view, placed));
+    glBindVertexArray(placed.mover->vertex_array.name());
+    for (const DrawRange& range : placed.mover->ranges) {
+      const Material& m = scene.pack().materials[range.material];
+      state.cull = cull_of(m);
+      gpu::apply(state);
+      depth_.set("u_alpha", m.alpha);
+      depth_.set("u_alpha_cutoff", cutoff_of(m));
+      scene.albedo(m.base_color_texture).bind(kBaseUnit);
+      draw_indices(range.first_index, range.index_count, stats);
+    }
+  }
+}
+
+void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
+                     const gpu::Texture* change, FrameStats& stats) const {
+  light_.use();
+  light_.set("u_eye", view.eye);
+  light_.set("u_base_texture", kBaseUnit);
+  light_.set("u_reflectance", kReflectanceUnit);
+  light_.set("u_normal_texture", kNormalUnit);
+  light_.set("u_change", kChangeUnit);
+  light_.set("u_codes", kWeightUnit);
+  light_.set("u_table", kTableUnit);
+  light_.set("u_weights", weights);
+  light_.set("u_alpha_kind", 0);
+  light_.set("u_changed", change != nullptr ? 1 : 0);
+  light_.set("u_reflectance_count", scene.reflectance_tables().width());
+  scene.reflectance_tables().bind(kReflectanceUnit);
+  if (change != nullptr) change->bind(kChangeUnit);
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.stencil_ref = static_cast<GLint>(kMoverBits);
+  state.stencil_write = kMoverBits;
+  for (const PlacedMover& placed : movers) {
+    const Vec3 half = 0.5f * (placed.mover->bounds.upper - placed.mover->bounds.lower);
+    light_.set("u_clip_from_pack", clip_from_object(view, placed));
+    light_.set("u_pack_from_object", placed.pack_from_object);
+    light_.set("u_box_center", placed.mover->bounds.center());
+    light_.set("u_box_scale",
+               Vec3(half.x > 0 ? 1 / half.x : 0, half.y > 0 ? 1 / half.y : 0, half.z > 0 ? 1 / half.z : 0));
+    light_.set("u_components", placed.components);
+    placed.mover->weights.bind(kWeightUnit);
+    placed.table.bind(kTableUnit);
+    glBindVertexArray(placed.mover->vertex_array.name());
+    for (const DrawRange& range : placed.mover->ranges) {
+      state.cull = cull_of(scene.pack().materials[range.material]);
+      gpu::apply(state);
+      set_surface(light_, scene, range.material, placed.normal_mapped);
+      draw_indices(range.first_index, range.index_count, stats);
+    }
+  }
+}
+
+}  // namespace oriel

@@ -1,0 +1,52 @@
+// Movers where they stand, in the light that they meet there.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/movers/mover_light.h"
+#include "player/scene/frame_options.h"
+#include "player/scene/gpu_scene.h"
+#include "player/scene/view.h"
+
+namespace oriel {
+
+// One of Pack::movers, for a frame.
+struct PlacedMover {
+  const GpuMover* mover = nullptr;
+  Mat4 pack_from_object{1};
+  Vec4 sphere{0};  // around it: centre in pack space, radius
+  MoverLight light;
+  gpu::Texture table;  // of light
+  bool normal_mapped = false;
+  int components = 0;
+};
+// At the poses of the options. Light is looked up anew.
+std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions& options);
+
+// scene.bounds() with the movers at those poses (empty: at rest).
+Bounds bounds_with_movers(const GpuScene& scene, std::span<const MoverPose> poses);
+
+// What a pass draws with: the pack's view as seen by that mover.
+inline Mat4 clip_from_object(const View& view, const PlacedMover& placed) {
+  return view.clip_from_pack * placed.pack_from_object;
+}
+
+// In the stencil, where a mover is seen.
+inline constexpr GLuint kMoverBits = 0x7f;
+
+class MoverPass {
+ public:
+  static Result<MoverPass> create(gpu::Dialect dialect);
+
+  // Depth into the bound framebuffer.
+  void draw_depth(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                  FrameStats& stats) const;
+  // Light, over that depth. weights: of the diffuse part, the undirected reflection, the emission. change: what bright
+  // lights add, by pixel; may be null.
+  void draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
+            const gpu::Texture* change, FrameStats& stats) const;
+
+ private:
+  gpu::Program depth_, light_;
+};
+
+}  // namespace oriel

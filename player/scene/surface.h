@@ -1,0 +1,64 @@
+// How a material's surfaces are drawn: what all passes that shade them set.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/gpu/raster_state.h"
+#include "player/scene/frame_options.h"
+#include "player/scene/gpu_scene.h"
+
+namespace oriel {
+
+// Texture units of shaders/passes/surface.glsl and its users.
+enum Unit {
+  kBaseUnit = 0,
+  kLightmapUnit = 1,
+  kReflectanceUnit = 2,
+  kDirectionUnit = 3,
+  kNormalUnit = 4,
+  kChangeUnit = 5,  // light that movers take or get, by pixel
+  kWeightUnit = 6,  // a mover's transfer
+  kTableUnit = 7,   // and its light
+  kShadowUnit = 6,  // of bright lights, by movers
+  kStaticUnit = 7,  // and by what stands still
+};
+
+inline gpu::Cull cull_of(const Material& material) {
+  return material.double_sided ? gpu::Cull::kNone : gpu::Cull::kBack;
+}
+
+inline float cutoff_of(const Material& material) {
+  return material.alpha_mode == AlphaMode::kMask ? std::max(material.alpha_cutoff, 0.0f) : -1.0f;
+}
+
+// From the index buffer that is bound.
+inline void draw_indices(std::uint32_t first, std::uint32_t count, FrameStats& stats) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::uintptr_t{first} * sizeof(std::uint32_t)));
+  ++stats.draws;
+  stats.triangles += count / 3;
+}
+
+// Albedo, reflectance, emission and normal map. normal_mapped: the mesh has coordinates for normal maps.
+inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
+                        bool normal_mapped) {
+  const Material& m = scene.pack().materials[material];
+  const Vec3 base = glm::clamp(m.base_color, Vec3(0), Vec3(1));
+  program.set("u_base_color", Vec4(base, m.alpha));
+  program.set("u_alpha_cutoff", cutoff_of(m));
+  program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
+  program.set("u_diffuse_share", (1 - m.metallic) * (1 - m.transmission));
+  program.set("u_transmission", m.transmission);
+  program.set("u_emission", m.emission);
+  program.set("u_unlit", m.unlit ? 1 : 0);
+  program.set("u_reflectance_row", m.fresnel_map);
+  if (m.fresnel_map >= 0) {
+    const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(m.fresnel_map)].table;
+    program.set("u_reflectance_count", static_cast<int>(table.size()));
+  }
+  scene.albedo(m.base_color_texture).bind(kBaseUnit);
+  program.set("u_normal_mapped", m.normal_texture >= 0 && normal_mapped ? 1 : 0);
+  program.set("u_normal_scale", m.normal_scale);
+  scene.normal_map(m.normal_texture).bind(kNormalUnit);
+}
+
+}  // namespace oriel

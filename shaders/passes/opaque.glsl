@@ -1,0 +1,37 @@
+// The light of an opaque surface. To be included after irradiance_here(normal), lux.
+uniform sampler2D u_base_texture;
+uniform vec4 u_base_color;
+uniform float u_alpha_cutoff;  // negative: no cut-outs
+uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
+uniform vec3 u_emission;        // cd/m2
+uniform bool u_unlit;
+uniform int u_alpha_kind;    // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
+uniform vec4 u_depth_row;    // depth of a point of pack space = dot(row, point)
+uniform float u_closest;     // least 1 / distance that is stored
+uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1
+
+in vec2 v_uv;
+in vec4 v_color;
+layout(location = 0) out vec4 o_light;  // kind of light: 1 cd/m2, 2 a colour to be shown as it is
+
+float alpha_of_light(float kind) {
+  if (u_alpha_kind == 0) return kind;
+  float away = u_alpha_kind == 1 ? distance(u_eye.xyz, v_position) : dot(u_depth_row, vec4(v_position, 1.0));
+  return clamp(1.0 / max(away, 1e-18), u_closest, 1e18);
+}
+
+void main() {
+  vec3 normal = tilted_by_map();
+  vec4 base = u_base_color * v_color * texture(u_base_texture, v_uv);
+  if (u_alpha_cutoff >= 0.0 && base.a < u_alpha_cutoff) discard;
+  if (u_unlit) {
+    o_light = vec4(base.rgb * u_weights.z, alpha_of_light(u_weights.z > 0.0 ? 2.0 : 1.0));
+    return;
+  }
+  vec3 reflectance = reflectance_of(normal);
+  vec3 irradiance = irradiance_here(normal);
+  vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
+  light += u_weights.y * ambient_reflection(reflectance, irradiance);
+  light += u_weights.z * u_emission;
+  o_light = vec4(light, alpha_of_light(1.0));
+}

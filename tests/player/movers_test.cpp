@@ -1,0 +1,260 @@
+// Movers under known light, read back as cd/m², beside the same maths on the CPU.
+#include "formats/camera/camera.h"
+#include "formats/motion/mover_pose.h"
+#include "formats/sh/sh.h"
+#include "player/movers/light_samples.h"
+#include "player/movers/shadow_shaft.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+constexpr int kBands = 2;
+
+// One cell over [-4, 4]³ whose probes hold the same light: `mean` from all sides, and more from +x.
+LightField even_field(const Vec3& mean, float from_x = 0) {
+  LightField field;
+  field.bands = kBands;
+  field.depth_side = 1;
+  field.depth_cap_m = 100;
+  field.lower = Vec3(-4);
+  field.cell_m = Vec3(8);
+  field.size = {1, 1, 1};
+  field.cells.resize(1);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    field.cells[0].probes[i] = i;
+    LightProbe probe;
+    probe.position = field.lower + 8.0f * Vec3(i & 1, i >> 1 & 1, i >> 2);
+    probe.valid = true;
+    probe.depth = {Vec2(1, 1)};
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < sh_count(kBands); ++k)
+        probe.sh.push_back(k == 0 ? mean[c] * 2 * std::sqrt(kPi) : k == 3 ? from_x * mean[c] : 0);
+    field.probes.push_back(probe);
+  }
+  return field;
+}
+
+// A quad of 2 m about the origin that looks along +z, material 0; its transfer is that of an open plane.
+Mover plane_mover() {
+  Pack shape;
+  add_quad(shape, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, -1);
+  Mover mover;
+  mover.name = "leaf";
+  mover.mesh = shape.mesh;
+  CompressedTransfer& t = mover.transfer;
+  t.bands = kBands;
+  t.clusters = 1;
+  t.basis.resize(sh_count(kBands));
+  std::vector<float> y(sh_count(kBands));
+  evaluate_sh(Vec3(0, 0, 1), y);
+  for (int l = 0; l < kBands; ++l)
+    for (int m = -l; m <= l; ++m) {
+      const auto k = static_cast<std::size_t>(sh_index(l, m));
+      t.basis[k] = y[k] * static_cast<float>(cosine_factor(l)) / kPi;
+    }
+  t.cluster.assign(4, 0);
+  return mover;
+}
+
+Pack mover_pack(const LightField& field) {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].base_color = {0.5f, 0.25f, 1};
+  pack.light_field = field;
+  pack.movers = {plane_mover()};
+  return pack;
+}
+
+Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
+  return look_at(eye, target, 0.5f);
+}
+
+void expect_near(const Vec3& found, const Vec3& expected, float relative) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], relative * max_component(expected)) << "channel " << c;
+}
+
+class Movers : public FrameTest {};
+
+TEST_F(Movers, EvenLightShowsTheAlbedo) {
+  const Picture p = draw(mover_pack(even_field({8, 16, 4})), camera_at({0, 0, 3}), 16, 16);
+  expect_near(p.at(8, 8), Vec3(4, 4, 4), 1e-4f);
+}
+
+// What light from one side makes of a plane depends on how the plane is turned, not on where it stands.
+TEST_F(Movers, LightTurnsAgainstTheObject) {
+  const Pack pack = mover_pack(even_field(Vec3(8), 3));
+  std::vector<float> y(4);
+  for (const float yaw : {0.0f, 0.7f, 1.5f, -1.0f}) {
+    FrameOptions options;
+    options.poses = {moved({}, {"leaf", DVec3(0.5, 0.25, -1), yaw}, DVec3(0))};
+    const Vec3 normal(std::sin(yaw), 0, std::cos(yaw)), at = options.poses[0].position;
+    evaluate_sh(Vec3(1, 0, 0), y);
+    const float irradiance = 8 * (kPi + 3 * static_cast<float>(cosine_factor(1)) * y[3] * normal.x);
+    expect_near(draw(pack, camera_at(at + 3.0f * normal, at), 16, 16, options).at(8, 8),
+                Vec3(0.5f, 0.25f, 1) * irradiance / kPi, 1e-3f);
+  }
+}
+
+// Components, clusters and weights in the shader, beside CompressedTransfer::expand at the four corners.
+TEST_F(Movers, TheShaderExpandsTransferAsTheCpuDoes) {
+  Pack pack = mover_pack(even_field({8, 16, 4}, 0.5f));
+  Mover& mover = pack.movers[0];
+  CompressedTransfer& t = mover.transfer;
+  t.channels = 3;
+  t.clusters = 3;
+  t.components = 6;
+  t.basis.clear();
+  std::uint32_t state = 1;
+  const auto random = [&] { return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 0x1p24f; };
+  for (int row = 0; row < 3 * 7; ++row)
+    for (std::size_t k = 0; k < t.stride(); ++k) t.basis.push_back(row % 7 == 0 ? 0.5f + random() : random() - 0.5f);
+  for (int i = 0; i < 18; ++i) t.weight_scale.push_back(0.3f * random());
+  t.cluster = {0, 2, 1, 2};
+  for (int i = 0; i < 24; ++i) t.weight.push_back(static_cast<std::int16_t>(65534 * random() - 32767));
+  const LightProbe& probe = pack.light_field.probes[0];
+  std::vector<float> expanded(t.stride());
+  const Vec3 corners[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  for (std::size_t v = 0; v < 4; ++v) {
+    t.expand(v, expanded);
+    Vec3 expected(0);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 4; ++k) expected[static_cast<int>(c)] += expanded[4 * c + k] * probe.sh[4 * c + k];
+    expected = Vec3(0.5f, 0.25f, 1) * glm::max(expected, Vec3(0));
+    const Vec3 near_corner = 0.999f * corners[v];
+    const Camera camera = look_at(near_corner + Vec3(0, 0, 0.5f), near_corner, 1e-3f);
+    expect_near(draw(pack, camera, 3, 3).at(1, 1), expected, 5e-3f);
+  }
+}
+
+// A lamp over a floor, the mover half way between: what the lamp gives is taken away below it and nowhere else.
+Pack shadow_scene() {
+  Pack pack = mover_pack(even_field(Vec3(1)));
+  pack.materials.resize(2);
+  pack.materials[1].base_color = Vec3(1);
+  pack.lightmaps.push_back(flat_page(Vec3(100)));
+  add_quad(pack, {-4, -2, 4}, {8, 0, 0}, {0, 0, -8}, 1, 0);
+  BrightLight lamp;
+  lamp.kind = BrightLightKind::kPoint;
+  lamp.position = {0, 2, 0};
+  lamp.intensity = Vec3(640);  // 40 lux on the floor below it
+  lamp.direction = {0, -1, 0};
+  pack.light_field.lights = {lamp};
+  for (LightProbe& probe : pack.light_field.probes) probe.bright = 1;
+  pack.movers[0].rest.rotation = {-std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)};  // it faces up
+  return pack;
+}
+
+Camera above_floor(float x, float z) {
+  Camera camera = look_at({x, -1, z}, {x, -2, z}, 0.05f);
+  camera.up = {0, 0, -1};
+  return camera;
+}
+
+TEST_F(Movers, TheirShadowsTakeTheLampsLightAlone) {
+  const Pack pack = shadow_scene();
+  expect_near(draw(pack, above_floor(0.1f, 0.1f), 5, 5).at(2, 2), Vec3(60 / kPi), 1e-2f);
+  expect_near(draw(pack, above_floor(1.8f, -1.7f), 5, 5).at(2, 2),
+              Vec3(100 - 640 * 4 / std::pow(16.0f + 1.8f * 1.8f + 1.7f * 1.7f, 1.5f)) / kPi, 1e-2f);
+  expect_near(draw(pack, above_floor(2.3f, 0), 5, 5).at(2, 2), Vec3(100 / kPi), 1e-6f);
+  // The mover itself: even light, and the lamp 2 m over it.
+  expect_near(draw(pack, look_at({0, 1, 0.01f}, Vec3(0), 0.05f), 5, 5).at(2, 2),
+              Vec3(0.5f, 0.25f, 1) * (kPi + 160) / kPi, 1e-2f);
+}
+
+TEST_F(Movers, WhatTheSceneShadesIsNotTakenTwice) {
+  Pack pack = shadow_scene();
+  add_quad(pack, {-3, 1, -3}, {6, 0, 0}, {0, 0, 6}, 1, 0);  // between lamp and mover, seen from above and below
+  add_quad(pack, {-3, 1, 3}, {6, 0, 0}, {0, 0, -6}, 1, 0);
+  expect_near(draw(pack, above_floor(0.1f, 0.1f), 5, 5).at(2, 2), Vec3(100 / kPi), 1e-6f);
+  expect_near(draw(pack, look_at({0, 0.5f, 0.01f}, Vec3(0), 0.05f), 5, 5).at(2, 2), Vec3(0.5f, 0.25f, 1), 1e-4f);
+}
+
+TEST_F(Movers, NothingElseChanges) {
+  Pack pack = shadow_scene();
+  const Camera camera = look_at({3, 1, 3.5f}, {3.2f, -2, 0}, 0.4f);
+  const Picture with = draw(pack, camera, 32, 32);
+  pack.movers.clear();
+  const Picture without = draw(pack, camera, 32, 32);
+  EXPECT_EQ(with.rgb, without.rgb);
+}
+
+TEST_F(Movers, ExtremesStayFinite) {
+  Pack pack = shadow_scene();
+  const Camera camera = look_at({0, 1, 3}, Vec3(0), 1.0f);
+  std::vector<MoverPose> poses;
+  for (const Vec3& at : {Vec3(0, 2, 0), Vec3(0, -2, 0), Vec3(0, -3, 0), Vec3(1e4f, 0, 0), Vec3(-4, 0, 4)})
+    poses.push_back({at, {0, 0, 0, 1}});
+  for (const float scale : {1e-4f, 1.0f, 1e4f}) {
+    Pack scaled = pack;
+    for (Vec3& p : scaled.movers[0].mesh.positions) p *= scale;
+    for (const MoverPose& pose : poses)
+      for (const MoverLights lights : {MoverLights::kShadowed, MoverLights::kUnshadowed, MoverLights::kHarmonics}) {
+        FrameOptions options;
+        options.poses = {pose};
+        options.mover_lights = lights;
+        EXPECT_TRUE(draw(scaled, camera, 8, 8, options).finite()) << scale << " " << pose.position.y;
+      }
+  }
+  pack.light_field = {};
+  expect_near(draw(pack, camera, 9, 9).at(4, 4), Vec3(0), 1e-6f);
+  for (LightProbe& probe : (pack = shadow_scene()).light_field.probes) probe.valid = false;
+  EXPECT_TRUE(draw(pack, camera, 8, 8).finite());
+}
+
+TEST(LightSamples, GiveThePolygonsIrradiance) {
+  BrightLight light;
+  light.kind = BrightLightKind::kPolygon;
+  light.intensity = Vec3(100);
+  light.direction = {0, -1, 0};
+  light.corners = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  const LightSamples samples = sample_light(light);
+  float lux = 0;
+  for (std::size_t i = 0; i < samples.at.size(); ++i) {
+    Vec3 towards;
+    const Vec3 facing = facing_irradiance(samples, i, Vec3(0), towards);
+    lux += facing.x * towards.y / static_cast<float>(samples.at.size());
+  }
+  // A square over a point, by Lambert: four quarters of side 1 at distance 2.
+  const float x = 1 / std::sqrt(5.0f), expected = 100 * 4 * 2 * 0.5f * x * std::atan(x);
+  EXPECT_NEAR(lux, expected, 0.02f * expected);
+}
+
+TEST(Shaft, HoldsItsSphere) {
+  for (const Vec4& at : {Vec4(0, 5, 0, 1), Vec4(0, 1, 0, 0), Vec4(3, -2, 1, 1)}) {
+    const Vec4 sphere(0.5f, 0, -0.25f, 0.75f);
+    const Shaft shaft = make_shaft(at, sphere);
+    const Mat4 clip = clip_from_pack(shaft, mover_range(shaft, sphere.w));
+    for (int i = 0; i < 26; ++i) {
+      const Vec3 way = glm::normalize(Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1) + 1e-4f);
+      const Vec4 p = clip * Vec4(Vec3(sphere) + 0.999f * sphere.w * way, 1);
+      for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(p[axis] / p.w), 1.0f) << i;
+    }
+  }
+}
+
+TEST(MoverPoses, FollowTheirKeysAgainAndAgain) {
+  const float half = std::sqrt(0.5f);
+  const std::vector<MoverKey> keys{{1, {{0, 0, 0}, {0, 0, 0, 1}}}, {3, {{4, 0, 0}, {0, half, 0, half}}}};
+  EXPECT_EQ(pose_at({}, keys, 0.5).position, Vec3(0));
+  EXPECT_NEAR(pose_at({}, keys, 2).position.x, 2, 1e-6f);
+  EXPECT_NEAR(pose_at({}, keys, 2).rotation.y, std::sin(kPi / 8), 1e-6f);
+  EXPECT_NEAR(pose_at({}, keys, 5).position.x, 2, 1e-6f);
+  EXPECT_EQ(pose_at({{7, 0, 0}, {0, 0, 0, 1}}, {}, 2).position, Vec3(7, 0, 0));
+  EXPECT_TRUE(is_finite(pose_at({}, keys, NAN).position));
+}
+
+TEST(MoverPoses, AreReadFromText) {
+  const auto move = parse_move("a=b=1,-2.5,3e1,90");
+  ASSERT_TRUE(move);
+  EXPECT_EQ(move->node, "a=b");
+  EXPECT_EQ(move->position, DVec3(1, -2.5, 30));
+  EXPECT_NEAR(move->yaw_rad, kPiD / 2, 1e-12);
+  for (const char* bad :
+       {"", "a", "a=", "=1,2,3", "a=1,2", "a=1,2,3,4,5", "a=1,2,x", "a=1,2,3,", "a=nan,0,0", "a=1,2,inf"})
+    EXPECT_FALSE(parse_move(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace oriel
