@@ -21,7 +21,8 @@ struct Reflector {
   std::vector<std::uint32_t> indices;            // its triangles, into Mesh's vertices
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
   std::uint32_t first_map = 0,
-                map_count = 0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
+                map_count =
+                    0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint, its residual last
   // Emitters that its maps leave out, into Pack::emitters, and the share of each that is seen from the nodes of a grid
   // over the bounds: node (i, j) lies at lower + (i / (visibility_x - 1), j / (visibility_y - 1)) * (upper - lower),
   // borders included. Emitter k's node is at (k * visibility_y + j) * visibility_x + i: share * 255.
@@ -31,6 +32,9 @@ struct Reflector {
 };
 
 inline constexpr std::size_t kMaxReflectorEmitters = 16;
+
+// Maps of an element that the player can blend at once, a residual included: no more are planned.
+inline constexpr std::size_t kMostMapsPerElement = 16;
 
 // A radiance map: an off-axis perspective image from `eye` (behind the plane, z < 0) through the element's rectangle on
 // the plane. Pixel (x, y), row 0 at the element's lower y, is the ray from eye through the rectangle's point
