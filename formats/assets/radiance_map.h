@@ -44,9 +44,10 @@ struct RadianceMap {
   Vec3 eye{0, 0, -1};           // reflector space
   Vec2 lower{0}, upper{0};      // the element, reflector x, y
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light, emission not included
-                               // unless has_emission
-  bool has_emission = false;   // the reflector's emitters are seen in the map at their own radiance
+  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709: all that the pixel sees, emission included, but for has_emission
+  // Where not, the emitters that the reflector lists are seen without their own light, but for their images in other
+  // mirrors: those a closed form of the emitters alone does not show.
+  bool has_emission = false;
   // Shows only what no map of the reflector sees (second surfaces along the rays of another map with the same eye and
   // element): valid is 0 everywhere else. Consulted last.
   bool residual = false;
