@@ -19,7 +19,9 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
   const auto add = [&](SeenSurface surface) {
-    surface.emission = !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
+    // The closed form shows the lamp itself; its images in other mirrors are here alone.
+    surface.emission =
+        surface.mirrors_passed > 0 || !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
     seen.radiance += surface.throughput * usable_light(outgoing(surface));
     return true;
   };

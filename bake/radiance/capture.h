@@ -15,7 +15,7 @@ using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 Vec3 usable_light(const Vec3& c);
 
 // What a ray from a reflector's plane sees (Surroundings::look), with its light: finite, not negative, 0 where nothing
-// usable is seen. The reflector's emitters do not shine.
+// usable is seen. The reflector's emitters shine by way of other mirrors only.
 struct SeenLight {
   Sight sight;
   Vec3 radiance{0};  // cd/m²
@@ -27,7 +27,8 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
 // centre, so that colour and depth belong to the same point, as Surroundings::look has them: what transmitting surfaces
 // hide and show is weighted by their transmittance, and mirrors add what they reflect. The reflector's own triangles
 // are never hit. The back of a one-sided surface keeps its depth, with radiance 0 and valid 0. Radiance that is not
-// finite or negative counts as 0. Maps of a reflector that lists emitters have no emission of those. Adds to `rays`
+// finite or negative counts as 0. Maps of a reflector that lists emitters show those by way of other
+// mirrors only. Adds to `rays`
 // (may be null). The same bytes for any number of threads. Error kStopped.
 Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays = nullptr);

@@ -138,8 +138,8 @@ void keep_most_important(std::uint32_t limit, FoundReflectors& found) {
   auto& list = found.reflectors;
   if (list.size() <= limit) return;
   for (std::size_t i = limit; i < std::min<std::size_t>(list.size(), limit + kNamed); ++i)
-    found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than the {} reflectors kept",
-                                        list[i].reflector.name, list[i].reflector.area_m2, limit));
+    found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less important than {} others", list[i].reflector.name,
+                                        list[i].reflector.area_m2, limit));
   if (list.size() > limit + kNamed)
     found.omitted.push_back(fmt::format("{} more reflectors: less important still", list.size() - limit - kNamed));
   list.resize(limit);

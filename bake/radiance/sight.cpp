@@ -82,7 +82,10 @@ class Surroundings::Walk {
       const bool passes = max_component(through) >= kSeeThrough;
       if (!passes) note_depth(hit, p, back);
       if (point.coverage > 0 && !back)
-        visit_({.hit = hit, .towards_eye = -ray_.direction, .throughput = throughput_ * point.coverage});
+        visit_({.hit = hit,
+                .towards_eye = -ray_.direction,
+                .throughput = throughput_ * point.coverage,
+                .mirrors_passed = mirrors_passed_});
       throughput_ *= through;
       return !passes;
     }
@@ -96,6 +99,7 @@ class Surroundings::Walk {
                                           .towards_eye = -ray_.direction,
                                           .throughput = throughput_,
                                           .mirror = mirror != nullptr,
+                                          .mirrors_passed = mirrors_passed_,
                                           .glossy = reflector && !narrow});
     if (!mirror || (depth_known_ && !goes_on)) return true;
     bounce(*mirror, r, p);
@@ -107,6 +111,7 @@ class Surroundings::Walk {
     depth_known_ = true;
     sight_.state = back ? Sight::kNothing : Sight::kSurface;
     sight_.back = back;
+    sight_.mirrored = mirrors_passed_ > 0;
     sight_.offset = offset_ + unfold_ * (p - start_);
     sight_.normal = unfold_ * geometric_normal(scene_, hit.triangle);
   }
@@ -120,13 +125,14 @@ class Surroundings::Walk {
     ray_.direction = glm::normalize(glm::reflect(ray_.direction, normal));
     left_ = &mirror;
     --orders_left_;
+    ++mirrors_passed_;
   }
 
   const Surroundings& in_;
   const Scene& scene_;
   const Visit& visit_;
   const FoundReflector* left_;  // the reflector that the ray left last
-  std::uint32_t orders_left_;
+  std::uint32_t orders_left_, mirrors_passed_ = 0;
   Ray ray_;
   Vec3 start_;      // of the stretch since the last mirror
   Vec3 offset_{0};  // of that start, unfolded

@@ -22,7 +22,8 @@ struct SeenSurface {
   Vec3 throughput{1};    // share of its light that reaches the reflector, coverage included
   bool mirror = false;   // what it reflects follows, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
-  bool glossy = false;   // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
+  std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
+  bool glossy = false;  // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
 };
 
 struct Sight {
@@ -31,6 +32,7 @@ struct Sight {
   // From the ray's start to the surface, or to its image where mirrors are on the way; scene space, metres. Of
   // kSurface, and of a back in kNothing.
   Vec3 offset{0};
+  bool mirrored = false;  // the offset is that of an image: a mirror is on the way
   bool back = false;      // kNothing because it ended on the back of a one-sided surface
   Vec3 normal{0};         // unit, of the surface, unfolded; scene space
   Vec3 sky_direction{0};  // the last ray's, where it left the scene

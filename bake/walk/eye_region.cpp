@@ -13,6 +13,7 @@ namespace {
 constexpr float kMaxDrop = 3;             // metres from a camera down to the floor that it stands on
 constexpr float kStartReach = 1;          // metres from a camera to the column that it starts from
 constexpr float kHeightVariation = 0.2f;  // of eyes, metres
+constexpr float kBesideGiven = 0.2f;      // along each axis, metres: eyes held out from a given one
 
 using Region = std::vector<std::uint32_t>;  // places, ascending
 
@@ -59,12 +60,13 @@ std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye)
   for (std::uint32_t z = z0; z <= z1; ++z)
     for (std::uint32_t x = x0; x <= x1; ++x) {
       const float distance = glm::length(Vec2(x, z) - at);
+      if (!(distance < nearest)) continue;
       const std::size_t column = std::size_t{z} * plan.width + x;
       for (std::uint32_t i = plan.first[column]; i < plan.first[column + 1]; ++i) {
         const float drop = eye.y - plan.places[i].y;
-        if (drop < 0 || drop > kMaxDrop || !(distance < nearest)) continue;
+        if (drop < 0 || drop > kMaxDrop) continue;
         nearest = distance;
-        best = i;
+        best = i;  // places rise: the last is the one right under the eye
       }
     }
   return best;
@@ -139,6 +141,40 @@ std::vector<WalkGrid> storeys(const FloorPlan& plan, const Region& region, const
   return grids;
 }
 
+// Streams of random numbers, apart from those of reflectors, which are numbered from 0.
+enum Stream : std::uint64_t { kPlannedFor = ~std::uint64_t{0}, kHeldOut = kPlannedFor - 1 };
+
+std::vector<Vec3> draw_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed, Stream stream) {
+  std::vector<Vec3> cells;
+  std::vector<float> sides;
+  for (const WalkGrid& grid : region.grids)
+    for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
+      if (grid.walkable(c)) {
+        cells.push_back(grid.eye(c));
+        sides.push_back(grid.cell_m);
+      }
+  std::vector<Vec3> eyes;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(seed, stream, i);
+    const float pick = sampler.next1();
+    const Vec2 in_cell = sampler.next2() - 0.5f;
+    const float height = sampler.next1();
+    const bool given = !region.points.empty() && (cells.empty() || i % 4 == 3);
+    if (given) {
+      const Vec3 beside = kBesideGiven * Vec3(2 * pick - 1, 2 * height - 1, 2 * in_cell.x);
+      eyes.push_back(region.points[(cells.empty() ? i : i / 4) % region.points.size()] +
+                     (stream == kHeldOut ? beside : Vec3(0)));
+    } else if (!cells.empty()) {
+      const auto c = std::min(static_cast<std::size_t>(pick * static_cast<float>(cells.size())), cells.size() - 1);
+      const float up = (2 * height - 1) * kHeightVariation;
+      eyes.push_back(cells[c] + Vec3(in_cell.x * sides[c], up, in_cell.y * sides[c]));
+    } else {
+      eyes.push_back(glm::mix(region.lower, region.upper, Vec3(pick, in_cell + 0.5f)));
+    }
+  }
+  return eyes;
+}
+
 std::vector<Vec3> viewpoints(const Scene& scene) {
   std::vector<Vec3> eyes;
   for (const Camera& camera : scene.cameras)
@@ -171,32 +207,11 @@ Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options,
 }
 
 std::vector<Vec3> sample_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed) {
-  std::vector<Vec3> cells;
-  std::vector<float> sides;
-  for (const WalkGrid& grid : region.grids)
-    for (std::size_t c = 0; c < grid.floor_y.size(); ++c)
-      if (grid.walkable(c)) {
-        cells.push_back(grid.eye(c));
-        sides.push_back(grid.cell_m);
-      }
-  std::vector<Vec3> eyes;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Sampler sampler(seed, 0, i);
-    const float pick = sampler.next1();
-    const Vec2 in_cell = sampler.next2() - 0.5f;
-    const float height = sampler.next1();
-    const bool given = !region.points.empty() && (cells.empty() || i % 4 == 3);
-    if (given) {
-      eyes.push_back(region.points[(cells.empty() ? i : i / 4) % region.points.size()]);
-    } else if (!cells.empty()) {
-      const auto c = std::min(static_cast<std::size_t>(pick * static_cast<float>(cells.size())), cells.size() - 1);
-      const float up = (2 * height - 1) * kHeightVariation;
-      eyes.push_back(cells[c] + Vec3(in_cell.x * sides[c], up, in_cell.y * sides[c]));
-    } else {
-      eyes.push_back(glm::mix(region.lower, region.upper, Vec3(pick, in_cell + 0.5f)));
-    }
-  }
-  return eyes;
+  return draw_eyes(region, count, seed, kPlannedFor);
+}
+
+std::vector<Vec3> held_out_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed) {
+  return draw_eyes(region, count, seed, kHeldOut);
 }
 
 Result<std::vector<DVec3>> parse_eyes(std::string_view text, const std::string& name) {

@@ -33,6 +33,9 @@ Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options,
 // the others at the given points, in turn. The same for the same seed; another seed gives others.
 std::vector<Vec3> sample_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed);
 
+// The like, but none of sample_eyes': other places, and instead of given points some up to 20 cm away along each axis.
+std::vector<Vec3> held_out_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed);
+
 // Lines of "x y z" in world space, metres; empty ones and those that start with # are skipped. Error kInvalid with
 // name:line.
 Result<std::vector<DVec3>> parse_eyes(std::string_view text, const std::string& name);

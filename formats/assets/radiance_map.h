@@ -21,7 +21,8 @@ struct Reflector {
   std::vector<std::uint32_t> indices;            // its triangles, into Mesh's vertices
   std::uint32_t elements_x = 0, elements_y = 0;  // the grid of reflector elements over the bounds
   std::uint32_t first_map = 0,
-                map_count = 0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint
+                map_count =
+                    0;  // into Pack::radiance_maps, ordered by element (row by row), then viewpoint, its residual last
   // Emitters that its maps leave out, into Pack::emitters, and the share of each that is seen from the nodes of a grid
   // over the bounds: node (i, j) lies at lower + (i / (visibility_x - 1), j / (visibility_y - 1)) * (upper - lower),
   // borders included. Emitter k's node is at (k * visibility_y + j) * visibility_x + i: share * 255.
@@ -43,9 +44,10 @@ struct RadianceMap {
   Vec3 eye{0, 0, -1};           // reflector space
   Vec2 lower{0}, upper{0};      // the element, reflector x, y
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709; the pixel's diffuse reflected light and its emission, but
-                               // without has_emission not that of Reflector::emitters
-  bool has_emission = false;   // all that shines is seen in the map at its own radiance
+  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709: all that the pixel sees, emission included, but for has_emission
+  // Where not, the emitters that the reflector lists are seen without their own light, but for their images in other
+  // mirrors: those a closed form of the emitters alone does not show.
+  bool has_emission = false;
   // Shows only what no map of the reflector sees (second surfaces along the rays of another map with the same eye and
   // element): valid is 0 everywhere else. Consulted last.
   bool residual = false;

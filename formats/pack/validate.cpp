@@ -202,6 +202,7 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_lightmaps(pack, list);
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, list);
+  validate_elements(pack, list);
   validate_emitters(pack, list);
   validate_curved_reflectors(pack, list);
   validate_surround_maps(pack, list);

@@ -60,7 +60,7 @@ Status run_scene(const std::string& path, const Settings& settings) {
   ORIEL_TRY(const EyeRegion region, find_eye_region(accel, {}, context));
   const double walk_s = seconds();
   const std::vector<Vec3> training = sample_eyes(region, 4096, context.seed),
-                          held_out = sample_eyes(region, settings.eyes, context.seed + 1);
+                          held_out = held_out_eyes(region, settings.eyes, context.seed);
   FoundReflectors found = find_reflectors(accel, materials);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, training, 32, context, found));
   std::vector<FoundReflector> reflectors = found.reflectors;

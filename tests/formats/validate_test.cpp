@@ -80,6 +80,8 @@ const Break kBreaks[] = {
     {416, "RMAP 0", [](Pack& p) { p.radiance_maps[0].disparity[1] = 1.1f; }},
     {417, "RMAP 0", [](Pack& p) { p.radiance_maps[0].valid[1] = 3; }},
     {418, "RRES", [](Pack& p) { p.radiance_maps[2].eye.x = 0.25f; }},
+    {419, "RMAP 2", [](Pack& p) { p.radiance_maps[1].upper.x -= 0.125f; }},
+    {420, "RMAP 16", [](Pack& p) { p.radiance_maps.resize(17, p.radiance_maps[0]); }},
     {421, "EMIT", [](Pack& p) { p.emitters[0].corners.pop_back(), p.emitters[0].corners.pop_back(); }},
     {421, "EMIT", [](Pack& p) { p.emitters[0].corners[1].y = 2; }},
     {421, "EMIT",

@@ -132,7 +132,7 @@ class VisibilityBaker {
   }
 
   void bake(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, LightOnReflector& out) const {
-    std::uint64_t stream = out.light * nodes.points.size();
+    std::uint64_t stream = out.light * kMaxReflectorEmitters * nodes.points.size();  // a light's polygons are no more
     for (const Emitter& polygon : out.polygons) {
       std::vector<float>& shares = out.visibility.emplace_back();
       for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
@@ -174,24 +174,35 @@ void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
   }
 }
 
+// Lamps that stay in a reflector's maps, by what keeps them there.
+struct LeftIn {
+  std::size_t too_fine = 0;   // of more triangles than a reflector may list polygons
+  std::size_t too_faint = 0;  // beyond those that light it most, whose visibility is computed
+  std::size_t too_many = 0;   // beyond the polygons that it may list
+
+  std::size_t total() const { return too_fine + too_faint + too_many; }
+};
+
 // The lights that would light the reflector most if nothing were in the way, with their visibility.
 Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
                                                 const Nodes& nodes, const Vec3& normal, const EmitterOptions& options,
-                                                Context& context) {
+                                                Context& context, LeftIn& left_in) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     double sum = 0;
     for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights[l], {node, normal, normal});
     if (sum > 0) order.emplace_back(-sum * luminance(lights[l].radiance), l);
   }
+  left_in.too_fine = std::erase_if(
+      order, [&](const auto& entry) { return lights[entry.second].triangles.size() > kMaxReflectorEmitters; });
   std::sort(order.begin(), order.end());
-  order.resize(std::min<std::size_t>(order.size(), options.max_lights));
+  left_in.too_faint = order.size() - std::min<std::size_t>(order.size(), options.max_lights);
+  order.resize(order.size() - left_in.too_faint);
   std::vector<LightOnReflector> out(order.size());
   const VisibilityBaker baker(accel, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "", order.size(), [&](std::size_t i) {
     const PolygonLight& light = lights[order[i].second];
     out[i].light = order[i].second;
-    if (light.triangles.size() > kMaxReflectorEmitters) return;  // a fine mesh: not worth its polygons
     out[i].polygons = polygons_of(light);
     baker.bake(nodes, normal, light, out[i]);
   }));
@@ -211,15 +222,15 @@ Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy
     Reflector& r = found.reflector;
     if (!is_glossy[r.material]) continue;
     const Nodes nodes = lay_out(accel, found, options);
+    LeftIn left_in;
     ORIEL_TRY(std::vector<LightOnReflector> on,
-              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), options, context));
+              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), options, context, left_in));
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
-    std::size_t left_in = 0;
     for (LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
       if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
-        ++left_in;
+        ++left_in.too_many;
         continue;
       }
       const auto [at, is_new] = first_emitter.try_emplace(l.light, static_cast<std::uint32_t>(emitters.size()));
@@ -235,12 +246,18 @@ Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy
     }
     std::sort(found.emitters.begin(), found.emitters.end());
     if (!r.emitters.empty()) r.visibility_x = nodes.x, r.visibility_y = nodes.y;
-    if (left_in > 0)
-      omitted.push_back(
-          fmt::format("'{}': {} lamps stay in its radiance maps and are blurred with them: more than {} "
-                      "polygons are not shown in closed form",
-                      r.name, left_in, kMaxReflectorEmitters));
+    if (left_in.total() > 0)
+      omitted.push_back(fmt::format(
+          "'{}': {} lamps stay in its radiance maps and are blurred with them: {} of more than {} triangles, {} beyond "
+          "the {} that light it most, {} beyond {} polygons in all",
+          r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
+          left_in.too_many, kMaxReflectorEmitters));
   }
+  const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
+                                      [&](const FoundReflector& f) { return is_glossy[f.reflector.material]; });
+  if (any_glossy && !all_emission_is_plain(accel.scene()))
+    omitted.emplace_back(
+        "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");
   return {};
 }
 

@@ -18,8 +18,8 @@ struct EmitterOptions {
 // For each reflector that `is_glossy` (by material), the lamps that light it most are left out of its maps: at most
 // kMaxReflectorEmitters polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility;
 // appends to `emitters` what they refer to. A lamp is left out whole or not at all; textured ones and those of more
-// triangles stay in the maps, and so do those beyond that number, as `omitted` says. The same for any number of
-// threads. Error kStopped.
+// triangles stay in the maps, and so do those beyond that number, with a line in `omitted` each time. The same for any
+// number of threads. Error kStopped.
 Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy, const EmitterOptions& options,
                           Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
                           std::vector<std::string>& omitted);

@@ -117,7 +117,8 @@ class Planner {
     }));
     ChoiceOptions choice = options_.choice;
     const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
-    choice.max_maps *= grid.x * grid.y;
+    constexpr std::uint32_t kMost = kMostMapsPerElement - 1;  // leaves a place for a residual
+    choice.max_maps = std::min(std::min(choice.max_maps, kMost) * grid.x * grid.y, kMost);
     element.choice = choose_views(table, choice);
     return element;
   }

@@ -19,6 +19,10 @@ bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
          pixel.y < static_cast<float>(map.height);
 }
 
+bool same_element(const RadianceMap& a, const RadianceMap& b) {
+  return a.lower == b.lower && a.upper == b.upper;
+}
+
 bool sees(const Surroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
   return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
 }
@@ -159,8 +163,12 @@ Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& o
     Reflector& reflector = reflectors[r].reflector;
     const auto first = maps.begin() + reflector.first_map;
     reflector.first_map = static_cast<std::uint32_t>(all.size());
-    std::move(first, first + reflector.map_count, std::back_inserter(all));
-    if (residuals[r]) all.push_back(std::move(*residuals[r]));
+    for (auto map = first; map != first + reflector.map_count; ++map) {
+      const bool ends_element = map + 1 == first + reflector.map_count || !same_element(*map, *(map + 1));
+      all.push_back(std::move(*map));
+      if (residuals[r] && ends_element && same_element(all.back(), *residuals[r]))
+        all.push_back(std::move(*residuals[r])), residuals[r].reset();
+    }
     reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
   }
   maps = std::move(all);

@@ -14,8 +14,9 @@ struct ResidualOptions {
 };
 
 // Adds a residual map to each reflector whose maps (captured) miss some of what eyes (scene space) see in it: with the
-// eye and element of that map of its from which most of the missing is in line, valid only where it holds it. Renumbers
-// the reflectors' maps. The same for any number of threads. Error kStopped.
+// eye and element of that map of its from which most of the missing is in line, valid only where it holds it. It is
+// put behind that element's other maps, and the reflectors' maps are numbered anew. The same for any number of threads.
+// Error kStopped.
 Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
                      const ResidualOptions& options, Context& context, std::vector<FoundReflector>& reflectors,
                      std::vector<RadianceMap>& maps);

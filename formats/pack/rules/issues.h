@@ -82,6 +82,7 @@ void validate_textures(const Pack& pack, IssueList& list);
 void validate_lightmaps(const Pack& pack, IssueList& list);
 void validate_reflectors(const Pack& pack, IssueList& list);
 void validate_radiance_maps(const Pack& pack, IssueList& list);
+void validate_elements(const Pack& pack, IssueList& list);
 void validate_curved_reflectors(const Pack& pack, IssueList& list);
 void validate_surround_maps(const Pack& pack, IssueList& list);
 void validate_kernels(const Pack& pack, IssueList& list);

@@ -1,5 +1,9 @@
 // What reflections need beside their maps: walk grids, emitters, residual maps, lobes as cosines.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <set>
 
 #include "formats/pack/rules/issues.h"
 
@@ -33,22 +37,44 @@ bool is_convex_polygon(const std::vector<Vec3>& corners) {
   return true;
 }
 
-void validate_residual(const Pack& pack, std::size_t i, IssueList& list) {
-  const RadianceMap& map = pack.radiance_maps[i];
-  const bool has_partner =
-      std::any_of(pack.radiance_maps.begin(), pack.radiance_maps.end(), [&](const RadianceMap& other) {
-        return !other.residual && other.reflector == map.reflector && other.eye == map.eye &&
-               other.lower == map.lower && other.upper == map.upper;
-      });
-  if (!has_partner) list.error(418, "radiance map {} is a residual, but no other map has its eye and element", i);
+// A map's reflector and element, then its eye; floats by their bits, so that NaN has an order too.
+using MapKey = std::array<std::uint32_t, 8>;
+
+MapKey view_key(const RadianceMap& map) {
+  const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v + 0.0f); };  // -0 as 0
+  return {map.reflector,     bits(map.lower.x), bits(map.lower.y), bits(map.upper.x),
+          bits(map.upper.y), bits(map.eye.x),   bits(map.eye.y),   bits(map.eye.z)};
+}
+
+MapKey element_key(const RadianceMap& map) {
+  MapKey key = view_key(map);
+  std::fill(key.begin() + 5, key.end(), 0);
+  return key;
 }
 
 }  // namespace
 
-void validate_emitters(const Pack& pack, IssueList& list) {
+void validate_elements(const Pack& pack, IssueList& list) {
+  std::set<MapKey> views;
+  std::map<MapKey, std::size_t> counts;  // maps by element
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const RadianceMap& map = pack.radiance_maps[i];
+    list.in_section(kRadianceMapSection, i);
+    if (!map.residual) views.insert(view_key(map));
+    const MapKey key = element_key(map);
+    std::size_t& count = counts[key];
+    if (count > 0 && key != element_key(pack.radiance_maps[i - 1]))
+      list.error(419, "comes after the maps of another element, expected it beside those of its own");
+    if (++count == kMostMapsPerElement + 1)
+      list.warning(420, "is one of more than {} maps of an element: so many are shown at once", kMostMapsPerElement);
+  }
   list.in_section(kResidualSection);
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i)
-    if (pack.radiance_maps[i].residual) validate_residual(pack, i, list);
+    if (pack.radiance_maps[i].residual && !views.contains(view_key(pack.radiance_maps[i])))
+      list.error(418, "radiance map {} is a residual, but no other map has its eye and element", i);
+}
+
+void validate_emitters(const Pack& pack, IssueList& list) {
   list.in_section(kEmitterSection);
   for (std::size_t i = 0; i < pack.emitters.size(); ++i) {
     const Emitter& e = pack.emitters[i];

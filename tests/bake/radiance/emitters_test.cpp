@@ -31,13 +31,16 @@ struct LampRoom {
   }
   void lamp(const Vec3& corner) { parts.quad("lamp", 1, corner, {1, 0, 0}, {0, 0, 1}); }
 
-  void run(const Accel& accel, bool glossy = true) {
-    std::vector<ReflectorMaterial> materials(scene.materials.size(), ReflectorMaterial{1, Vec3(0), 0});
-    materials[0] = {scene.materials[0].roughness, Vec3(0.9f), 1};
+  // Metals reflect; the floor's material is glossy or not.
+  void run(const Accel& accel, bool glossy = true, std::size_t expected_reflectors = 1) {
+    std::vector<ReflectorMaterial> materials;
+    for (const SceneMaterial& m : scene.materials)
+      materials.push_back(m.metallic > 0 ? ReflectorMaterial{m.roughness, Vec3(0.9f), 1}
+                                         : ReflectorMaterial{1, Vec3(0), 0});
     ReflectorOptions options;
     options.min_open_share = 0;
     reflectors = find_reflectors(accel, materials, options).reflectors;
-    ASSERT_EQ(reflectors.size(), 1u);
+    ASSERT_EQ(reflectors.size(), expected_reflectors);
     Context context;
     std::vector<bool> is_glossy(scene.materials.size());
     is_glossy[0] = glossy;
@@ -122,6 +125,39 @@ TEST(Emitters, TheMapsOfTheReflectorDoNotShowThem) {
   }
 }
 
+// The closed form shows the lamp itself, not its image in a mirror beside the floor: that stays in the map.
+TEST(Emitters, TheirImagesInOtherMirrorsStayInTheMaps) {
+  for (const bool has_mirror : {true, false}) {
+    LampRoom room;
+    SceneMaterial wall;
+    wall.metallic = has_mirror ? 1 : 0;
+    wall.roughness = 0;
+    room.parts.quad("wall", room.parts.add(wall), {1, 0, -2}, {0, 0, 4}, {0, 2, 0});
+    room.parts.box("walls", 2, {-3, -0.1f, -3}, {3, 3, 3}, true);
+    room.scene = room.parts.finish();
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    room.run(*accel, true, has_mirror ? 2 : 1);
+    ASSERT_EQ(room.reflectors[0].reflector.name, "floor");
+    ASSERT_EQ(room.reflectors[0].emitters, (std::vector<std::uint32_t>{2, 3}));
+    const auto lamp = [&](const SeenSurface& s) {
+      return s.emission && room.scene.surfaces[room.scene.triangle_surface[s.hit.triangle]].material == 1 ? Vec3(1)
+                                                                                                          : Vec3(0);
+    };
+    ViewOptions options;
+    options.views_per_element = 8;
+    options.map_resolution = 64;
+    options.element_m = 10;
+    ViewPlan plan = plan_views(room.scene, room.reflectors, options);
+    Context context;
+    ASSERT_TRUE(capture_maps(Surroundings(*accel, room.reflectors, {}), lamp, context, plan.maps));
+    std::size_t lit = 0;
+    for (const RadianceMap& map : plan.maps)
+      for (const Vec3& c : map.radiance) lit += map.reflector == 0 && c != Vec3(0);
+    EXPECT_EQ(lit > 0, has_mirror);
+  }
+}
+
 TEST(Emitters, NoMoreThanTheLimitAndTheRestIsNamed) {
   LampRoom room;
   for (int i = 0; i < 5; ++i)
@@ -134,6 +170,32 @@ TEST(Emitters, NoMoreThanTheLimitAndTheRestIsNamed) {
   EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), kMaxReflectorEmitters);
   ASSERT_EQ(room.omitted.size(), 1u);
   EXPECT_NE(room.omitted[0].find("10 lamps stay in its radiance maps"), std::string::npos) << room.omitted[0];
+}
+
+TEST(Emitters, FineMeshesAndTexturesStayInTheMapsAndAreNamed) {
+  LampRoom room;
+  constexpr std::uint32_t kSides = 24;
+  std::vector<Vec3> positions{{1.5f, 2, 0}};
+  std::vector<UVec3> triangles;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const float angle = 2 * kPi * static_cast<float>(i) / kSides;
+    positions.emplace_back(1.5f + 0.3f * std::cos(angle), 2, 0.3f * std::sin(angle));
+    triangles.emplace_back(0, 1 + i, 1 + (i + 1) % kSides);  // faces down
+  }
+  room.parts.mesh("disc", 1, positions, std::vector<Vec3>(positions.size(), Vec3(0, -1, 0)), triangles);
+  room.scene = room.parts.finish();
+  SceneMaterial screen = room.scene.materials[1];
+  screen.emission_texture.image = 0;
+  room.scene.materials.push_back(screen);
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  room.run(*accel);
+  EXPECT_EQ(room.reflectors[0].reflector.emitters.size(), 1u);
+  ASSERT_EQ(room.omitted.size(), 2u);
+  EXPECT_NE(room.omitted[0].find("1 lamps stay in its radiance maps and are blurred with them: 1 of more than 16"),
+            std::string::npos)
+      << room.omitted[0];
+  EXPECT_NE(room.omitted[1].find("textured"), std::string::npos);
 }
 
 }  // namespace

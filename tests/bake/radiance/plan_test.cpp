@@ -193,6 +193,22 @@ TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
 
+// However many an element is allowed, the player must be able to blend them all, and a residual.
+TEST(PlannedViews, AreNoMoreThanThePlayerBlends) {
+  const MirrorRoom room = furnished();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  PlannedViewOptions options;
+  options.samples = 2048;
+  options.choice.max_maps = 64;
+  options.choice.seen = options.choice.sharp = 2;  // never reached
+  options.choice.resolutions = {64};
+  options.max_elements = 1;
+  const Planned planned = plan_in(*accel, room, eyes_in_room(200), options);
+  EXPECT_GT(planned.plan.maps.size(), 8u);
+  EXPECT_LT(planned.plan.maps.size(), kMostMapsPerElement);
+}
+
 TEST(PlannedViews, KeepTheMemory) {
   const MirrorRoom room;
   const auto accel = Accel::build(room.scene);
@@ -258,6 +274,34 @@ TEST(Residuals, ShowWhatNoMapSees) {
       ASSERT_TRUE(on_surface) << p.x << " " << p.y << " " << p.z;
     }
   }
+}
+
+// The mirror in two elements, most of what is missing in line with the first one's map: its residual follows that map.
+TEST(Residuals, StandBesideTheMapsOfTheirElement) {
+  const MirrorRoom room = furnished();
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  auto reflectors = find_reflectors(*accel, room.materials(), room.reflector_options()).reflectors;
+  ViewOptions options;
+  options.element_m = 1;
+  options.views_per_element = 1;
+  ViewPlan plan = plan_views(room.scene, reflectors, options);
+  ASSERT_EQ(plan.maps.size(), 4u);
+  const auto as_planned = reflectors;
+  const Surroundings surroundings(*accel, as_planned, {});
+  Context context;
+  ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, plan.maps));
+  ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes_in_room(1000), {}, context, reflectors, plan.maps));
+  ASSERT_EQ(plan.maps.size(), 5u);
+  EXPECT_EQ(reflectors[0].reflector.map_count, 5u);
+  const auto residual =
+      std::find_if(plan.maps.begin(), plan.maps.end(), [](const RadianceMap& map) { return map.residual; });
+  ASSERT_NE(residual, plan.maps.end());
+  ASSERT_NE(residual, plan.maps.begin());
+  EXPECT_NE(residual + 1, plan.maps.end()) << "the last element's: nothing would be seen here";
+  EXPECT_EQ((residual - 1)->eye, residual->eye);
+  EXPECT_EQ((residual - 1)->lower, residual->lower);
+  EXPECT_EQ((residual - 1)->upper, residual->upper);
 }
 
 TEST(SeenReflectors, ThoseThatNobodySeesAreLeftOutWithAReason) {

@@ -118,6 +118,38 @@ TEST(EyeRegion, StairsLeadUpAndTablesDoNot) {
   EXPECT_EQ(region.grids.size(), 2u);
 }
 
+// A camera low over a mezzanine, within reach of the hall's floor too: it stands on what is right under it.
+TEST(EyeRegion, StartsOnTheFloorRightUnderTheCamera) {
+  SceneParts parts;
+  const auto wall = parts.diffuse(Vec3(0.5f));
+  parts.box("hall", wall, {0, 0, 0}, {10, 6, 6}, true);
+  parts.box("mezzanine", wall, {5, 2, 0}, {10, 2.2f, 6});
+  Scene scene = centred(parts.finish());
+  scene.cameras = {camera_at(Vec3(DVec3(8, 2.7, 3) - scene.origin))};
+  const EyeRegion region = region_of(scene);
+  EXPECT_TRUE(stands(scene, region, {8, 2.2, 3}));
+  EXPECT_FALSE(stands(scene, region, {8, 0, 3}));
+  EXPECT_FALSE(stands(scene, region, {2, 0, 3}));
+}
+
+TEST(EyeRegion, HeldOutEyesAreNotPlannedFor) {
+  SceneParts parts = two_rooms(true);
+  Scene scene = centred(parts.finish());
+  const Vec3 given(DVec3(1, 1.6, 1) - scene.origin);
+  scene.cameras = {camera_at(given)};
+  EyeOptions file{EyeSource::kFile, {DVec3(given) + scene.origin}, {}};
+  for (const EyeRegion& region : {region_of(scene), region_of(scene, file)}) {
+    const auto planned = sample_eyes(region, 256, 1);
+    EXPECT_NE(std::find(planned.begin(), planned.end(), given), planned.end());
+    for (const Vec3& eye : held_out_eyes(region, 60, 1)) {
+      EXPECT_EQ(std::find(planned.begin(), planned.end(), eye), planned.end());
+      if (region.grids.empty()) {
+        EXPECT_LE(max_component(glm::abs(eye - given)), 0.2001f);
+      }
+    }
+  }
+}
+
 TEST(EyeRegion, WithoutCamerasTheLargestRoofedRegion) {
   SceneParts parts = two_rooms(false);
   const auto ground = parts.diffuse(Vec3(0.5f));
