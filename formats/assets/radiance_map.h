@@ -44,7 +44,8 @@ struct RadianceMap {
   Vec3 eye{0, 0, -1};           // reflector space
   Vec2 lower{0}, upper{0};      // the element, reflector x, y
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> radiance;  // cd/m², linear Rec. 709: all that the pixel sees, emission included, but for has_emission
+  std::vector<Vec3>
+      radiance;  // cd/m², linear Rec. 709: all that the pixel sees, emission included, but for has_emission
   // Where not, the emitters that the reflector lists are seen without their own light, but for their images in other
   // mirrors: those a closed form of the emitters alone does not show.
   bool has_emission = false;

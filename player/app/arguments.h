@@ -21,8 +21,8 @@ struct PlayArguments {
   bool sized = false;                // --size was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::vector<MoverMove> moves;
-  double time_s = 0;                 // of animations; the window's clock starts there
-  std::optional<float> ev100;        // nothing: automatic
+  double time_s = 0;           // of animations; the window's clock starts there
+  std::optional<float> ev100;  // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   FrameOptions frame;
   std::string output;          // a file, or a folder

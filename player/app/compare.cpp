@@ -7,8 +7,8 @@
 #include "formats/core/file.h"
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
-#include "player/movers/poses.h"
 #include "player/gpu/headless.h"
+#include "player/movers/poses.h"
 #include "player/passes/frame.h"
 
 namespace oriel {

@@ -172,9 +172,8 @@ Result<const gpu::Texture*> Renderer::draw_change(const GpuScene& scene, const V
                                                   std::span<const PlacedMover> movers, const FrameOptions& options,
                                                   FrameStats& stats) {
   if (movers.empty()) return nullptr;
-  ORIEL_TRY_VOID(clock_.time(Pass::kMovers, [&] {
-    return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats);
-  }));
+  ORIEL_TRY_VOID(clock_.time(Pass::kMovers,
+                             [&] { return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats); }));
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
   return &bright_pass_.change();

@@ -101,7 +101,9 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/app"}},
-    {"epoxy/", {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/passes", "player/app"}},
+    {"epoxy/",
+     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/passes",
+      "player/app"}},
 };
 
 bool is_source(const fs::path& path) {
