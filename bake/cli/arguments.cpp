@@ -110,8 +110,8 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->capture_default_str();
   app.add_option(
          "--views", texts.views,
-         "Viewpoints behind each reflector element (9 m²): planned:N are the at most N that show most of what eyes "
-         "see in it, hemisphere:N are spread evenly, as published")
+         "Viewpoints of radiance maps: planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
+         "element, those that show most of what eyes see in it; hemisphere:N are spread evenly, as published")
       ->capture_default_str();
   app.add_option(
          "--eyes", texts.eyes,

@@ -68,4 +68,16 @@ UVec2 map_size(const Element& element, std::uint32_t resolution) {
   return {pixels(size.x), pixels(size.y)};
 }
 
+RadianceMap blank_map(std::uint32_t reflector, const Vec3& eye, const Element& element, std::uint32_t resolution) {
+  const UVec2 size = map_size(element, resolution);
+  RadianceMap map;
+  map.reflector = reflector;
+  map.eye = eye;
+  map.lower = element.lower;
+  map.upper = element.upper;
+  map.width = size.x;
+  map.height = size.y;
+  return map;
+}
+
 }  // namespace oriel

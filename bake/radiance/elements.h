@@ -21,4 +21,16 @@ std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& 
 // Pixels of a map of the element whose longer side has `resolution`: square where neither side is too short.
 UVec2 map_size(const Element& element, std::uint32_t resolution);
 
+inline constexpr std::uint64_t kMapBytesPerPixel = 4;  // of a map in a pack, at most (docs/format.md)
+inline std::uint64_t map_bytes(std::uint32_t width, std::uint32_t height) {
+  return kMapBytesPerPixel * width * height;
+}
+inline std::uint64_t map_bytes(const Element& element, std::uint32_t resolution) {
+  const UVec2 size = map_size(element, resolution);
+  return map_bytes(size.x, size.y);
+}
+
+// A map of that size (map_size) without pixels.
+RadianceMap blank_map(std::uint32_t reflector, const Vec3& eye, const Element& element, std::uint32_t resolution);
+
 }  // namespace oriel

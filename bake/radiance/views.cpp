@@ -10,12 +10,6 @@ namespace {
 constexpr double kLowestRing = 75 * kPiD / 180;  // from the pole: views closer to the plane see it edge-on
 constexpr std::uint32_t kMinResolution = 16;
 
-bool outside(const Scene& scene, const Vec3& p, float margin) {
-  for (int i = 0; i < 3; ++i)
-    if (p[i] < scene.lower[i] - margin || p[i] > scene.upper[i] + margin) return true;
-  return false;
-}
-
 struct Planner {
   const Scene& scene;
   const std::vector<FoundReflector>& reflectors;
@@ -35,23 +29,14 @@ struct Planner {
     for (const Element& element : elements[r]) {
       const Vec3 centre(0.5f * (element.lower + element.upper), 0);
       const float radius = 0.5f * glm::length(element.upper - element.lower);
-      const UVec2 size = map_size(element, resolution(r, divisor));
       for (const Vec3& direction : directions) {
         const Vec3 eye = centre + radius * direction;
-        if (outside(scene, pack_from_reflector(reflectors[r].reflector, mirrored(eye)), radius)) {
+        if (!is_inside(scene, pack_from_reflector(reflectors[r].reflector, mirrored(eye)), radius)) {
           ++skipped;
           continue;
         }
-        bytes += kMapBytesPerPixel * std::uint64_t{size.x} * size.y;
-        if (!maps) continue;
-        RadianceMap map;
-        map.reflector = static_cast<std::uint32_t>(r);
-        map.eye = eye;
-        map.lower = element.lower;
-        map.upper = element.upper;
-        map.width = size.x;
-        map.height = size.y;
-        maps->push_back(std::move(map));
+        bytes += map_bytes(element, resolution(r, divisor));
+        if (maps) maps->push_back(blank_map(static_cast<std::uint32_t>(r), eye, element, resolution(r, divisor)));
       }
     }
     return bytes;
@@ -82,10 +67,8 @@ Fit fit_memory(const Planner& planner, std::vector<std::string>& omitted) {
     fit.divisor *= 2;
   while (fit.reflectors > 0 && planner.total_bytes(fit.reflectors, fit.views, fit.divisor) > options.memory_bytes)
     --fit.reflectors;
-  std::string line =
-      fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: {} of {} views per element",
-                  static_cast<double>(wanted) / (1 << 20), static_cast<double>(options.memory_bytes) / (1 << 20),
-                  fit.views, std::max(1u, options.views_per_element));
+  std::string line = memory_line(wanted, options.memory_bytes) +
+                     fmt::format("{} of {} views per element", fit.views, std::max(1u, options.views_per_element));
   if (fit.divisor > 1) line += fmt::format(", 1/{} of the resolution", fit.divisor);
   if (fit.reflectors < planner.reflectors.size())
     line += fmt::format(", {} of {} reflectors", fit.reflectors, planner.reflectors.size());
@@ -94,6 +77,16 @@ Fit fit_memory(const Planner& planner, std::vector<std::string>& omitted) {
 }
 
 }  // namespace
+
+bool is_inside(const Scene& scene, const Vec3& p, float margin) {
+  return glm::all(glm::greaterThanEqual(p, scene.lower - margin)) &&
+         glm::all(glm::lessThanEqual(p, scene.upper + margin));
+}
+
+std::string memory_line(std::uint64_t wanted, std::uint64_t allowed) {
+  return fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: ",
+                     static_cast<double>(wanted) / (1 << 20), static_cast<double>(allowed) / (1 << 20));
+}
 
 std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
   std::vector<Vec3> directions{{0, 0, -1}};

@@ -17,8 +17,6 @@ struct ViewOptions {
   std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps, kMapBytesPerPixel each
 };
 
-inline constexpr std::uint64_t kMapBytesPerPixel = 4;  // of a map in a pack, at most (docs/format.md)
-
 // Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points
 // at about the same spacing. Exactly `count` of them, at least 1.
 std::vector<Vec3> hemisphere_directions(std::uint32_t count);
@@ -31,6 +29,12 @@ struct ViewPlan {
   std::vector<std::string> omitted;     // what was reduced or left out and why, one line each
   std::uint32_t views_per_element = 0;  // as used
 };
+
+// Whether the point is in the scene's bounds, or no further out than the margin along any axis.
+bool is_inside(const Scene& scene, const Vec3& p, float margin);
+
+// How an omission of maps that do not fit begins: "radiance maps would take … MiB of … MiB allowed: ".
+std::string memory_line(std::uint64_t wanted, std::uint64_t allowed);
 
 // Plans the maps of all reflectors and sets each one's elements_x, elements_y, first_map and map_count. Left out are
 // elements that the reflector's polygons do not cover and viewpoints whose mirror image is outside the scene's

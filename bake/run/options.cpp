@@ -141,6 +141,7 @@ Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std
 std::string options_json(const BakeOptions& o, std::uint64_t seed) {
   nlohmann::ordered_json ies = nlohmann::ordered_json::object();
   for (const auto& [node, file] : o.import.ies) ies[node] = file.filename().string();
+  const bool planned = o.view_scheme == ViewScheme::kPlanned;
   const nlohmann::ordered_json json = {
       {"seed", seed},
       {"reproducible", o.reproducible},
@@ -174,15 +175,14 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"max_reflectors", o.reflectors.max_reflectors},
       {"max_reflector_roughness", o.reflectors.max_roughness},
       {"min_reflector_area_m2", o.reflectors.min_area_m2},
-      {"element_m", o.views.element_m},
-      {"views", o.view_scheme == ViewScheme::kPlanned ? "planned" : "hemisphere"},
-      {"views_per_element",
-       o.view_scheme == ViewScheme::kPlanned ? o.planned.choice.max_maps : o.views.views_per_element},
+      {"element_m", planned ? o.planned.element_m : o.views.element_m},
+      {"views", planned ? "planned" : "hemisphere"},
+      {"views_per_element", planned ? o.planned.choice.max_maps : o.views.views_per_element},
       {"eyes", eye_source_name(o.eyes.source)},
       {"eye_points", eye_points(o.eyes)},
       {"orders", o.sight.orders},
-      {"map_resolution", o.views.map_resolution},
-      {"map_memory", o.views.memory_bytes},
+      {"map_resolution", planned ? o.planned.map_resolution : o.views.map_resolution},
+      {"map_memory", planned ? o.planned.memory_bytes : o.views.memory_bytes},
       {"movers", o.import.movers},
       {"transfer", o.with_transfer},
       {"sh_bands", o.transfer.bands},

@@ -33,10 +33,10 @@ struct Choice {
   double seen = 0, sharp = 0;  // shares of the samples' weight
 };
 
-// Picks one candidate after the other, each time that with the largest weight of samples newly seen (counted twice) and
-// newly sharp; ties go to the lower number. Greedy choice reaches at least 1 - 1/e of the best one's coverage
-// (Nemhauser, Wolsey, Fisher 1978). Of the resolutions, the one that reaches the targets with the fewest pixels; where
-// none does, the one that comes closest.
+// Picks one candidate after the other, each time that with the largest weight of samples newly seen (counted eight
+// times) and newly sharp; ties go to the lower number. Greedy choice reaches at least 1 - 1/e of the best one's
+// coverage (Nemhauser, Wolsey, Fisher 1978). Of the resolutions, the one that reaches the targets with the fewest
+// pixels; where none does, the one that comes closest.
 Choice choose_views(const NeedTable& table, const ChoiceOptions& options);
 
 }  // namespace oriel

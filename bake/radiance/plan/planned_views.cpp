@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
 constexpr double kWorthDividing = 0.02;       // by which more of an element must be sharp
 constexpr std::uint32_t kLeastResolution = 16;
+constexpr std::uint32_t kMostShares = 4;  // of options.samples for one reflector
 
 struct ElementPlan {
   Element window;
@@ -32,11 +33,6 @@ struct ReflectorPlan {
     return total > 0 ? sharp / total : 1;
   }
 };
-
-bool is_inside(const Scene& scene, const Vec3& p, float margin) {
-  return glm::all(glm::greaterThanEqual(p, scene.lower - margin)) &&
-         glm::all(glm::lessThanEqual(p, scene.upper + margin));
-}
 
 std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
                                  std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
@@ -66,8 +62,10 @@ class Planner {
   }
 
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
-    ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed, context_));
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
+    ORIEL_TRY(const auto samples, sample_reflections(surroundings_, reflector, eyes_,
+                                                     options_.samples * shares.x * shares.y, context_.seed, context_));
     ReflectorPlan best;
     ElementGrid grid;
     for (;;) {
@@ -75,7 +73,6 @@ class Planner {
       if (!best.elements.empty() && plan.sharp() < best.sharp() + kWorthDividing) return best;
       best = std::move(plan);
       if (best.sharp() >= options_.choice.sharp || 2 * grid.x * grid.y > options_.max_elements) return best;
-      const Reflector& r = surroundings_.reflectors()[reflector].reflector;
       const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
       (side.x >= side.y ? grid.x : grid.y) *= 2;
     }
@@ -89,8 +86,8 @@ class Planner {
     for (const Element& window : covered_elements(surroundings_.accel().scene(), found, grid)) {
       std::vector<ReflectedSample> inside;
       for (const ReflectedSample& s : samples)
-        if (inside.size() < options_.samples && s.on_plane.x >= window.lower.x && s.on_plane.x <= window.upper.x &&
-            s.on_plane.y >= window.lower.y && s.on_plane.y <= window.upper.y)
+        if (s.on_plane.x >= window.lower.x && s.on_plane.x <= window.upper.x && s.on_plane.y >= window.lower.y &&
+            s.on_plane.y <= window.upper.y)
           inside.push_back(s);
       if (inside.empty()) continue;
       ORIEL_TRY(ElementPlan element, plan_element(reflector, window, inside));
@@ -130,8 +127,7 @@ class Planner {
 };
 
 std::uint64_t bytes_of(const ElementPlan& element) {
-  const UVec2 size = map_size(element.window, element.choice.resolution);
-  return kMapBytesPerPixel * size.x * size.y;
+  return map_bytes(element.window, element.choice.resolution);
 }
 
 std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
@@ -174,28 +170,16 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
     bytes = total_bytes(plans);
   }
   if (bytes == wanted) return;
-  std::string line =
-      fmt::format("radiance maps would take {:.1f} MiB of {:.1f} MiB allowed: {} maps fewer",
-                  static_cast<double>(wanted) / (1 << 20), static_cast<double>(limit) / (1 << 20), removed);
+  std::string line = memory_line(wanted, limit) + fmt::format("{} maps fewer", removed);
   if (divisor > 1) line += fmt::format(", 1/{} of the resolution", divisor);
   if (left_out > 0) line += fmt::format(", {} of {} reflectors", plans.size() - left_out, plans.size());
   omitted.push_back(line);
 }
 
 void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector<RadianceMap>& maps) {
-  for (const ElementPlan& e : plan.elements) {
-    const UVec2 size = map_size(e.window, e.choice.resolution);
-    for (const Pick& pick : e.choice.picks) {
-      RadianceMap map;
-      map.reflector = reflector;
-      map.eye = e.candidates[pick.candidate];
-      map.lower = e.window.lower;
-      map.upper = e.window.upper;
-      map.width = size.x;
-      map.height = size.y;
-      maps.push_back(std::move(map));
-    }
-  }
+  for (const ElementPlan& e : plan.elements)
+    for (const Pick& pick : e.choice.picks)
+      maps.push_back(blank_map(reflector, e.candidates[pick.candidate], e.window, e.choice.resolution));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 namespace oriel {
 namespace {
 
+constexpr std::uint32_t kLeastResolution = 16;
 constexpr int kMaxHidden = 16;         // surfaces in front of a missing one
 constexpr float kSameSurface = 0.03f;  // relative distance from a missing sample's tangent plane
 
@@ -42,12 +43,13 @@ const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const 
 class ResidualCapture {
  public:
   ResidualCapture(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
-                  std::span<const RadianceMap> others, RadianceMap& map)
+                  std::span<const RadianceMap> others, RadianceMap& map, std::atomic<std::uint64_t>* rays)
       : surroundings_(surroundings),
         reflector_(surroundings.reflectors()[map.reflector].reflector),
         outgoing_(outgoing),
         others_(others),
-        map_(map) {}
+        map_(map),
+        rays_(rays) {}
 
   // The samples by pixel: each pixel's own first, then those of neighbours, ring by ring.
   std::vector<const ReflectedSample*> aims(std::span<const ReflectedSample> missing, std::uint32_t spread) const {
@@ -76,6 +78,7 @@ class ResidualCapture {
     float passed = 0;
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
+      if (rays_) *rays_ += seen.sight.rays;
       const float step = glm::length(seen.sight.offset);
       if (!(step > 0)) return;
       passed += step;
@@ -89,6 +92,7 @@ class ResidualCapture {
         map_.valid[at] = 1;
         return;
       }
+      if (seen.sight.mirrored) return;  // straight on is the room behind the mirror
       from += direction * (step * (1 + 1e-5f));
       passed += step * 1e-5f;
     }
@@ -100,78 +104,127 @@ class ResidualCapture {
   const OutgoingRadiance& outgoing_;
   std::span<const RadianceMap> others_;
   RadianceMap& map_;
+  std::atomic<std::uint64_t>* rays_;
 };
 
-Result<std::optional<RadianceMap>> residual_of(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
-                                               std::uint32_t reflector, std::span<const Vec3> eyes,
-                                               std::span<const RadianceMap> maps, const ResidualOptions& options,
-                                               Context& context) {
-  ORIEL_TRY(const auto samples,
-            sample_reflections(surroundings, reflector, eyes, options.samples, context.seed + 2, context));
-  std::vector<std::uint8_t> is_missing(samples.size());
-  ORIEL_TRY_VOID(parallel_for(context, "", samples.size(), [&](std::size_t i) {
-    is_missing[i] = samples[i].image.w != 0 && std::none_of(maps.begin(), maps.end(), [&](const RadianceMap& map) {
-                      return sees(surroundings, map, samples[i]);
-                    });
-  }));
-  std::vector<ReflectedSample> missing;
-  double total = 0, lost = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    total += samples[i].weight;
-    if (is_missing[i]) missing.push_back(samples[i]), lost += samples[i].weight;
+// The longer side of a map of the element that takes no more than those bytes, halved from `wanted` until it does; 0:
+// none worth having.
+std::uint32_t fitting_resolution(const Element& element, std::uint32_t wanted, std::uint64_t bytes) {
+  for (std::uint32_t resolution = wanted; resolution >= kLeastResolution; resolution /= 2)
+    if (map_bytes(element, resolution) <= bytes) return resolution;
+  return 0;
+}
+
+class ResidualMaker {
+ public:
+  ResidualMaker(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
+                const ResidualOptions& options, Context& context, std::atomic<std::uint64_t>* rays)
+      : surroundings_(surroundings),
+        outgoing_(outgoing),
+        eyes_(eyes),
+        options_(options),
+        context_(context),
+        rays_(rays) {}
+
+  // What is missing in the reflector's maps, in no more than `bytes`; none where that is little. Counts what it had to
+  // make smaller or leave out.
+  Result<std::optional<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> maps,
+                                          std::uint64_t bytes) {
+    ORIEL_TRY(const auto missing, find_missing(reflector, maps));
+    const RadianceMap* host = best_host(maps, missing);
+    if (!host) return std::nullopt;
+    const Element element{host->lower, host->upper};
+    const std::uint32_t wanted = std::min(options_.max_resolution, std::max(host->width, host->height));
+    const std::uint32_t resolution = fitting_resolution(element, wanted, bytes);
+    reduced += resolution < wanted;
+    if (resolution == 0) return std::nullopt;
+    RadianceMap map = blank_map(reflector, host->eye, element, resolution);
+    map.has_emission = host->has_emission;
+    map.residual = true;
+    const std::size_t pixels = std::size_t{map.width} * map.height;
+    map.radiance.assign(pixels, Vec3(0));
+    map.disparity.assign(pixels, 0);
+    map.valid.assign(pixels, 0);
+    ResidualCapture capture(surroundings_, outgoing_, maps, map, rays_);
+    const auto aims = capture.aims(missing, options_.spread);
+    ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
+      if (aims[i]) capture.capture(i, *aims[i]);
+    }));
+    if (std::find(map.valid.begin(), map.valid.end(), 1) == map.valid.end()) return std::nullopt;
+    return map;
   }
-  const RadianceMap* host = lost > options.least_missing * total ? best_host(maps, missing) : nullptr;
-  if (!host) return std::nullopt;
-  const UVec2 size =
-      map_size({host->lower, host->upper}, std::min(options.max_resolution, std::max(host->width, host->height)));
-  RadianceMap map;
-  map.reflector = reflector;
-  map.eye = host->eye;
-  map.lower = host->lower;
-  map.upper = host->upper;
-  map.width = size.x;
-  map.height = size.y;
-  map.has_emission = host->has_emission;
-  map.residual = true;
-  const std::size_t pixels = std::size_t{size.x} * size.y;
-  map.radiance.assign(pixels, Vec3(0));
-  map.disparity.assign(pixels, 0);
-  map.valid.assign(pixels, 0);
-  ResidualCapture capture(surroundings, outgoing, maps, map);
-  const auto aims = capture.aims(missing, options.spread);
-  ORIEL_TRY_VOID(parallel_for(context, "", pixels, [&](std::size_t i) {
-    if (aims[i]) capture.capture(i, *aims[i]);
-  }));
-  if (std::find(map.valid.begin(), map.valid.end(), 1) == map.valid.end()) return std::nullopt;
-  return map;
+
+  std::uint32_t reduced = 0;
+
+ private:
+  // Samples of surfaces that no map sees; none where they are not worth a map.
+  Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed + 2, context_));
+    std::vector<std::uint8_t> is_missing(samples.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+      is_missing[i] = samples[i].image.w != 0 && std::none_of(maps.begin(), maps.end(), [&](const RadianceMap& map) {
+                        return sees(surroundings_, map, samples[i]);
+                      });
+    }));
+    std::vector<ReflectedSample> missing;
+    double total = 0, lost = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      total += samples[i].weight;
+      if (is_missing[i]) missing.push_back(samples[i]), lost += samples[i].weight;
+    }
+    if (!(lost > options_.least_missing * total)) missing.clear();
+    return missing;
+  }
+
+  const Surroundings& surroundings_;
+  const OutgoingRadiance& outgoing_;
+  std::span<const Vec3> eyes_;
+  const ResidualOptions& options_;
+  Context& context_;
+  std::atomic<std::uint64_t>* rays_;
+};
+
+// The reflector's maps with the residual behind those of its element.
+void append_with_residual(std::span<RadianceMap> maps, std::optional<RadianceMap> residual,
+                          std::vector<RadianceMap>& all) {
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const bool ends_element = i + 1 == maps.size() || !same_element(maps[i], maps[i + 1]);
+    const bool is_next = residual && ends_element && same_element(maps[i], *residual);
+    all.push_back(std::move(maps[i]));
+    if (is_next) all.push_back(std::move(*residual)), residual.reset();
+  }
 }
 
 }  // namespace
 
 Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
                      const ResidualOptions& options, Context& context, std::vector<FoundReflector>& reflectors,
-                     std::vector<RadianceMap>& maps) {
+                     ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
+  ResidualMaker maker(surroundings, outgoing, eyes, options, context, rays);
+  std::uint64_t used = 0;
+  for (const RadianceMap& map : plan.maps) used += map_bytes(map.width, map.height);
   std::vector<std::optional<RadianceMap>> residuals;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const Reflector& reflector = reflectors[r].reflector;
-    const auto own = std::span<const RadianceMap>(maps).subspan(reflector.first_map, reflector.map_count);
-    ORIEL_TRY(auto residual, residual_of(surroundings, outgoing, r, eyes, own, options, context));
+    const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
+    const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
+    ORIEL_TRY(auto residual, maker.make(r, own, left));
+    if (residual) used += map_bytes(residual->width, residual->height);
     residuals.push_back(std::move(residual));
   }
+  if (maker.reduced > 0)
+    plan.omitted.push_back(fmt::format("radiance maps: {} residuals are smaller or left out to stay within {:.1f} MiB",
+                                       maker.reduced, static_cast<double>(options.memory_bytes) / (1 << 20)));
   std::vector<RadianceMap> all;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     Reflector& reflector = reflectors[r].reflector;
-    const auto first = maps.begin() + reflector.first_map;
+    const auto own = std::span(plan.maps).subspan(reflector.first_map, reflector.map_count);
     reflector.first_map = static_cast<std::uint32_t>(all.size());
-    for (auto map = first; map != first + reflector.map_count; ++map) {
-      const bool ends_element = map + 1 == first + reflector.map_count || !same_element(*map, *(map + 1));
-      all.push_back(std::move(*map));
-      if (residuals[r] && ends_element && same_element(all.back(), *residuals[r]))
-        all.push_back(std::move(*residuals[r])), residuals[r].reset();
-    }
+    append_with_residual(own, std::move(residuals[r]), all);
     reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
   }
-  maps = std::move(all);
+  plan.maps = std::move(all);
   return {};
 }
 

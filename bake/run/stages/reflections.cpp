@@ -94,6 +94,21 @@ Result<FoundCurvedReflectors> curved_reflectors(const BakeOptions& options, cons
   return found;
 }
 
+std::vector<bool> marked(const Scene& scene, std::span<const std::uint32_t> triangles) {
+  std::vector<bool> is_marked(scene.triangles.size());
+  for (const std::uint32_t t : triangles) is_marked[t] = true;
+  return is_marked;
+}
+
+// The light with the lobes of these triangles traced. Both must outlive it.
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
+  return [&](const SeenSurface& seen) {
+    SeenSurface shown = seen;
+    shown.glossy = seen.glossy || triangles[seen.hit.triangle];
+    return outgoing(shown);
+  };
+}
+
 }  // namespace
 
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
@@ -108,27 +123,35 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   ORIEL_TRY(FoundReflectors found, reflectors_for(options, accel, lobes, eyes, context, report.omissions));
   std::vector<FoundReflector>& reflectors = found.reflectors;
   ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
-  report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   std::atomic<std::uint64_t> rays{0};
-  const auto outgoing = [&](const SeenSurface& seen) {
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     std::uint64_t lobe_rays = 0;
     const Vec3 radiance = baked_radiance_with_lobes(baked, seen, context.seed, lobe_rays);
     if (lobe_rays > 0) rays += lobe_rays;
     return radiance;
   };
+  // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
+  const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
+  const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
+  std::vector<bool> is_shiny = is_curved;
+  for (const FoundReflector& r : reflectors)
+    for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
     ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
                                       report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
-  ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, plan.maps, &rays));
+  ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
   ORIEL_TRY(FoundCurvedReflectors curved,
-            curved_reflectors(options, accel, found.unplanar, lobes, outgoing, context, rays));
+            curved_reflectors(options, accel, found.unplanar, lobes, with_lobes_of(is_shiny, outgoing), context, rays));
   append(report.omissions, curved.omitted);
+  if (options.view_scheme == ViewScheme::kPlanned) {
+    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};
+    ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
+  }
+  report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   report.rays = rays;
-  if (options.view_scheme == ViewScheme::kPlanned)
-    ORIEL_TRY_VOID(add_residuals(surroundings, outgoing, eyes, {}, context, reflectors, plan.maps));
   ORIEL_TRY_VOID(
-      judge(surroundings, plan.maps, sample_eyes(region, kHeldOutEyes, context.seed + 1), context, report.quality));
+      judge(surroundings, plan.maps, held_out_eyes(region, kHeldOutEyes, context.seed), context, report.quality));
   pack.radiance_maps = std::move(plan.maps);
   pack.walk_grids = std::move(region.grids);
   keep(reflectors, mesh, pack.reflectors);
