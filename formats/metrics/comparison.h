@@ -16,8 +16,8 @@ struct PlayedFrame {
   FloatImage total, diffuse, specular;  // specular: (M * K) R where a reflector shows its image
   std::vector<std::uint8_t> mirrors;    // by pixel: 1 where all of it shows an image that is not blurred,
   std::vector<std::uint8_t> glossy;     // and one that is
-  std::vector<std::uint8_t> movers;     // and where all of it shows an object that moves; empty: none
   double holes = 0;                     // share of the reflected images' pixels that were filled from beside
+  std::vector<std::uint8_t> movers{};   // by pixel: 1 where all of it shows an object that moves; empty: none
 };
 
 // Over the whole frame, over the pixels that show reflected images, or those that show movers.

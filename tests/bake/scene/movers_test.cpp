@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/motion/mover_pose.h"
 #include "tests/bake/scene/gltf_maker.h"
 
 namespace oriel::test {
@@ -113,7 +114,7 @@ TEST(Movers, ComeBackWhereTheyWere) {
     EXPECT_LT(scene.upper.z - scene.lower.z, 1e-4);
     ASSERT_EQ(object.triangles.size(), 1u);
     EXPECT_LT(glm::length(object.positions[0]), 10);
-    const DMat4 m = scene_from_object((*taken)[0].mover.rest);
+    const DMat4 m = pack_from_object((*taken)[0].mover.rest);
     EXPECT_NEAR(glm::determinant(DMat3(m)), 1, 1e-9);
     for (int c = 0; c < 3; ++c) {
       const Vec3 p(m * DVec4(DVec3(object.positions[object.triangles[0][c]]), 1));
@@ -123,6 +124,28 @@ TEST(Movers, ComeBackWhereTheyWere) {
     const Vec3 normal(DMat3(m) * DVec3(geometric_normal(object, 0)));
     EXPECT_NEAR(glm::dot(normal, geometric_normal(r.scene(), 1)), 1, 1e-6);
   }
+}
+
+TEST(Movers, AreMovedWithTheirSurfaces) {
+  Gltf g = with_door();
+  g.doc["nodes"][2]["extras"] = kMover;
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  Scene scene = r.scene();
+  const MoverPose rest = scene.movers[0].rest;
+  const MoverPose there = moved(rest, {"door", DVec3(3, 40, -2), kPiD / 2}, scene.origin);
+  move_mover(scene, 0, there);
+  const DMat4 change = pack_from_object(there) * glm::inverse(pack_from_object(rest));
+  for (int c = 0; c < 3; ++c) {
+    const UVec3 wall = scene.triangles[0], door = scene.triangles[1];
+    EXPECT_EQ(scene.positions[wall[c]], r.scene().positions[wall[c]]);
+    const Vec3 expected(change * DVec4(DVec3(r.scene().positions[door[c]]), 1));
+    EXPECT_NEAR(glm::length(scene.positions[door[c]] - expected), 0, 1e-4);
+  }
+  EXPECT_GT(scene.upper.y, 30);
+  move_mover(scene, 0, rest);
+  for (std::size_t v = 0; v < scene.positions.size(); ++v)
+    EXPECT_NEAR(glm::length(scene.positions[v] - r.scene().positions[v]), 0, 1e-4);
 }
 
 TEST(Movers, KeysTellPlaceAndTurn) {
