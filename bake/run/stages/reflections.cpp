@@ -10,7 +10,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 60, kHeldOutSamples = 2048;
+constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
 
 std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
   std::vector<ReflectorMaterial> out;
