@@ -1,5 +1,5 @@
 // Headings of cameras, and rays through their pixels. A Camera is all that the player knows of where it looks from; its
-// matrices are player/scene/view.h. Pack space: metres, relative to Mesh::origin.
+// matrices are player/view/view.h. Pack space: metres, relative to Mesh::origin.
 #pragma once
 
 #include "formats/assets/camera.h"

@@ -7,7 +7,7 @@
 
 #include "formats/assets/mover.h"
 #include "formats/light/light_at.h"
-#include "player/scene/culling.h"
+#include "player/view/culling.h"
 
 namespace oriel {
 

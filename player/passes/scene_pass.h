@@ -7,7 +7,7 @@
 #include "player/gpu/program.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
-#include "player/scene/view.h"
+#include "player/view/view.h"
 
 namespace oriel {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "player/gpu/framebuffer.h"
-#include "player/scene/view.h"
+#include "player/view/view.h"
 
 namespace oriel {
 

@@ -4,7 +4,7 @@
 #include "formats/assets/mover.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/texture.h"
-#include "player/scene/culling.h"
+#include "player/view/culling.h"
 
 namespace oriel {
 

@@ -12,10 +12,10 @@
 #include "player/maps/map_array.h"
 #include "player/maps/map_choice.h"
 #include "player/maps/surround_pyramid.h"
-#include "player/scene/culling.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
+#include "player/view/culling.h"
 
 namespace oriel {
 

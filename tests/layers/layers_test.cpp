@@ -77,9 +77,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
+  m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps"});
+  m["player/scene"] =
+      plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps", "player/view"});
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"formats/motion", "player/movers", "player/reflections"});

@@ -217,7 +217,7 @@ TEST_F(SharedMaths, PolygonsInLobes) {
     places.emplace_back(random(-1, 1), random(-1, 1), random(-0.2f, 1), std::exp2(random(-4, 1)));
   }
   const auto found =
-      run_shader("lib/lobe_light.glsl",
+      run_shader("lib/lobe/lobe_light.glsl",
                  "vec3 v[6];\n"
                  "v[0] = b.xyz + b.w * vec3(-1, -1, 0);\nv[1] = b.xyz + b.w * vec3(-1, 1, 0.5);\n"
                  "v[2] = b.xyz + b.w * vec3(1, 1, 0);\nv[3] = b.xyz + b.w * vec3(1, -1, -0.5);\n"
@@ -240,8 +240,8 @@ TEST_F(SharedMaths, LobesBetweenIncidences) {
     below.emplace_back(1 / width, tilt / width, random(1, 3) / width, -tilt);
     above.emplace_back(below.back() * Vec4(0.9f, 0.8f, 0.7f, 0.6f));
   }
-  const auto found =
-      run_shader("lib/lobe_light.glsl", "o_value = lobe_in_surface_frame(mix_lobes(a, b, 0.3), 0.6);\n", below, above);
+  const auto found = run_shader("lib/lobe/lobe_light.glsl",
+                                "o_value = lobe_in_surface_frame(mix_lobes(a, b, 0.3), 0.6);\n", below, above);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const LobeFit cpu = in_surface_frame(mix_lobes(below[i], above[i], 0.3f), 0.6f, 1);
     expect_same(found[i], {cpu.m11, cpu.m13, cpu.m22, cpu.m31},
@@ -314,12 +314,12 @@ TEST_F(SharedMaths, LobeDirections) {
     places.emplace_back(random(-1, 1) * scale, random(-1, 1) * scale, i % 17 == 0 ? 1.0f : random(0, 1), 9);
   }
   // The frame of the shader: a helper axis makes it from the direction.
-  const auto found = run_shader("lib/kernel.glsl",
+  const auto found = run_shader("lib/lobe/kernel.glsl",
                                 "vec3 across = normalize(cross(a.xyz, vec3(0.31, 0.64, 0.7)));\n"
                                 "o_value = vec4(lobe_direction(a.xyz, across, cross(across, a.xyz), b.xy), 1.0);\n",
                                 views, places);
   const auto rows =
-      run_shader("lib/kernel.glsl", "o_value = vec4(kernel_row(b.z, int(b.w)), 0.0, 0.0);\n", views, places);
+      run_shader("lib/lobe/kernel.glsl", "o_value = vec4(kernel_row(b.z, int(b.w)), 0.0, 0.0);\n", views, places);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec3 mirror(views[i]), across = glm::normalize(glm::cross(mirror, Vec3(0.31f, 0.64f, 0.7f)));
     const Vec3 direction = lobe_direction(mirror, across, glm::cross(across, mirror), Vec2(places[i]));

@@ -3,9 +3,9 @@
 
 #include "player/maps/map_choice.h"
 #include "player/scene/check.h"
-#include "player/scene/culling.h"
 #include "player/scene/kernel_taps.h"
-#include "player/scene/view.h"
+#include "player/view/culling.h"
+#include "player/view/view.h"
 
 namespace oriel {
 namespace {

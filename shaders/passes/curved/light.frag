@@ -1,7 +1,7 @@
 // Curved reflectors: the eye ray is reflected about the normal and marched through the distances around; the lobe is taps of
 // the kernel, each from the level of the surround map as wide as the tap at the distance that was met.
 #include "passes/surface.glsl"
-#include "lib/kernel.glsl"
+#include "lib/lobe/kernel.glsl"
 #include "lib/surround.glsl"
 
 uniform vec3 u_centre;

@@ -1,7 +1,7 @@
 // The emitters that a glossy reflector's maps leave out, in closed form, times R: added to compose.
-#include "lib/emitters.glsl"
-#include "lib/kernel.glsl"
-#include "lib/lobe_light.glsl"
+#include "lib/lobe/emitters.glsl"
+#include "lib/lobe/kernel.glsl"
+#include "lib/lobe/lobe_light.glsl"
 #include "passes/reflector/reflectance.glsl"
 
 const int kEmitters = 16;

@@ -1,7 +1,7 @@
 // M * K (Bastos et al. 1999, section 8.2.1). K is given as taps of equal energy around the mirror direction, by incidence. A tap
 // is carried to the mirrored image at the distance that M has there, so that what touches the reflector stays sharp and what is
 // far away blurs: footprint d / (d + e) of the angle, e from the eye to the plane, d from there to the hit.
-#include "lib/kernel.glsl"
+#include "lib/lobe/kernel.glsl"
 
 uniform sampler2D u_image;     // M, filled, with all its coarser levels
 uniform ivec2 u_image_size;    // pixels in use

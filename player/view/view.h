@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/assets/camera.h"
-#include "player/scene/culling.h"
+#include "player/view/culling.h"
 
 namespace oriel {
 

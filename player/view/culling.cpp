@@ -1,4 +1,4 @@
-#include "player/scene/culling.h"
+#include "player/view/culling.h"
 
 #include <algorithm>
 #include <vector>

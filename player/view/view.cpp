@@ -1,4 +1,4 @@
-#include "player/scene/view.h"
+#include "player/view/view.h"
 
 #include <algorithm>
 
