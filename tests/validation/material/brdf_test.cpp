@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/validation/brdf_cases.h"
+#include "tests/validation/material/brdf_cases.h"
 
 namespace oriel::validation {
 namespace {

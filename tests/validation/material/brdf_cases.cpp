@@ -1,4 +1,4 @@
-#include "tests/validation/brdf_cases.h"
+#include "tests/validation/material/brdf_cases.h"
 
 #include <algorithm>
 #include <array>

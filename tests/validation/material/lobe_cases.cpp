@@ -5,7 +5,7 @@
 #include "bake/trace/brdf/compensation.h"
 #include "bake/trace/brdf/quadrature.h"
 #include "bake/trace/brdf/ward.h"
-#include "tests/validation/brdf_cases.h"
+#include "tests/validation/material/brdf_cases.h"
 
 namespace oriel::validation {
 namespace {
