@@ -22,6 +22,7 @@ Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
   ORIEL_TRY(pass.compose_, gpu::Program::create("reflector/compose", dialect));
   ORIEL_TRY(pass.emitters_, gpu::Program::create("reflector/emitters", dialect));
+  ORIEL_TRY(pass.emitters_sharp_, gpu::Program::create("reflector/emitters_sharp", dialect));
   return pass;
 }
 
@@ -69,10 +70,10 @@ void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, c
   image.bind(0);  // last: what is uploaded on first use is bound meanwhile
   scene.bind_geometry();
   draw_reflector(reflector, stats);
-  // M shows a mirror's world, in which a glossy lobe has no place.
-  if (options.show == Show::kM || !set_emitters(scene, reflector, options)) return;
-  emitters_.set("u_clip_from_pack", view.clip_from_pack);
-  set_reflectance(emitters_, scene, reflector, view, options);
+  const gpu::Program* const emitters = set_emitters(scene, reflector, options);
+  if (emitters == nullptr) return;
+  emitters->set("u_clip_from_pack", view.clip_from_pack);
+  set_reflectance(*emitters, scene, reflector, view, options);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);
@@ -99,38 +100,30 @@ void ReflectorPass::set_reflectance(const gpu::Program& program, GpuScene& scene
   program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
 }
 
-bool ReflectorPass::set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const {
+const gpu::Program* ReflectorPass::set_emitters(GpuScene& scene, const GpuReflector& reflector,
+                                                const FrameOptions& options) const {
   const Pack& pack = scene.pack();
-  const Reflector& shape = pack.reflectors[reflector.index];
+  const GpuEmitters& emitters = reflector.emitters;
   const GpuKernel& kernel = scene.kernel(pack.materials[reflector.material].kernel, options.kernel);
-  if (shape.emitters.empty() || !kernel.fits) return false;
-  emitters_.use();
-  emitters_.set("u_emitter_count", static_cast<int>(shape.emitters.size()));
-  std::vector<Vec4> corners;
-  std::vector<Vec3> light;
-  for (const std::uint32_t index : shape.emitters) {
-    const Emitter& emitter = pack.emitters[index];
-    const auto count = static_cast<float>(emitter.corners.size());
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& corner = emitter.corners[std::min(i, emitter.corners.size() - 1)];
-      corners.emplace_back(Vec3(reflector.reflector_from_pack * Vec4(corner, 1)), emitter.two_sided ? -count : count);
-    }
-    light.push_back(emitter.radiance);
-  }
-  emitters_.set("u_emitter_corners", corners);
-  emitters_.set("u_emitter_light", light);
-  emitters_.set("u_visibility", 2);
-  emitters_.set("u_lobes", 3);
-  reflector.visibility.bind(2);
-  kernel.fits.bind(3);
-  emitters_.set("u_visibility_nodes",
-                IVec2(static_cast<int>(shape.visibility_x), static_cast<int>(shape.visibility_y)));
-  emitters_.set("u_lower", shape.lower);
-  emitters_.set("u_upper", shape.upper);
-  emitters_.set("u_lobe_rows", kernel.fits.width());
-  emitters_.set("u_sharp", options.blur == Blur::kOff ? 1 : 0);
-  emitters_.set("u_reflector_from_pack", reflector.reflector_from_pack);
-  return true;
+  // M shows a mirror's world, in which a glossy lobe has no place.
+  if (options.show == Show::kM || !emitters.polygons || !kernel.fits) return nullptr;
+  const gpu::Program& program = options.blur == Blur::kOff ? emitters_sharp_ : emitters_;
+  program.use();
+  program.set("u_polygons", 2);
+  program.set("u_visibility", 3);
+  program.set("u_seen", 4);
+  program.set("u_lobes", 5);
+  emitters.polygons.bind(2);
+  emitters.visibility.bind(3);
+  emitters.seen.bind(4);
+  kernel.fits.bind(5);
+  const Reflector& shape = pack.reflectors[reflector.index];
+  program.set("u_cells", IVec2(emitters.cells_x, emitters.cells_y));
+  program.set("u_lower", shape.lower / reflector.size);
+  program.set("u_upper", shape.upper / reflector.size);
+  program.set("u_emitters_from_pack", Mat4(Mat3(1 / reflector.size)) * reflector.reflector_from_pack);
+  program.set("u_lobe_rows", kernel.fits.width());
+  return &program;
 }
 
 }  // namespace oriel

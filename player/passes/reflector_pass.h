@@ -24,9 +24,10 @@ class ReflectorPass {
  private:
   void set_reflectance(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector, const View& view,
                        const FrameOptions& options) const;
-  // Those that the reflector's maps leave out, to the program, in use from then on; false where there are none.
-  bool set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
-  gpu::Program mask_, compose_, emitters_;
+  // The program for those that the reflector's maps leave out, in use from then on; null where there is nothing to
+  // show.
+  const gpu::Program* set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
+  gpu::Program mask_, compose_, emitters_, emitters_sharp_;
 };
 
 }  // namespace oriel

@@ -95,7 +95,7 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     const MapMeans means = means_of_maps(pack_, r);
     out.mean_radiance = means.radiance;
     out.mean_distance = means.distance;
-    if (!r.emitters.empty()) out.visibility = upload_visibility(r);
+    out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
 }

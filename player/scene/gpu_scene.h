@@ -12,6 +12,7 @@
 #include "player/maps/map_array.h"
 #include "player/maps/map_choice.h"
 #include "player/maps/surround_pyramid.h"
+#include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
@@ -29,7 +30,7 @@ struct GpuReflector {
   std::vector<ReflectorElement> elements;
   Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
   float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
-  gpu::Texture visibility;  // of Reflector::emitters: their grids, one above the other
+  GpuEmitters emitters;     // that its maps leave out
 };
 
 struct GpuCurvedReflector {

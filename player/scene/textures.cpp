@@ -102,11 +102,6 @@ gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
   return {gpu::kRgba32f, kRows, 1, texels.data()};
 }
 
-gpu::Texture upload_visibility(const Reflector& reflector) {
-  return {gpu::kR8, static_cast<int>(reflector.visibility_x),
-          static_cast<int>(reflector.visibility_y * reflector.emitters.size()), reflector.visibility.data()};
-}
-
 gpu::Texture upload_sphere_map(const FresnelMap& map) {
   std::vector<Vec4> texels;
   for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);

@@ -28,8 +28,6 @@ gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps);
 gpu::Texture upload_kernel_taps(const KernelTaps& taps);
 // The kernel's fits in the frame of the mirror direction (formats/lobes); texel i of n is at cosθ = (i / (n-1))².
 gpu::Texture upload_lobe_fits(const BrdfKernel& kernel);
-// Reflector::visibility, emitter k's grid in rows k * visibility_y and on.
-gpu::Texture upload_visibility(const Reflector& reflector);
 gpu::Texture upload_sphere_map(const FresnelMap& map);
 
 }  // namespace oriel

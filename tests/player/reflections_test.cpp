@@ -1,5 +1,6 @@
 // What reflectors show besides their maps: mirrored geometry and emitters in closed form; and what is left at the
 // extremes.
+#include "formats/lobes/lobe_light.h"
 #include "player/passes/geometry_pass.h"
 #include "tests/player/frame_fixture.h"
 
@@ -131,6 +132,70 @@ TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   EXPECT_NEAR(middle().x, 20 * expected, 0.02f);
   options.show = Show::kM;
   EXPECT_EQ(middle().x, 0) << "M is the world without them";
+}
+
+// What the plane cuts off a lamp lights nothing: of a quad it may leave five corners. Seen along the normal, the lobe
+// is a cosine.
+TEST_F(Reflected, EmittersThroughThePlaneAreCutThere) {
+  Pack pack = lamp_pack();
+  pack.emitters[0].two_sided = true;
+  FrameOptions options;
+  options.show = Show::kMK;
+  const std::vector<std::vector<Vec3>> emitters = {
+      {{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}},               // two corners behind it
+      {{1, 0, -0.5f}, {1, 1, 0.5f}, {1, 0, 1.5f}, {1, -1, 0.5f}},     // one
+      {{1, 0, 0.5f}, {1, 1, -0.5f}, {1, 0, -1.5f}, {1, -1, -0.5f}},   // three
+      {{1, 0, -0.5f}, {1, 1, 0.5f}, {1, -1, 0.5f}},                   // a triangle's one
+      {{1, 0, -0.5f}, {1, 1, -0.5f}, {1, 1, -1.5f}, {1, 0, -1.5f}}};  // all
+  for (const std::vector<Vec3>& corners : emitters) {
+    pack.emitters[0].corners = corners;
+    const Vec3 found = draw(pack, camera_at({0, 0, 1}), 65, 49, options).at(32, 24);
+    EXPECT_NEAR(found.x, 100 * std::fabs(reflected_polygon(LobeFit{}, corners)), 0.02f) << corners.size();
+  }
+}
+
+// Two lamps, each with its own shares at 4 by 3 nodes, of which most see nothing: every pixel shows them times what is
+// linear between the nodes around it.
+TEST_F(Reflected, EmittersAreSeenByTheNodesAroundAPixel) {
+  Pack pack = lamp_pack();
+  pack.emitters.push_back(pack.emitters[0]);
+  pack.emitters[1].radiance = {0, 0, 80};
+  pack.emitters[0].radiance = {100, 0, 0};
+  Reflector& reflector = pack.reflectors[0];
+  reflector.emitters = {0, 1};
+  reflector.visibility_x = 4;
+  reflector.visibility_y = 3;
+  reflector.visibility.assign(24, 255);
+  FrameOptions options;
+  options.show = Show::kMK;
+  const Camera camera = camera_at({0.2f, 0.1f, 1.5f}, {0.2f, 0.1f, 0});
+  const Picture all = draw(pack, camera, 65, 49, options);
+  reflector.visibility = {0, 0, 0,   0, 255, 0, 0,  0, 0, 0, 0, 0,     // the first lamp
+                          0, 0, 102, 0, 0,   0, 51, 0, 0, 0, 0, 255};  // the second
+  const Picture some = draw(pack, camera, 65, 49, options);
+  const View view = make_view(camera, 65, 49, {});
+  int partly = 0, dark = 0;
+  for (int y = 0; y < 49; ++y)
+    for (int x = 0; x < 65; ++x) {
+      const Vec2 ndc((static_cast<float>(x) + 0.5f) / 32.5f - 1, 1 - (static_cast<float>(y) + 0.5f) / 24.5f);
+      const Vec2 at = Vec2(camera.eye) + ndc * view.tangents * camera.eye.z;
+      if (std::max(std::fabs(at.x), std::fabs(at.y)) > 0.98f) continue;
+      const Vec2 cell = (at + 1.0f) * 0.5f * Vec2(3, 2);
+      for (int lamp = 0; lamp < 2; ++lamp) {
+        float share = 0;
+        for (int n = 0; n < 12; ++n) {
+          const Vec2 off = glm::abs(cell - Vec2(static_cast<float>(n % 4), static_cast<float>(n / 4)));
+          share += reflector.visibility[static_cast<std::size_t>(12 * lamp + n)] / 255.0f * std::max(1 - off.x, 0.0f) *
+                   std::max(1 - off.y, 0.0f);
+        }
+        const float found = some.at(x, y)[2 * lamp], whole = all.at(x, y)[2 * lamp];
+        EXPECT_NEAR(found, share * whole, 2e-5f * whole + 1e-4f) << x << "," << y << " lamp " << lamp;
+        dark += share == 0 && found == 0;
+        partly += share > 0.1f && share < 0.9f;
+      }
+    }
+  EXPECT_GT(dark, 500);
+  EXPECT_GT(partly, 300);
 }
 
 // Without blur a lamp is where the mirror ray meets it, as bright as it is.

@@ -1,0 +1,21 @@
+// The emitters that a glossy reflector's maps leave out, as shaders/passes/reflector/emitters.glsl reads them.
+#pragma once
+
+#include "formats/pack/pack.h"
+#include "player/gpu/texture.h"
+
+namespace oriel {
+
+// Polygons of what of the emitters lies before the reflector's plane. A polygon is a row of four texels: the x, y, z of
+// four corners, a triangle's last one twice, in reflector space in units of the reflector's size; then its light in
+// cd/m² and the number from 1 of its emitter in Reflector::emitters, negative where both sides shine.
+struct GpuEmitters {
+  int cells_x = 0, cells_y = 0;  // between the nodes of Reflector::visibility
+  gpu::Texture polygons;         // none where there is nothing to show
+  gpu::Texture visibility;       // the shares at a cell's nodes (x, y), (x+1, y), (x, y+1), (x+1, y+1); by emitter
+  gpu::Texture seen;             // bit k of a cell: polygon k is seen from any of its nodes
+};
+// size: metres.
+GpuEmitters upload_emitters(const Pack& pack, const Reflector& reflector, const Mat4& reflector_from_pack, float size);
+
+}  // namespace oriel
