@@ -62,6 +62,7 @@ Result<Device> open_device() {
   device.texture_size = std::min({texture_size, viewport[0], viewport[1]});
   device.array_layers = layers;
   device.point_size_max = std::max(1.0f, points[1]);
+  device.pass_timers = desktop && device.renderer.find("llvmpipe") == std::string::npos;
   device.debug_output = epoxy_has_gl_extension("GL_KHR_debug");
   if (desktop) {
     glEnable(GL_PROGRAM_POINT_SIZE);  // always on in OpenGL ES

@@ -17,6 +17,9 @@ struct Device {
   int array_layers = 0;       // of a texture array
   float point_size_max = 1;   // pixels
   bool debug_output = false;  // KHR_debug is there
+  // Whether timer queries tell passes apart: OpenGL 3.3 has them, but a rasteriser that draws tile by tile (llvmpipe)
+  // draws passes into one framebuffer together, and each one's time is that of all.
+  bool pass_timers = false;
 };
 
 // Reads the current context and sets the state that all passes assume. Error kRuntime where there is none, or less than

@@ -43,7 +43,7 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
 Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
-  renderer->clock_ = PassClock(device.dialect);
+  renderer->clock_ = PassClock(device.pass_timers);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
   ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
@@ -131,17 +131,24 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
     stats.holes += count.holes;
   }
   clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
-  if (blurs) {
+  const bool straight = blurs && rect.scale == 1;  // into the frame, only what is seen
+  if (blurs && !straight) {
     clock_.time(Pass::kConvolve, [&] {
       convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
     });
   }
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  clock_.time(Pass::kCompose, [&] {
-    reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled, candidate.value,
-                               options, stats);
+  clock_.time(straight ? Pass::kConvolve : Pass::kCompose, [&] {
+    if (straight) {
+      reflector_pass_.draw_convolved(scene, reflector, kernel, view, rect, *image_, candidate.value, options, stats);
+    } else {
+      reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled,
+                                 candidate.value, options, stats);
+    }
   });
+  clock_.time(Pass::kEmitters,
+              [&] { reflector_pass_.draw_emitters(scene, reflector, view, candidate.value, options, stats); });
   ++stats.reflectors;
   return {};
 }

@@ -14,8 +14,8 @@ namespace oriel {
 class PassClock {
  public:
   PassClock() = default;
-  // With OpenGL's timers where the dialect has them (3.3), else by waiting for each pass to end.
-  explicit PassClock(gpu::Dialect dialect) : queries_(dialect == gpu::Dialect::kDesktop330) {}
+  // With OpenGL's timers, or by waiting for each pass to end.
+  explicit PassClock(bool timers) : queries_(timers) {}
 
   // The passes of a frame that begins now are timed, or not.
   void start(bool on);

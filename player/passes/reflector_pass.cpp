@@ -4,6 +4,7 @@
 
 #include "player/gpu/raster_state.h"
 #include "player/passes/scene_pass.h"
+#include "player/reflections/convolve_pass.h"
 
 namespace oriel {
 namespace {
@@ -15,12 +16,29 @@ void draw_reflector(const GpuReflector& reflector, FrameStats& stats) {
   stats.triangles += reflector.index_count / 3;
 }
 
+// Over what the mask marked with `value`; 0: added wherever the depth leaves the reflector visible.
+gpu::RasterState where_marked(GLint value) {
+  gpu::RasterState state;
+  state.depth_test = true;
+  state.cull = gpu::Cull::kBack;
+  if (value != 0) {
+    state.stencil_func = GL_EQUAL;
+    state.stencil_ref = value;
+    state.stencil_read = kReflectorBits;
+  } else {
+    state.blend = gpu::Blend::kAdd;
+    state.alpha_write = false;
+  }
+  return state;
+}
+
 }  // namespace
 
 Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   ReflectorPass pass;
   ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
   ORIEL_TRY(pass.compose_, gpu::Program::create("reflector/compose", dialect));
+  ORIEL_TRY(pass.convolve_, gpu::Program::create("reflector/convolve", dialect));
   ORIEL_TRY(pass.emitters_, gpu::Program::create("reflector/emitters", dialect));
   ORIEL_TRY(pass.emitters_sharp_, gpu::Program::create("reflector/emitters_sharp", dialect));
   return pass;
@@ -46,42 +64,45 @@ void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflect
 void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                                const gpu::Texture& image, GLint value, const FrameOptions& options,
                                FrameStats& stats) const {
-  gpu::RasterState state;
-  state.depth_test = true;
-  state.cull = gpu::Cull::kBack;
-  if (value != 0) {
-    state.stencil_func = GL_EQUAL;
-    state.stencil_ref = value;
-    state.stencil_read = kReflectorBits;
-  } else {
-    state.blend = gpu::Blend::kAdd;
-    state.alpha_write = false;
-  }
-  gpu::apply(state);
+  gpu::apply(where_marked(value));
   compose_.use();
-  compose_.set("u_clip_from_pack", view.clip_from_pack);
   compose_.set("u_image", 0);
   compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
   compose_.set("u_scale", rect.scale);
   compose_.set("u_missing", reflector.mean_radiance);
-  set_reflectance(compose_, scene, reflector, view, options);
+  set_surface(compose_, scene, reflector, view, options);
   image.bind(0);  // last: what is uploaded on first use is bound meanwhile
-  scene.bind_geometry();
-  draw_reflector(reflector, stats);
-  const gpu::Program* const emitters = set_emitters(scene, reflector, options);
-  if (emitters == nullptr) return;
-  emitters->set("u_clip_from_pack", view.clip_from_pack);
-  set_reflectance(*emitters, scene, reflector, view, options);
-  state.blend = gpu::Blend::kAdd;
-  state.alpha_write = false;
-  gpu::apply(state);
   draw_reflector(reflector, stats);
 }
 
-void ReflectorPass::set_reflectance(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector,
-                                    const View& view, const FrameOptions& options) const {
+void ReflectorPass::draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel,
+                                   const View& view, const ImageRect& rect, const ImageTarget& target, GLint value,
+                                   const FrameOptions& options, FrameStats& stats) const {
+  gpu::apply(where_marked(value));
+  convolve_.use();
+  convolve_.set("u_origin", rect.origin);
+  convolve_.set("u_missing", reflector.mean_radiance);
+  set_surface(convolve_, scene, reflector, view, options);
+  set_convolution(convolve_, reflector, kernel, view, rect, target, scene.bounds().radius(), options.blur);
+  draw_reflector(reflector, stats);
+}
+
+void ReflectorPass::draw_emitters(GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
+                                  const FrameOptions& options, FrameStats& stats) const {
+  const gpu::Program* const emitters = set_emitters(scene, reflector, options);
+  if (emitters == nullptr) return;
+  gpu::RasterState state = where_marked(value);
+  state.blend = gpu::Blend::kAdd;
+  state.alpha_write = false;
+  gpu::apply(state);
+  set_surface(*emitters, scene, reflector, view, options);
+  draw_reflector(reflector, stats);
+}
+
+void ReflectorPass::set_surface(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector,
+                                const View& view, const FrameOptions& options) const {
   const Material& material = scene.pack().materials[reflector.material];
   const auto row = material.fresnel_map;
   const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
@@ -89,6 +110,8 @@ void ReflectorPass::set_reflectance(const gpu::Program& program, GpuScene& scene
   const gpu::Texture& reflectance =
       sphere ? scene.sphere_map(static_cast<std::uint32_t>(row)) : scene.reflectance_tables();
   reflectance.bind(1);
+  scene.bind_geometry();
+  program.set("u_clip_from_pack", view.clip_from_pack);
   program.set("u_eye", view.eye);
   program.set("u_normal", Vec3(reflector.pack_from_reflector[2]));
   program.set("u_reflectance", 1);

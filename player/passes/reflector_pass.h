@@ -16,18 +16,27 @@ class ReflectorPass {
   // The query counts whether there are any.
   void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
                  const gpu::Query& query, FrameStats& stats) const;
-  // The image and the emitters that it leaves out, times R unless options show a stage before it. value: as marked,
-  // where it replaces what the frame holds; 0: adds to the frame wherever the depth leaves the reflector visible.
+  // An image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
+  // 0: adds to the frame wherever the depth leaves the reflector visible.
   void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                   const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
+  // The same of an image that is as fine as the frame (rect.scale 1) and is convolved on the way: target.filled, all
+  // levels.
+  void draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
+                      const ImageRect& rect, const ImageTarget& target, GLint value, const FrameOptions& options,
+                      FrameStats& stats) const;
+  // Adds the emitters that the image leaves out.
+  void draw_emitters(GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
+                     const FrameOptions& options, FrameStats& stats) const;
 
  private:
-  void set_reflectance(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector, const View& view,
-                       const FrameOptions& options) const;
+  // What every program needs to know about the reflector and its R.
+  void set_surface(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector, const View& view,
+                   const FrameOptions& options) const;
   // The program for those that the reflector's maps leave out, in use from then on; null where there is nothing to
   // show.
   const gpu::Program* set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
-  gpu::Program mask_, compose_, emitters_, emitters_sharp_;
+  gpu::Program mask_, compose_, convolve_, emitters_, emitters_sharp_;
 };
 
 }  // namespace oriel

@@ -54,36 +54,41 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
-                        const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const {
+void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
+                     const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius,
+                     Blur blur) {
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
   const float to_image = pixels_per_tangent(view) * rect.scale;
+  target.filled.bind(0);
+  kernel.taps.bind(2);
+  program.set("u_image", 0);
+  program.set("u_image_size", IVec2(rect.width, rect.height));
+  program.set("u_texture_size",
+              Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
+  program.set("u_ndc_from_image", ndc_from_image(rect, view));
+  program.set("u_tangents", view.tangents);
+  program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program.set("u_plane_normal", normal);
+  program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
+  program.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
+  program.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
+  program.set("u_blur_level", std::log2(std::max(0.25f * kernel.median * to_image, 1.0f)));
+  program.set("u_pixels_per_tangent", to_image);
+  program.set("u_taps", 2);
+  program.set("u_tap_count", kernel.count);
+  program.set("u_tap_rows", kernel.rows);
+}
 
+void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
+                        const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const {
   target.level_framebuffer.bind();
   target.level_framebuffer.attach_color_level(target.blurred, 0);
   glViewport(0, 0, rect.width, rect.height);
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
-  target.filled.bind(0);
-  kernel.taps.bind(1);
   program_.use();
-  program_.set("u_image", 0);
-  program_.set("u_image_size", IVec2(rect.width, rect.height));
-  program_.set("u_texture_size",
-               Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
-  program_.set("u_ndc_from_image", ndc_from_image(rect, view));
-  program_.set("u_tangents", view.tangents);
-  program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
-  program_.set("u_plane_normal", normal);
-  program_.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
-  program_.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
-  program_.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
-  program_.set("u_blur_level", std::log2(std::max(0.25f * kernel.median * to_image, 1.0f)));
-  program_.set("u_pixels_per_tangent", to_image);
-  program_.set("u_taps", 1);
-  program_.set("u_tap_count", kernel.count);
-  program_.set("u_tap_rows", kernel.rows);
+  set_convolution(program_, reflector, kernel, view, rect, target, scene_radius, blur);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   ++stats.draws;
 }

@@ -42,9 +42,21 @@ struct FrameOptions {
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 };
 
-enum class Pass { kDepth, kMask, kReflect, kFill, kConvolve, kCompose, kCurved, kScene, kTransparent, kMovers };
-inline constexpr std::array<const char*, 10> kPassNames{"depth",   "mask",   "reflect", "fill",        "convolve",
-                                                        "compose", "curved", "scene",   "transparent", "movers"};
+enum class Pass {
+  kDepth,
+  kMask,
+  kReflect,
+  kFill,
+  kConvolve,
+  kCompose,
+  kEmitters,
+  kCurved,
+  kScene,
+  kTransparent,
+  kMovers
+};
+inline constexpr std::array<const char*, 11> kPassNames{
+    "depth", "mask", "reflect", "fill", "convolve", "compose", "emitters", "curved", "scene", "transparent", "movers"};
 using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 
 struct FrameStats {

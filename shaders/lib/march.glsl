@@ -97,10 +97,11 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
   int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
   bool hit = false;
+  // Squares in a loop of their own: a machine that runs a branch for all pixels or none looks up texels only at their end.
   for (int step = 0; step < kMaxSteps && at < ray.length; ++step) {
-    float next = min(at + float(1 << level), ray.length);
-    float s_next = ray_disparity(ray, next);
-    if (level > 0) {
+    for (; level > 0 && step < kMaxSteps && at < ray.length; ++step) {
+      float next = min(at + float(1 << level), ray.length);
+      float s_next = ray_disparity(ray, next);
       ivec2 cell = map_texel(ray, 0.5 * (at + next), size) >> level;
       cell.y += level_rows - (2 * level_rows >> level);
       vec2 range = texelFetch(ranges, ivec3(cell, layer), 0).rg;
@@ -116,8 +117,10 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
         }
         --level;
       }
-      continue;
     }
+    if (level > 0 || step >= kMaxSteps || at >= ray.length) break;
+    float next = min(at + 1.0, ray.length);
+    float s_next = ray_disparity(ray, next);
     surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
     if (before && surface >= s_next) {
       hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface);

@@ -1,0 +1,1 @@
+#include "passes/reflector/surface.glsl"

@@ -1,0 +1,68 @@
+// M * K (Bastos et al. 1999, section 8.2.1). K is given as taps of equal energy around the mirror direction, by incidence. A tap
+// is carried to the mirrored image at the distance that M has there, so that what touches the reflector stays sharp and what is
+// far away blurs: footprint d / (d + e) of the angle, e from the eye to the plane, d from there to the hit.
+#include "lib/lobe/kernel.glsl"
+
+uniform sampler2D u_image;     // M, filled, with all its coarser levels
+uniform ivec2 u_image_size;    // pixels in use
+uniform vec2 u_texture_size;
+uniform vec4 u_ndc_from_image; // scale, offset
+uniform vec2 u_tangents;       // view-space x, y over -z at ndc 1; orthographic: half sizes in metres
+uniform float u_ortho;
+uniform vec3 u_plane_normal;   // view space, towards the eye's side
+uniform float u_plane_offset;  // dot(normal, point of the plane)
+uniform float u_farthest;      // metres: distances are cut off here
+uniform float u_constant_footprint;  // not negative: share of the angle (metres where orthographic) for all distances
+uniform float u_blur_level;    // level whose distances are taken
+uniform float u_pixels_per_tangent;  // of the image, at its centre
+uniform sampler2D u_taps;      // see kernel_tap()
+uniform int u_tap_count;
+uniform int u_tap_rows;
+
+vec4 image_at(vec2 pixel, float level) {
+  float margin = 0.5 * exp2(ceil(level));
+  vec2 size = vec2(u_image_size);
+  vec2 at = clamp(pixel, min(vec2(margin), 0.5 * size), max(size - margin, 0.5 * size));
+  return textureLod(u_image, at / u_texture_size, level);
+}
+
+// The light at a pixel of the image, its centre, and 1 / distance, 0 where nothing is seen.
+vec4 convolved(vec2 pixel) {
+  vec4 centre = texelFetch(u_image, ivec2(pixel), 0);
+  vec2 ndc = pixel * u_ndc_from_image.xy + u_ndc_from_image.zw;
+  vec3 origin = vec3(ndc * u_tangents, 0.0) * u_ortho;
+  vec3 view = normalize(vec3(ndc * u_tangents * (1.0 - u_ortho), -1.0));
+  float cos_theta = -dot(u_plane_normal, view);
+  float to_plane = (u_plane_offset - dot(u_plane_normal, origin)) / -max(cos_theta, 1e-6);
+  if (cos_theta < 1e-4 || to_plane <= 0.0 || centre.a <= 0.0) return centre;
+
+  float whole = 1.0 / max(image_at(pixel, u_blur_level).a, 1.0 / u_farthest);
+  float behind = max(whole - to_plane, 0.0);
+  if (u_constant_footprint >= 0.0) {
+    behind = u_ortho > 0.5 ? u_constant_footprint : to_plane * u_constant_footprint / max(1.0 - u_constant_footprint, 1e-6);
+  }
+  // In the mirrored world the view ray is the mirror direction, and the surface's normal points away from the eye.
+  vec3 along = -u_plane_normal - cos_theta * view;
+  vec3 side = cross(view, abs(view.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
+  along = dot(along, along) > 1e-8 ? normalize(along) : normalize(side);
+  vec3 across = cross(view, along);
+  float shrink = u_ortho > 0.5 ? behind : behind / (behind + to_plane);
+  float to_pixels = shrink * u_pixels_per_tangent;
+  vec2 row = kernel_row(cos_theta, u_tap_rows);
+
+  vec3 hit = origin + to_plane * view;
+  vec3 sum = vec3(0.0);
+  float count = 0.0;
+  for (int i = 0; i < u_tap_count; ++i) {
+    vec3 tap = kernel_tap(u_taps, i, row);
+    vec3 direction = lobe_direction(view, across, along, tap.xy);
+    vec3 at = hit + behind * direction;
+    if (dot(direction, u_plane_normal) >= 0.0 || (u_ortho < 0.5 && at.z >= -1e-6 * whole)) continue;
+    vec2 tap_ndc = at.xy / (u_ortho > 0.5 ? u_tangents : u_tangents * -at.z);
+    vec2 tap_pixel = (tap_ndc - u_ndc_from_image.zw) / u_ndc_from_image.xy;
+    float level = log2(max(tap.z * to_pixels, 1.0));
+    sum += image_at(tap_pixel, level).rgb;
+    count += 1.0;
+  }
+  return count > 0.0 ? vec4(sum / count, centre.a) : centre;
+}
