@@ -74,7 +74,8 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
   ORIEL_TRY_VOID(check_finite(frame.specular, ErrorCode::kDifferent, "frame", "MKR"));
   const auto layer = [&](const char* name) -> const FloatImage& { return reference.layers.at(name); };
   const FloatImage diffuse = sum(layer("direct"), layer("indirect"));
-  Comparison out{frame.total.width, frame.total.height, white > 0 ? white : white_of(layer("")), frame.holes, {}, {}};
+  Comparison out{
+      frame.total.width, frame.total.height, white > 0 ? white : white_of(layer("")), frame.holes, frame.sharp, {}, {}};
   const FloatImage seen = shown(frame.total, out.white), wanted = shown(layer(""), out.white);
   const FloatImage squares = squared_difference(seen, wanted);
   const FloatImage noise = shown_variance(layer(""), layer("error"), out.white);
@@ -118,12 +119,15 @@ std::string comparison_text(const Comparison& c) {
     text += fmt::format("{:<10} {:>8} {:>8.2f} {:>8.2f} {:>6.3f} {:>6.4f}  {}  {}  {}\n", r.name, r.pixels,
                         psnr_db(r.mse), psnr_db(r.noise_mse), r.ssim, r.flip, error_text(r.total),
                         error_text(r.diffuse), r.specular ? error_text(*r.specular) : "");
-  return text + fmt::format("holes: {:.3f} % of the reflected images' pixels\n", 100 * c.holes);
+  text += fmt::format("holes: {:.3f} % of the reflected images' pixels\n", 100 * c.holes);
+  if (c.sharp) text += fmt::format("sharp: {:.3f} % of the mirrors' pixels\n", 100 * *c.sharp);
+  return text;
 }
 
 std::string comparison_json(const Comparison& c) {
   nlohmann::ordered_json json = {
       {"width", c.width}, {"height", c.height}, {"white_cd_m2", c.white}, {"holes", c.holes}};
+  if (c.sharp) json["sharp"] = *c.sharp;
   for (const RegionComparison& r : c.regions) {
     nlohmann::ordered_json& out = json["regions"][r.name];
     out = {{"pixels", r.pixels}, {"psnr_db", psnr_db(r.mse)},

@@ -17,6 +17,7 @@ struct PlayedFrame {
   std::vector<std::uint8_t> mirrors;    // by pixel: 1 where all of it shows an image that is not blurred,
   std::vector<std::uint8_t> glossy;     // and one that is
   double holes = 0;                     // share of the reflected images' pixels that were filled from beside
+  std::optional<double> sharp{};        // share of the mirrors' pixels in which a map pixel covers no more than two
   std::vector<std::uint8_t> movers{};   // by pixel: 1 where all of it shows an object that moves; empty: none
 };
 
@@ -32,8 +33,9 @@ struct RegionComparison {
 
 struct Comparison {
   std::uint32_t width = 0, height = 0;
-  float white = 1;                        // cd/m² shown as white in both
-  double holes = 0;                       // as PlayedFrame
+  float white = 1;   // cd/m² shown as white in both
+  double holes = 0;  // as PlayedFrame
+  std::optional<double> sharp{};
   std::vector<RegionComparison> regions;  // the frame first; regions without pixels are left out
   FloatImage picture;                     // reference, frame, FLIP (white is 1), side by side, sRGB in [0, 1]
 };

@@ -24,7 +24,8 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"triangles", s.triangles}, {"reflectors", s.reflectors},
           {"maps", s.maps},           {"points", s.points},
           {"map_bytes", s.map_bytes}, {"reflected_pixels", s.reflected_pixels},
-          {"holes", s.holes},         {"in_zone", record.in_zone}};
+          {"holes", s.holes},         {"mirror_pixels", s.mirror_pixels},
+          {"sharp", s.sharp},         {"in_zone", record.in_zone}};
 }
 
 nlohmann::ordered_json as_json(const PlayArguments& arguments) {

@@ -128,7 +128,11 @@ namespace {
 class Studio {
  public:
   Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, std::vector<MoverPose> poses)
-      : scene_(scene), renderer_(renderer), arguments_(arguments), options_(arguments.frame) {
+      : scene_(scene),
+        renderer_(renderer),
+        arguments_(arguments),
+        options_(arguments.frame),
+        zone_(planned_zone(scene.pack())) {
     options_.poses = std::move(poses);
     options_.timed = !arguments.stats.empty();
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
@@ -145,7 +149,7 @@ class Studio {
       ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view, options_));
       glFinish();
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-      records.push_back({shot.name, took.count(), stats, in_walkable_zone(scene_.pack().walk_grids, shot.camera.eye)});
+      records.push_back({shot.name, took.count(), stats, zone_.holds(shot.camera.eye)});
     }
     FrameRecord record = median_record(records);
     if (!arguments_.stats.empty()) ORIEL_TRY_VOID(count_holes(view, record.stats));
@@ -159,6 +163,8 @@ class Studio {
     ORIEL_TRY(const FrameStats counted, renderer_.render(scene_, view, counting));
     stats.reflected_pixels = counted.reflected_pixels;
     stats.holes = counted.holes;
+    stats.mirror_pixels = counted.mirror_pixels;
+    stats.sharp = counted.sharp;
     return {};
   }
 
@@ -182,6 +188,7 @@ class Studio {
   Renderer& renderer_;
   const PlayArguments& arguments_;
   FrameOptions options_;
+  const Zone zone_;
 };
 
 }  // namespace

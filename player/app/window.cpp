@@ -203,7 +203,7 @@ class Loop {
   void show_rate(const FrameStats& stats) {
     ++rate_frames_;
     if (!session_.frame.timed) return;
-    const bool in_zone = in_walkable_zone(scene_.pack().walk_grids, session_.camera.eye);
+    const bool in_zone = zone_.holds(session_.camera.eye);
     const std::string title =
         fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
                     rate_frames_ / seconds_since(rate_start_), session_.shown_ev100, describe(stats, in_zone));
@@ -218,6 +218,7 @@ class Loop {
   const PlayArguments& arguments_;
   WindowInput input_;
   Session session_;
+  const Zone zone_ = planned_zone(scene_.pack());
   const Clock::time_point start_ = Clock::now();
   Clock::time_point rate_start_ = Clock::now();
   int rate_frames_ = 0;

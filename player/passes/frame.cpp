@@ -124,11 +124,19 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
+  const bool counted = options.count_holes && candidate.value > 0;
+  if (counted && !kernel.blurs() && options.reflections == Reflections::kMarch) {
+    FrameStats unused;
+    march_pass_.draw(scene, reflector, view, rect, *image_, options, unused, true);
+    const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_sharp);
+    stats.mirror_pixels += count.pixels;
+    stats.sharp += count.counted;
+  }
   clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
-  if (options.count_holes && candidate.value > 0) {
-    const HoleCount count = count_holes(*frame_, candidate.value, *image_, rect);
+  if (counted) {
+    const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_hole);
     stats.reflected_pixels += count.pixels;
-    stats.holes += count.holes;
+    stats.holes += count.counted;
   }
   clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
   const bool straight = blurs && rect.scale == 1;  // into the frame, only what is seen

@@ -34,7 +34,7 @@ Result<MarchPass> MarchPass::create(gpu::Dialect dialect) {
 }
 
 void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                     const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
+                     const ImageTarget& target, const FrameOptions& options, FrameStats& stats, bool measure) const {
   clear_image(target, rect);
   gpu::apply({});
   const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
@@ -46,6 +46,7 @@ void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View&
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
   program_.set("u_pixel", 2 * view.tangents.y / static_cast<float>(view.height) / rect.scale);
   program_.set("u_closest", kClosest);
+  program_.set("u_measure", measure ? 1 : 0);
   program_.set("u_light", 0);
   program_.set("u_disparity", 1);
   program_.set("u_ranges", 2);

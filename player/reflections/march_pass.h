@@ -14,8 +14,9 @@ class MarchPass {
 
   // Clears the image and draws all of it that lies on the reflector's plane, beyond the reflector's edges too. The
   // reflector's front faces the eye. What no map sees keeps a = 0.
+  // measure: instead of light, how many pixels of the image one of the map covers, across.
   void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-            const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const;
+            const ImageTarget& target, const FrameOptions& options, FrameStats& stats, bool measure = false) const;
 
  private:
   void choose_maps(GpuScene& scene, const ReflectorElement& element, const Vec4& mirrored_eye,

@@ -34,7 +34,7 @@ struct FrameOptions {
   Reflectance reflectance = Reflectance::kTable;
   bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   bool timed = false;   // each pass, which costs a little itself
-  // Fills FrameStats::reflected_pixels and holes: reads images back, which is slow.
+  // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
   std::vector<MoverPose> poses;  // by Pack::movers; empty: all at rest
   MoverLights mover_lights = MoverLights::kShadowed;
@@ -68,6 +68,8 @@ struct FrameStats {
   std::uint64_t map_bytes = 0;   // of all radiance and surround maps on the device so far
   // Of opaque reflectors, where they are counted.
   std::uint64_t reflected_pixels = 0, holes = 0;
+  // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
+  std::uint64_t mirror_pixels = 0, sharp = 0;
   PassTimes ms{};  // by pass, where asked for
 };
 

@@ -20,18 +20,23 @@ uniform vec4 u_mirrored_eye;  // reflector space; w = 0: the direction to it
 uniform vec4 u_depth_row;     // view-space -z of a point of reflector space = dot(row, point)
 uniform float u_ortho;        // 1: distances run along the view direction
 uniform float u_pixel;        // tangent of an image pixel, or its metres
+uniform bool u_measure;       // instead of light: how many pixels of the image one of the map covers
 uniform float u_closest;      // 1 / distance is never stored smaller: marks the sky as seen
 
 in vec2 v_on_plane;
 layout(location = 0) out vec4 o_light;
 
-// s_distance: the hit's disparity times its distance from the mirrored eye, finite for the sky too.
-vec3 light_of_hit(MapHit hit, vec4 map, float s_distance) {
-  // Pixels of the map under one of the image.
+// Pixels of the map under one of the image, across the wider of the two. s_distance: the hit's disparity times its distance from
+// the mirrored eye, finite for the sky too.
+float map_pixels(MapHit hit, vec4 map, float s_distance) {
   vec2 pixel = (u_upper - u_lower) / map.xy;
   float footprint = u_pixel * (u_ortho > 0.5 ? hit.s : s_distance);
+  return max(footprint / max(pixel.x, pixel.y), 1e-6);
+}
+
+vec3 light_of_hit(MapHit hit, vec4 map, float pixels) {
   float coarsest = floor(log2(max(map.x, map.y)) + 1e-3);
-  float level = clamp(log2(max(footprint / max(pixel.x, pixel.y), 1e-6)), 0.0, coarsest);
+  float level = clamp(log2(pixels), 0.0, coarsest);
   // Beyond the map's own texels of a level lies nothing.
   float texel = exp2(ceil(level));
   vec2 last = (max(floor(map.xy / texel), 1.0) - 0.5) * texel;
@@ -61,7 +66,8 @@ void main() {
     if (hit.trust <= 0.0) continue;
     float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
     float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
-    vec4 light = vec4(light_of_hit(hit, map, s_distance), inverse);
+    float pixels = map_pixels(hit, map, s_distance);
+    vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
     // Maps that do not agree about the distance do not mix: the weightier ones win.
     float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
     if (total > 0.0) {

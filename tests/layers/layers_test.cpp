@@ -78,7 +78,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
-  m["player/walk"] = plus(assets, {"formats/camera"});
+  m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
   m["player/scene"] =
       plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps", "player/view"});

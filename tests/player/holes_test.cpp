@@ -1,16 +1,16 @@
-// Which pixels show a reflected image, and how many of them no map has anything for.
+// Which pixels show a reflected image, how many of them no map has anything for, and how many of a mirror's are sharp.
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
 namespace {
 using namespace testing;
 
-Pack mirror_pack() {
+Pack mirror_pack(std::uint32_t size = 64) {
   Pack pack;
   pack.materials.resize(1);
   pack.materials[0].fresnel_map = 0;
   pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
-  add_mirror(pack, {{0, 0, -1}}, 64, [](const Vec2&, const Vec3&) { return Seen{Vec3(10), 3}; });
+  add_mirror(pack, {{0, 0, -1}}, size, [](const Vec2&, const Vec3&) { return Seen{Vec3(10), 3}; });
   return pack;
 }
 
@@ -48,6 +48,28 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
     const double share = static_cast<double>(stats.holes) / static_cast<double>(stats.reflected_pixels);
     EXPECT_NEAR(share, 0.5, 0.03);
   }
+}
+
+// Through a pixel's middle the eye sees 2 tan(1.1) / 90 of a map pixel's 2 / size a metre away: a map pixel covers no
+// more than two where the plane is far enough.
+TEST_F(Holes, SharpIsWhereAMapPixelCoversNoMoreThanTwo) {
+  const auto share = [&](std::uint32_t size) {
+    const FrameStats stats = count(mirror_pack(size), Reflections::kMarch);
+    EXPECT_EQ(stats.mirror_pixels, stats.reflected_pixels);
+    return static_cast<double>(stats.sharp) / static_cast<double>(stats.mirror_pixels);
+  };
+  EXPECT_EQ(share(64), 1);
+  EXPECT_EQ(share(4), 0);
+  const double distance = 90 / (2 * std::tan(1.1)) / 18;  // of a map of 18² pixels: a circle in the square of 4 m²
+  EXPECT_NEAR(share(18), 1 - kPi * (distance * distance - 1) / 4, 0.02);
+  EXPECT_EQ(count(mirror_pack(), Reflections::kPoints).mirror_pixels, 0u) << "known for march only";
+  Pack blurred = mirror_pack();
+  blurred.kernels.resize(1);
+  blurred.kernels[0].size = 3;
+  blurred.kernels[0].weights.assign(9, 1.0f / 9);
+  blurred.kernels[0].half_extent = 0.1f;
+  blurred.materials[0].kernel = 0;
+  EXPECT_EQ(count(blurred, Reflections::kMarch).mirror_pixels, 0u) << "not a mirror";
 }
 
 }  // namespace

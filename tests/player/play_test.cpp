@@ -145,6 +145,7 @@ TEST_F(Play, EveryStageAndOption) {
 TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
   Pack named = oriel::testing::tiny_pack();
   named.cameras[0].name = "caf\xe9";
+  named.provenance = R"({"options": {"eyes": "file", "eye_points": [[1e4, 0, 0]]}})";  // far from any camera
   ASSERT_TRUE(write_pack(folder() / "named.oriel", named));
   ASSERT_EQ(run("named.oriel --offscreen --size 32x18 --camera 0 --reflections points --blur off --stats s.json").code,
             0);
@@ -152,7 +153,7 @@ TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
   std::stringstream text;
   text << in.rdbuf();
   for (const char* found : {"\"reflections\": \"points\"", "\"blur\": \"off\"", "\"select\": \"angle\"",
-                            "\"holes\":", "\"in_zone\":", "caf"})
+                            "\"holes\":", "\"sharp\":", "\"in_zone\": false", "caf"})
     EXPECT_NE(text.str().find(found), std::string::npos) << found << " in " << text.str();
 }
 
