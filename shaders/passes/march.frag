@@ -48,7 +48,7 @@ void main() {
   o_light = vec4(0.0);
   vec3 on_plane = vec3(v_on_plane, 0.0);
   vec3 direction = on_plane * u_mirrored_eye.w - u_mirrored_eye.xyz;
-  if (!(direction.z > 0.0)) return;
+  if (!(direction.z > 0.0) || u_count == 0) return;
   float pace = length(direction);
   float to_plane = u_ortho > 0.5 ? dot(u_depth_row, vec4(on_plane, 1.0)) : pace;
 
@@ -57,28 +57,30 @@ void main() {
   int count = inside ? u_count : min(u_count, 1);
   vec4 sum = vec4(0.0);
   float total = 0.0, trust = 0.0;
-  for (int i = 0; i < count; ++i) {
-    if (i >= u_blended && trust > kEnough) break;
+  int i = 0;
+  do {  // asks at the end, so that no round is begun for nothing
     vec4 map = u_maps[i];
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, v_on_plane, direction);
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
-    if (hit.trust <= 0.0) continue;
-    float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
-    float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
-    float pixels = map_pixels(hit, map, s_distance);
-    vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
-    // Maps that do not agree about the distance do not mix: the weightier ones win.
-    float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
-    if (total > 0.0) {
-      float mean = sum.a / total;
-      float agreement = exp2(-pow(abs(inverse - mean) / (kSameDepth * max(inverse, mean)), 2.0));
-      float vote = (weight + total * agreement) / (total + weight * agreement);
-      weight *= vote * vote;
+    if (hit.trust > 0.0) {
+      float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
+      float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
+      float pixels = map_pixels(hit, map, s_distance);
+      vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
+      // Maps that do not agree about the distance do not mix: the weightier ones win.
+      float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
+      if (total > 0.0) {
+        float mean = sum.a / total;
+        float agreement = exp2(-pow(abs(inverse - mean) / (kSameDepth * max(inverse, mean)), 2.0));
+        float vote = (weight + total * agreement) / (total + weight * agreement);
+        weight *= vote * vote;
+      }
+      sum += weight * light;
+      total += weight;
+      trust = max(trust, hit.trust);
     }
-    sum += weight * light;
-    total += weight;
-    trust = max(trust, hit.trust);
-  }
+    ++i;
+  } while (i < count && (i < u_blended || trust <= kEnough));
   if (total > 0.0) o_light = sum / total;
 }
