@@ -75,6 +75,11 @@ FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOption
   FresnelMap map;
   map.alpha = checked.base.alpha;
   map.table = make_table(ExactLayers(checked), options);
+  if (map.alpha >= kMirrorAlpha)
+    for (std::uint32_t i = 0; i < options.factor_entries; ++i) {
+      const double root = static_cast<double>(i) / (options.factor_entries - 1.0);
+      map.factor.push_back(unit(specular_fresnel(checked.base, root * root)));
+    }
   map.sphere_size = options.sphere_size;
   map.sphere.reserve(std::size_t{map.sphere_size} * map.sphere_size);
   for (std::uint32_t y = 0; y < map.sphere_size; ++y)

@@ -10,7 +10,8 @@ struct FresnelMapOptions {
   double error = 7e-4;             // of the 1-D table between its entries, absolute, where max_entries allow
   std::uint32_t min_entries = 65;  // at least 2; doubled (2 n - 1) until the error is kept
   std::uint32_t max_entries = 1025;
-  std::uint32_t sphere_size = 64;  // 0: no sphere map
+  std::uint32_t sphere_size = 64;     // 0: no sphere map
+  std::uint32_t factor_entries = 65;  // at least 2; a mirror has none
 };
 
 // Both maps of R. Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is

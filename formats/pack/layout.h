@@ -93,6 +93,7 @@ inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
 inline constexpr std::uint32_t kKernelSliceSection = fourcc("KINC");
 inline constexpr std::uint32_t kKernelFitSection = fourcc("KLTC");
 inline constexpr std::uint32_t kFresnelSection = fourcc("FRES");
+inline constexpr std::uint32_t kFresnelFactorSection = fourcc("FFAC");
 inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
@@ -101,7 +102,7 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 28> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -123,6 +124,7 @@ inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
     {kKernelSliceSection, "kernels by incidence", true, false, false},
     {kKernelFitSection, "kernels as cosines", true, false, false},
     {kFresnelSection, "Fresnel maps", false, false, false},
+    {kFresnelFactorSection, "Fresnel factors", true, false, false},
     {kSplitSection, "split reflectance", true, false, false},
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},

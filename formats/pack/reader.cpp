@@ -51,6 +51,7 @@ struct Parts {
   std::vector<NormalMapping> normal_mapping;
   std::vector<KernelSlices> kernel_slices;
   std::vector<KernelFits> kernel_fits;
+  std::vector<FresnelFactor> fresnel_factors;
   std::vector<ResidualMap> residuals;
   std::vector<ReflectorEmitters> reflector_emitters;
 };
@@ -123,6 +124,8 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return check_end(in, section);
     case kFresnelSection:
       return decode_list(in, section, pack.fresnel_maps);
+    case kFresnelFactorSection:
+      return decode_list(in, section, parts.fresnel_factors);
     case kCameraSection:
       return decode_list(in, section, pack.cameras);
     case kPathSection:
@@ -182,6 +185,16 @@ Status attach(KernelFits& from, Pack& pack) {
   return {};
 }
 
+Status attach(FresnelFactor& from, Pack& pack) {
+  const std::string label = section_label(kFresnelFactorSection, 0);
+  if (from.map >= pack.fresnel_maps.size())
+    return invalid(label, "found Fresnel map {}, expected less than {}", from.map, pack.fresnel_maps.size());
+  FresnelMap& map = pack.fresnel_maps[from.map];
+  if (!map.factor.empty()) return invalid(label, "Fresnel map {} is there twice, expected once", from.map);
+  map.factor = std::move(from.factor);
+  return {};
+}
+
 Status attach(const ResidualMap& from, Pack& pack) {
   const std::string label = section_label(kResidualSection, 0);
   if (from.map >= pack.radiance_maps.size())
@@ -222,6 +235,7 @@ Result<Pack> decode_all(std::span<const std::byte> file) {
   for (std::size_t i = 0; i < parts.directions.size(); ++i) ORIEL_TRY_VOID(attach(parts.directions[i], i, pack));
   for (KernelSlices& slices : parts.kernel_slices) ORIEL_TRY_VOID(attach(slices, pack));
   for (KernelFits& fits : parts.kernel_fits) ORIEL_TRY_VOID(attach(fits, pack));
+  for (FresnelFactor& factor : parts.fresnel_factors) ORIEL_TRY_VOID(attach(factor, pack));
   for (const ResidualMap& residual : parts.residuals) ORIEL_TRY_VOID(attach(residual, pack));
   for (ReflectorEmitters& part : parts.reflector_emitters) ORIEL_TRY_VOID(attach(part, pack));
   for (NormalMapping& mapping : parts.normal_mapping) ORIEL_TRY_VOID(attach(mapping, pack));

@@ -34,6 +34,10 @@ struct KernelFits {
   std::uint32_t kernel = 0;  // into Pack::kernels
   std::vector<LobeFit> fits;
 };
+struct FresnelFactor {
+  std::uint32_t map = 0;  // into Pack::fresnel_maps
+  std::vector<Vec3> factor;
+};
 struct NormalMapping {
   struct Use {
     std::uint32_t material = 0;       // into Pack::materials
@@ -61,6 +65,7 @@ void encode(ByteWriter& out, const SurroundMap& map);
 void encode(ByteWriter& out, const BrdfKernel& kernel);
 void encode(ByteWriter& out, const KernelSlices& slices);
 void encode(ByteWriter& out, const FresnelMap& map);
+void encode(ByteWriter& out, const FresnelFactor& factor);
 void encode(ByteWriter& out, const SplitReflectance& split);
 void encode(ByteWriter& out, const WalkGrid& grid);
 void encode(ByteWriter& out, const Emitter& emitter);
@@ -88,6 +93,7 @@ Status decode(ByteReader& in, SurroundMap& map);
 Status decode(ByteReader& in, BrdfKernel& kernel);
 Status decode(ByteReader& in, KernelSlices& slices);
 Status decode(ByteReader& in, FresnelMap& map);
+Status decode(ByteReader& in, FresnelFactor& factor);
 Status decode(ByteReader& in, SplitReflectance& split);
 Status decode(ByteReader& in, WalkGrid& grid);
 Status decode(ByteReader& in, Emitter& emitter);

@@ -119,6 +119,13 @@ std::vector<KernelFits> kernel_fits(const Pack& pack) {
   return all;
 }
 
+std::vector<FresnelFactor> fresnel_factors(const Pack& pack) {
+  std::vector<FresnelFactor> all;
+  for (std::uint32_t i = 0; i < pack.fresnel_maps.size(); ++i)
+    if (const FresnelMap& map = pack.fresnel_maps[i]; !map.factor.empty()) all.push_back({i, map.factor});
+  return all;
+}
+
 std::vector<ResidualMap> residual_maps(const Pack& pack) {
   std::vector<ResidualMap> all;
   for (std::uint32_t i = 0; i < pack.radiance_maps.size(); ++i)
@@ -167,6 +174,7 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kKernelSliceSection, kernel_slices(pack));
   list.add_list(kKernelFitSection, kernel_fits(pack));
   list.add_list(kFresnelSection, pack.fresnel_maps);
+  list.add_list(kFresnelFactorSection, fresnel_factors(pack));
   if (pack.split_reflectance.angles > 0) {
     ByteWriter split;
     encode(split, pack.split_reflectance);

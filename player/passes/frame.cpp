@@ -120,7 +120,7 @@ void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflecto
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
-  const GpuKernel& kernel = scene.kernel(scene.pack().materials[reflector.material].kernel, options.kernel);
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
@@ -139,20 +139,18 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
     stats.holes += count.counted;
   }
   clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
-  const bool straight = blurs && rect.scale == 1;  // into the frame, only what is seen
-  if (blurs && !straight) {
+  if (rect.coarse > 1) {
     clock_.time(Pass::kConvolve, [&] {
       convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
     });
   }
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  clock_.time(straight ? Pass::kConvolve : Pass::kCompose, [&] {
-    if (straight) {
+  clock_.time(blurs ? Pass::kConvolve : Pass::kCompose, [&] {
+    if (blurs) {
       reflector_pass_.draw_convolved(scene, reflector, kernel, view, rect, *image_, candidate.value, options, stats);
     } else {
-      reflector_pass_.draw_light(scene, reflector, view, rect, blurs ? image_->blurred : image_->filled,
-                                 candidate.value, options, stats);
+      reflector_pass_.draw_light(scene, reflector, view, rect, image_->filled, candidate.value, options, stats);
     }
   });
   clock_.time(Pass::kEmitters,

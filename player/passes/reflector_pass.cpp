@@ -70,7 +70,6 @@ void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, c
   compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
-  compose_.set("u_scale", rect.scale);
   compose_.set("u_missing", reflector.mean_radiance);
   set_surface(compose_, scene, reflector, view, options);
   image.bind(0);  // last: what is uploaded on first use is bound meanwhile
@@ -85,6 +84,8 @@ void ReflectorPass::draw_convolved(GpuScene& scene, const GpuReflector& reflecto
   convolve_.set("u_origin", rect.origin);
   convolve_.set("u_missing", reflector.mean_radiance);
   set_surface(convolve_, scene, reflector, view, options);
+  convolve_.set("u_blurred", 6);
+  target.blurred.bind(6);
   set_convolution(convolve_, reflector, kernel, view, rect, target, scene.bounds().radius(), options.blur);
   draw_reflector(reflector, stats);
 }
@@ -127,7 +128,7 @@ const gpu::Program* ReflectorPass::set_emitters(GpuScene& scene, const GpuReflec
                                                 const FrameOptions& options) const {
   const Pack& pack = scene.pack();
   const GpuEmitters& emitters = reflector.emitters;
-  const GpuKernel& kernel = scene.kernel(pack.materials[reflector.material].kernel, options.kernel);
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
   // M shows a mirror's world, in which a glossy lobe has no place.
   if (options.show == Show::kM || !emitters.polygons || !kernel.fits) return nullptr;
   const gpu::Program& program = options.blur == Blur::kOff ? emitters_sharp_ : emitters_;

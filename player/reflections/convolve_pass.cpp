@@ -19,16 +19,17 @@ ImageRect choose_image(const NdcRect& screen, float median, const View& view, in
   // Half of the lobe's energy falls within this many pixels for what lies as far behind the reflector as the eye before
   // it.
   const float blur = view.orthographic ? 0.0f : 0.5f * median * pixels_per_tangent(view);
-  if (blur >= 6) rect.scale = 0.5f;
-  if (blur >= 16) rect.scale = 0.25f;
+  if (blur >= 6) rect.coarse = 2;
+  if (blur >= 16) rect.coarse = 4;
   float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
   margin = std::min(margin, std::floor(0.5f * (static_cast<float>(texture_limit) - std::max(size.x, size.y)) - 8));
   margin = std::max(margin, 0.0f);
-  // Snapped to whole image pixels, so that a standing image does not shimmer when its rectangle grows.
+  // Snapped to whole coarse pixels, so that a standing image does not shimmer when its rectangle grows.
   const Vec2 lower = (screen.lower * 0.5f + 0.5f) * size - margin;
   const Vec2 upper = (screen.upper * 0.5f + 0.5f) * size + margin;
-  const Vec2 first = glm::floor(lower * rect.scale), last = glm::ceil(upper * rect.scale);
-  rect.origin = first / rect.scale;
+  const auto coarse = static_cast<float>(rect.coarse);
+  const Vec2 first = coarse * glm::floor(lower / coarse), last = coarse * glm::ceil(upper / coarse);
+  rect.origin = first;
   rect.width = std::max(static_cast<int>(last.x - first.x), 1);
   rect.height = std::max(static_cast<int>(last.y - first.y), 1);
   return rect;
@@ -59,7 +60,7 @@ void set_convolution(const gpu::Program& program, const GpuReflector& reflector,
                      Blur blur) {
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
-  const float to_image = pixels_per_tangent(view) * rect.scale;
+  const float to_image = pixels_per_tangent(view);
   target.filled.bind(0);
   kernel.taps.bind(2);
   program.set("u_image", 0);
@@ -73,7 +74,8 @@ void set_convolution(const gpu::Program& program, const GpuReflector& reflector,
   program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
   program.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
   program.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
-  program.set("u_blur_level", std::log2(std::max(0.25f * kernel.median * to_image, 1.0f)));
+  program.set("u_median", kernel.median);
+  program.set("u_coarse", rect.coarse);
   program.set("u_pixels_per_tangent", to_image);
   program.set("u_taps", 2);
   program.set("u_tap_count", kernel.count);
@@ -84,7 +86,7 @@ void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, 
                         const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const {
   target.level_framebuffer.bind();
   target.level_framebuffer.attach_color_level(target.blurred, 0);
-  glViewport(0, 0, rect.width, rect.height);
+  glViewport(0, 0, rect.width / rect.coarse, rect.height / rect.coarse);
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   program_.use();

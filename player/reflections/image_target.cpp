@@ -10,7 +10,7 @@ namespace oriel {
 
 Vec4 ndc_from_image(const ImageRect& rect, const View& view) {
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-  const Vec2 scale = 2.0f / (rect.scale * size);
+  const Vec2 scale = 2.0f / size;
   const Vec2 offset = 2.0f * rect.origin / size - 1.0f;
   return Vec4(scale, offset);
 }

@@ -11,8 +11,8 @@ namespace oriel {
 // The part of the frame that a reflected image covers, with a margin around it that may lie outside the frame.
 struct ImageRect {
   Vec2 origin{0};             // lower left corner, frame pixels
-  float scale = 1;            // image pixels per frame pixel
-  int width = 0, height = 0;  // image pixels
+  int width = 0, height = 0;  // pixels of the frame
+  int coarse = 1;             // of them along a side of a pixel of M * K, where the lobe is wide: 1, 2 or 4
 };
 
 // Image pixels to normalised device coordinates of the frame: scale in xy, offset in zw.

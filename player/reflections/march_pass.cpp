@@ -44,7 +44,7 @@ void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View&
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_reflector)[2]);
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
-  program_.set("u_pixel", 2 * view.tangents.y / static_cast<float>(view.height) / rect.scale);
+  program_.set("u_pixel", 2 * view.tangents.y / static_cast<float>(view.height));
   program_.set("u_closest", kClosest);
   program_.set("u_measure", measure ? 1 : 0);
   program_.set("u_light", 0);

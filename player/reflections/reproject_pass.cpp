@@ -56,15 +56,15 @@ void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const V
     const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t map = element.maps[maps[i].map];
-      if (!scene.pack().radiance_maps[map].residual) draw_map(scene, map, reflector, view, rect, stats);
+      if (!scene.pack().radiance_maps[map].residual) draw_map(scene, map, reflector, view, stats);
     }
   }
 }
 
 void ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuReflector& reflector, const View& view,
-                             const ImageRect& rect, FrameStats& stats) const {
+                             FrameStats& stats) const {
   const RadianceMap& map = scene.pack().radiance_maps[index];
-  const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y * rect.scale;
+  const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y;
   const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);
   const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;

@@ -19,7 +19,7 @@ class ReprojectPass {
 
  private:
   void draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view,
-                const ImageRect& rect, FrameStats& stats) const;
+                FrameStats& stats) const;
   gpu::Program program_;
   gpu::VertexArray no_vertices_;
   float point_max_ = 1;

@@ -202,15 +202,23 @@ const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   return texture;
 }
 
-const GpuKernel& GpuScene::kernel(std::int32_t index, KernelPlace place) {
-  const auto [at, added] = kernels_.try_emplace({index, place});
-  if (added) {
-    const BrdfKernel mirror;
-    const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
-    const KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
-    at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
-    if (!kernel.fits.empty()) at->second.fits = upload_lobe_fits(kernel);
-  }
+const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place) {
+  const Material& m = pack_.materials[material];
+  return kernel(m.kernel, m.fresnel_map, place);
+}
+
+const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place) {
+  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, place});
+  if (!added) return at->second;
+  const BrdfKernel mirror;
+  const FresnelMap none;
+  const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
+  const FresnelMap& fresnel = fresnel_map < 0 ? none : pack_.fresnel_maps[static_cast<std::size_t>(fresnel_map)];
+  KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
+  const std::vector<float> factors = weigh_by_fresnel(taps, place == KernelPlace::kCentred ? none : fresnel);
+  at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
+  if (!kernel.fits.empty())
+    at->second.fits = upload_lobe_fits(kernel, place == KernelPlace::kCentred ? none : fresnel, factors);
   return at->second;
 }
 

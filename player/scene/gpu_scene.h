@@ -84,11 +84,14 @@ class GpuScene {
   // Of radiance and surround maps on the device.
   std::uint64_t map_bytes() const { return map_bytes_; }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
-  // Of Pack::kernels, made on first use and kept; a mirror's for index -1.
-  const GpuKernel& kernel(std::int32_t index, KernelPlace place);
+  // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
+  const GpuKernel& kernel(std::uint32_t material, KernelPlace place);
+  const GpuKernel& mirror_kernel() { return kernel(-1, -1, KernelPlace::kLobe); }
 
  private:
   GpuScene() = default;
+  // Of Pack::kernels and Pack::fresnel_maps, -1: a mirror's, none.
+  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place);
   void upload_geometry();
   void upload_images();
   void make_reflectors(std::vector<std::uint32_t>& indices);
@@ -109,7 +112,7 @@ class GpuScene {
   gpu::Texture white_, flat_, reflectance_tables_;
   LightmapTexture no_lightmap_;
   std::map<std::uint32_t, MapArray> map_arrays_;  // by the first map of the element
-  std::map<std::pair<std::int32_t, KernelPlace>, GpuKernel> kernels_;
+  std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace>, GpuKernel> kernels_;
   std::uint64_t map_bytes_ = 0;
   bool mipmaps_ = true;
 };

@@ -4,6 +4,8 @@
 #include <functional>
 #include <span>
 
+#include "formats/core/color.h"
+
 namespace oriel {
 namespace {
 
@@ -75,6 +77,18 @@ std::vector<KernelTap> lobe_taps(const std::vector<std::vector<KernelTap>>& slic
   return taps;
 }
 
+// The half vector's cosine to the eye of a lobe's direction u at an incidence, and the direction's to the normal.
+struct TapCosines {
+  double half, normal;
+};
+TapCosines tap_cosines(const DVec2& u, double cos_theta) {
+  // The mirror direction is z, and the normal leans from it towards y.
+  const double q = 0.25 * glm::dot(u, u), sin_theta = std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta));
+  const DVec3 normal(0, sin_theta, cos_theta), w = DVec3(u.x, u.y, 1 - q) / (1 + q);
+  const DVec3 eye = 2 * cos_theta * normal - DVec3(0, 0, 1);
+  return {std::sqrt(std::max(0.0, 0.5 * (1 + glm::dot(eye, w)))), glm::dot(normal, w)};
+}
+
 float median_radius(std::span<const KernelTap> taps) {
   std::vector<float> radii;
   for (const KernelTap& tap : taps) radii.push_back(glm::length(tap.at));
@@ -92,6 +106,34 @@ SlicePosition find_slice(const BrdfKernel& kernel, double cos_theta) {
   const double low = root_of(above - 1);
   const double share = std::clamp((std::sqrt(cos_theta) - low) / (root_of(above) - low), 0.0, 1.0);
   return {above - 1, above, static_cast<float>(share)};
+}
+
+float fresnel_factor(const FresnelMap& map, double cos_theta) {
+  if (map.factor.size() < 2) return 1;
+  const auto last = map.factor.size() - 1;
+  const double at = std::sqrt(std::clamp(cos_theta, 0.0, 1.0)) * static_cast<double>(last);
+  const auto i = std::min(static_cast<std::size_t>(at), last - 1);
+  return luminance(glm::mix(map.factor[i], map.factor[i + 1], static_cast<float>(at - static_cast<double>(i))));
+}
+
+std::vector<float> weigh_by_fresnel(KernelTaps& taps, const FresnelMap& map) {
+  std::vector<float> means;
+  for (int row = 0; row < taps.rows; ++row) {
+    const double root = taps.rows > 1 ? row / (taps.rows - 1.0) : 1.0;
+    const std::span tap_row =
+        std::span(taps.taps).subspan(static_cast<std::size_t>(row * taps.count), static_cast<std::size_t>(taps.count));
+    double sum = 0;
+    int above = 0;
+    for (KernelTap& tap : tap_row) {
+      const TapCosines cosines = tap_cosines(tap.at, root * root);
+      tap.weight = fresnel_factor(map, cosines.half);
+      if (cosines.normal > 0) sum += tap.weight, ++above;
+    }
+    const float mean = above > 0 ? static_cast<float>(sum / above) : 1.0f;
+    for (KernelTap& tap : tap_row) tap.weight = mean > 0 ? tap.weight / mean : 1.0f;
+    means.push_back(mean);
+  }
+  return means;
 }
 
 KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place) {

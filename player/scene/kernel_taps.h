@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "formats/assets/brdf_kernel.h"
+#include "formats/assets/fresnel_map.h"
 
 namespace oriel {
 
 struct KernelTap {
-  Vec2 at{0};       // mirror coordinates of its direction, as in KernelSlice
-  float width = 0;  // side of the square of them that this tap stands for
+  Vec2 at{0};        // mirror coordinates of its direction, as in KernelSlice
+  float width = 0;   // side of the square of them that this tap stands for
+  float weight = 1;  // its light counts so much; 1 on average over those above the surface
 };
 
 struct KernelTaps {
@@ -26,6 +28,12 @@ enum class KernelPlace { kLobe, kCentred };
 // `count` samples a row by inverting the cumulative distribution of the weights (rows, then columns) on a Hammersley
 // set, so that each stands for 1 / count of the energy. Deterministic. A kernel of size 1 gives one tap at the centre.
 KernelTaps make_kernel_taps(const BrdfKernel& kernel, int count, KernelPlace place);
+
+// Luminance of F where the half vector is at cosθ from the eye; 1 where the map has no factors.
+float fresnel_factor(const FresnelMap& map, double cos_theta);
+// Weighs each tap by F of its half vector: a lobe seen flat reflects more of what it has from below the mirror
+// direction. Gives the mean F of the taps above the surface, row by row.
+std::vector<float> weigh_by_fresnel(KernelTaps& taps, const FresnelMap& map);
 
 // The slices around an incidence: share of the one above. The kernel has slices.
 struct SlicePosition {

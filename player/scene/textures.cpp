@@ -85,11 +85,12 @@ gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
 
 gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
   std::vector<Vec4> texels;
-  for (const KernelTap& tap : taps.taps) texels.emplace_back(tap.at, tap.width, 0);
+  for (const KernelTap& tap : taps.taps) texels.emplace_back(tap.at, tap.width, tap.weight);
   return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
 }
 
-gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
+gpu::Texture upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fresnel,
+                              std::span<const float> mean_factors) {
   constexpr int kRows = 33;
   std::vector<Vec4> texels;
   for (int i = 0; i < kRows; ++i) {
@@ -99,7 +100,14 @@ gpu::Texture upload_lobe_fits(const BrdfKernel& kernel) {
     texels.push_back(mix_lobes(in_mirror_frame(a, kernel.slices[at.below].cos_theta),
                                in_mirror_frame(b, kernel.slices[at.above].cos_theta), static_cast<float>(at.share)));
   }
-  return {gpu::kRgba32f, kRows, 1, texels.data()};
+  for (int i = 0; i < kRows; ++i) {
+    const double root = i / (kRows - 1.0);
+    const RowPosition at = kernel_row(static_cast<float>(root * root), static_cast<int>(mean_factors.size()));
+    const auto low = static_cast<std::size_t>(at.row), high = std::min(low + 1, mean_factors.size() - 1);
+    texels.emplace_back(fresnel_factor(fresnel, root * root), std::lerp(mean_factors[low], mean_factors[high], at.next),
+                        0, 0);
+  }
+  return {gpu::kRgba32f, kRows, 2, texels.data()};
 }
 
 gpu::Texture upload_sphere_map(const FresnelMap& map) {

@@ -63,13 +63,13 @@ struct Nodes {
   std::vector<bool> covered;  // by the reflector
 };
 
-Nodes lay_out(const Accel& accel, const FoundReflector& found, const EmitterOptions& options) {
+Nodes lay_out(const Accel& accel, const FoundReflector& found, float node_m, std::uint32_t max_nodes) {
   const Reflector& r = found.reflector;
   const Vec2 size = r.upper - r.lower;
   Nodes nodes;
   const auto count = [&](float side) {
-    const float cells = std::ceil(side / options.node_m);
-    return 1 + static_cast<std::uint32_t>(std::clamp(cells, 1.0f, static_cast<float>(options.max_nodes - 1)));
+    const float cells = std::ceil(side / node_m);
+    return 1 + static_cast<std::uint32_t>(std::clamp(cells, 1.0f, static_cast<float>(max_nodes - 1)));
   };
   nodes.x = count(size.x);
   nodes.y = count(size.y);
@@ -91,8 +91,7 @@ Nodes lay_out(const Accel& accel, const FoundReflector& found, const EmitterOpti
 struct LightOnReflector {
   std::size_t light = 0;
   std::vector<Emitter> polygons;
-  std::vector<std::vector<float>> visibility;  // by polygon, by node: share of what is over the plane
-  double worth = 0;                            // luminous irradiance on the covered nodes, visibility counted
+  double worth = 0;  // luminous irradiance on the covered nodes, visibility counted
 };
 
 Vec3 point_of(const Emitter& polygon, Vec2 u) {
@@ -131,19 +130,26 @@ class VisibilityBaker {
     return over > 0 ? static_cast<float>(seen / over) : 0;
   }
 
-  void bake(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, LightOnReflector& out) const {
-    std::uint64_t stream = out.light * kMaxReflectorEmitters * nodes.points.size();  // a light's polygons are no more
-    for (const Emitter& polygon : out.polygons) {
-      std::vector<float>& shares = out.visibility.emplace_back();
-      for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
+  // By node. stream: the light's polygon, below kMaxReflectorEmitters times the number of lights.
+  std::vector<float> shares(const Emitter& polygon, const Nodes& nodes, const Vec3& normal,
+                            std::uint64_t stream) const {
+    std::vector<float> shares;
+    stream *= nodes.points.size();
+    for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
+    return shares;
+  }
+
+  double worth(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, const LightOnReflector& on) const {
+    std::vector<double> mean(nodes.points.size(), 0.0);
+    for (std::size_t p = 0; p < on.polygons.size(); ++p) {
+      const std::vector<float> seen = shares(on.polygons[p], nodes, normal, on.light * kMaxReflectorEmitters + p);
+      for (std::size_t i = 0; i < seen.size(); ++i) mean[i] += seen[i] / static_cast<double>(on.polygons.size());
     }
-    const auto n = static_cast<double>(out.polygons.size());
-    for (std::size_t i = 0; i < nodes.points.size(); ++i) {
-      if (!nodes.covered[i]) continue;
-      double mean = 0;
-      for (const auto& shares : out.visibility) mean += shares[i] / n;
-      out.worth += mean * luminance(light.radiance) * polygon_irradiance(light, {nodes.points[i], normal, normal});
-    }
+    double sum = 0;
+    for (std::size_t i = 0; i < nodes.points.size(); ++i)
+      if (nodes.covered[i])
+        sum += mean[i] * luminance(light.radiance) * polygon_irradiance(light, {nodes.points[i], normal, normal});
+    return sum;
   }
 
  private:
@@ -183,7 +189,7 @@ struct LeftIn {
   std::size_t total() const { return too_fine + too_faint + too_many; }
 };
 
-// The lights that would light the reflector most if nothing were in the way, with their visibility.
+// The lights that would light the reflector most if nothing were in the way, by what they are worth.
 Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
                                                 const Nodes& nodes, const Vec3& normal, const EmitterOptions& options,
                                                 Context& context, LeftIn& left_in) {
@@ -204,11 +210,29 @@ Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<co
     const PolygonLight& light = lights[order[i].second];
     out[i].light = order[i].second;
     out[i].polygons = polygons_of(light);
-    baker.bake(nodes, normal, light, out[i]);
+    out[i].worth = baker.worth(nodes, normal, light, out[i]);
   }));
   std::stable_sort(out.begin(), out.end(),
                    [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
   return out;
+}
+
+// What the reflector's emitters are seen of, on the fine grid. polygons: of all lights, with their streams.
+Status bake_visibility(const Accel& accel, const FoundReflector& found,
+                       std::span<const std::pair<Emitter, std::uint64_t>> polygons, const EmitterOptions& options,
+                       Context& context, Reflector& r) {
+  const Nodes nodes = lay_out(accel, found, options.node_m, options.max_nodes);
+  const VisibilityBaker baker(accel, options, context.seed);
+  std::vector<std::vector<float>> seen(polygons.size());
+  ORIEL_TRY_VOID(parallel_for(context, "", polygons.size(), [&](std::size_t p) {
+    seen[p] = baker.shares(polygons[p].first, nodes, Vec3(r.pack_from_reflector[2]), polygons[p].second);
+    fill_uncovered(nodes, seen[p]);
+  }));
+  for (const std::vector<float>& shares : seen)
+    for (const float share : shares)
+      r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
+  r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+  return {};
 }
 
 }  // namespace
@@ -221,13 +245,14 @@ Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy
   for (FoundReflector& found : reflectors) {
     Reflector& r = found.reflector;
     if (!is_glossy[r.material]) continue;
-    const Nodes nodes = lay_out(accel, found, options);
+    const Nodes nodes = lay_out(accel, found, options.choice_node_m, options.max_choice_nodes);
     LeftIn left_in;
     ORIEL_TRY(std::vector<LightOnReflector> on,
               lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), options, context, left_in));
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
-    for (LightOnReflector& l : on) {
+    std::vector<std::pair<Emitter, std::uint64_t>> chosen;
+    for (const LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
       if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
         ++left_in.too_many;
@@ -237,15 +262,13 @@ Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy
       if (is_new) emitters.insert(emitters.end(), l.polygons.begin(), l.polygons.end());
       for (std::uint32_t p = 0; p < l.polygons.size(); ++p) {
         r.emitters.push_back(at->second + p);
-        fill_uncovered(nodes, l.visibility[p]);
-        for (const float share : l.visibility[p])
-          r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
+        chosen.emplace_back(l.polygons[p], l.light * kMaxReflectorEmitters + p);
       }
       const auto& triangles = lights[l.light].triangles;
       found.emitters.insert(found.emitters.end(), triangles.begin(), triangles.end());
     }
     std::sort(found.emitters.begin(), found.emitters.end());
-    if (!r.emitters.empty()) r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+    if (!chosen.empty()) ORIEL_TRY_VOID(bake_visibility(accel, found, chosen, options, context, r));
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} lamps stay in its radiance maps and are blurred with them: {} of more than {} triangles, {} beyond "

@@ -9,8 +9,10 @@
 namespace oriel {
 
 struct EmitterOptions {
-  float node_m = 0.5f;            // between nodes of the visibility's grid
-  std::uint32_t max_nodes = 17;   // along a side
+  // Between nodes of the visibility's grid, and how many of them along a side: to choose the lamps, and for those
+  // chosen.
+  float choice_node_m = 0.5f, node_m = 0.125f;
+  std::uint32_t max_choice_nodes = 17, max_nodes = 65;
   std::uint32_t samples = 32;     // rays from a node to an emitter
   std::uint32_t max_lights = 64;  // of a reflector whose visibility is computed: those that would light it most
 };

@@ -100,6 +100,14 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
     list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");
     list.each(603, "Fresnel sphere texels", map.sphere, share, text3, "0 to 1");
   }
+  list.in_section(kFresnelFactorSection);
+  for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
+    const std::vector<Vec3>& factor = pack.fresnel_maps[i].factor;
+    if (factor.size() == 1 || factor.size() > kMaxSide)
+      list.error(604, "Fresnel map {}: found {} factors, expected none or 2 to {}", i, factor.size(), kMaxSide);
+    list.each(
+        605, "Fresnel factors", factor, [](const Vec3& v) { return within(v, 0, 1); }, text3, "0 to 1");
+  }
 }
 
 void validate_split_reflectance(const Pack& pack, IssueList& list) {

@@ -134,6 +134,19 @@ Status decode(ByteReader& in, FresnelMap& map) {
   return {};
 }
 
+void encode(ByteWriter& out, const FresnelFactor& factor) {
+  out.put(factor.map);
+  out.put(static_cast<std::uint32_t>(factor.factor.size()));
+  put_planes(out, std::span<const Vec3>(factor.factor));
+}
+
+Status decode(ByteReader& in, FresnelFactor& factor) {
+  factor.map = in.get<std::uint32_t>();
+  const auto entries = in.get<std::uint32_t>();
+  factor.factor = get_planes<Vec3>(in, entries);
+  return {};
+}
+
 void encode(ByteWriter& out, const SplitReflectance& split) {
   out.put(split.angles);
   out.put(split.roughnesses);

@@ -8,10 +8,10 @@ vec2 kernel_row(float cos_theta, int rows) {
   return vec2(row, at - row);
 }
 
-// A tap between two rows: xy mirror coordinates, z width.
-vec3 kernel_tap(sampler2D taps, int tap, vec2 row) {
-  vec3 below = texelFetch(taps, ivec2(tap, int(row.x)), 0).xyz;
-  return row.y > 0.0 ? mix(below, texelFetch(taps, ivec2(tap, int(row.x) + 1), 0).xyz, row.y) : below;
+// A tap between two rows: xy mirror coordinates, z width, w how much its light counts.
+vec4 kernel_tap(sampler2D taps, int tap, vec2 row) {
+  vec4 below = texelFetch(taps, ivec2(tap, int(row.x)), 0);
+  return row.y > 0.0 ? mix(below, texelFetch(taps, ivec2(tap, int(row.x) + 1), 0), row.y) : below;
 }
 
 // The direction at mirror coordinates u, stereographic: |u| = 2 tan(gamma / 2). mirror, across and along are an orthonormal

@@ -22,38 +22,46 @@ float angle_over_sine(float c) {
   return 1.57079558 + c * (-0.999903565 + c * (0.78329788 + c * high));
 }
 
-// The z of Lambert's edge vector, the angle under which the edge a b is seen along the normal of its plane. |a| |b| follows from
-// the products (Lagrange); beyond 90 degrees angle / sine is pi / sine less that of the rest.
-float edge_z(vec3 a, vec3 b) {
+// Lambert's edge vector: the angle under which the edge a b is seen, along the normal of its plane. |a| |b| follows from the
+// products (Lagrange); beyond 90 degrees angle / sine is pi / sine less that of the rest.
+vec3 edge_vector(vec3 a, vec3 b) {
   vec3 normal = cross(a, b);
   float sine2 = dot(normal, normal), cosine = dot(a, b);
   float inverse = inversesqrt(max(sine2 + cosine * cosine, 1e-37));
   float acute = inverse * angle_over_sine(min(abs(cosine) * inverse, 1.0));
-  return normal.z * (cosine < 0.0 ? 3.14159265359 * inversesqrt(max(sine2, 1e-37)) - acute : acute);
+  return normal * (cosine < 0.0 ? 3.14159265359 * inversesqrt(max(sine2, 1e-37)) - acute : acute);
 }
 
-// The integral of the lobe of integral 1 over a polygon above the surface: what it reflects of a radiance of 1, without Fresnel.
+// What the lobe of integral 1 sees of a polygon above the surface, in the frame of its cosine: z is the integral of the lobe over
+// it, without Fresnel; the vector points to where that light comes from on average, or the opposite way where z is negative.
 // inverse: m11, m13, m22, m31 of LobeFit. v: convex, relative to the point, none of it below the surface, a triangle's last
 // corner twice; of a size about 1, so that products of four coordinates are numbers. Counter-clockwise as seen from the point:
 // positive, else negative.
 // No corner list, which would be indexed by numbers: each edge is clipped to the transformed lobe's hemisphere for itself, and
 // where a convex polygon leaves and enters it an edge along the horizon closes what is left.
-float reflected_polygon(vec4 inverse, vec3 v[4]) {
+vec3 reflected_vector(vec4 inverse, vec3 v[4]) {
   vec3 w[4];
   for (int i = 0; i < 4; ++i)
     w[i] = vec3(inverse.x * v[i].x + inverse.y * v[i].z, inverse.z * v[i].y, inverse.w * v[i].x + v[i].z);
-  vec3 leaves = vec3(0.0), enters = vec3(0.0);
-  float sum = 0.0;
+  vec3 leaves = vec3(0.0), enters = vec3(0.0), sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     vec3 a = w[i], b = w[i == 3 ? 0 : i + 1];
     bool a_above = a.z >= 0.0, b_above = b.z >= 0.0;
     vec3 crossing = vec3(a.xy + (b.xy - a.xy) * (a_above == b_above ? 0.0 : a.z / (a.z - b.z)), 0.0);
     if (a_above && !b_above) leaves = crossing;
     if (!a_above && b_above) enters = crossing;
-    float part = edge_z(a_above ? a : crossing, b_above ? b : crossing);
-    sum += a_above || b_above ? part : 0.0;
+    vec3 part = edge_vector(a_above ? a : crossing, b_above ? b : crossing);
+    sum += a_above || b_above ? part : vec3(0.0);
   }
-  return -0.15915494309 * (sum + edge_z(leaves, enters));
+  return -0.15915494309 * (sum + edge_vector(leaves, enters));
+}
+
+float reflected_polygon(vec4 inverse, vec3 v[4]) { return reflected_vector(inverse, v).z; }
+
+// From the frame of the lobe's cosine to the surface's, not unit.
+vec3 from_lobe(vec4 inverse, vec3 w) {
+  float determinant = inverse.x - inverse.y * inverse.w;
+  return vec3((w.x - inverse.y * w.z) / determinant, w.y / inverse.z, (inverse.x * w.z - inverse.w * w.x) / determinant);
 }
 
 // The same of a lobe that is one direction: 1 where a ray along it meets the polygon's bright side, -1 the other, 0 none.

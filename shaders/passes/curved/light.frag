@@ -34,15 +34,15 @@ vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float in
   vec3 across = cross(mirror, along);
   vec2 row = kernel_row(cos_theta, u_tap_rows);
   vec3 sum = vec3(0.0);
-  float count = 0.0;
+  float total = 0.0;
   for (int i = 0; i < u_tap_count; ++i) {
-    vec3 tap = kernel_tap(u_taps, i, row);
+    vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(mirror, across, along, tap.xy);
     if (dot(direction, normal) <= 0.0) continue;
-    sum += light_along(origin, direction, inverse_distance, max(tap.z, spread));
-    count += 1.0;
+    sum += tap.w * light_along(origin, direction, inverse_distance, max(tap.z, spread));
+    total += tap.w;
   }
-  return count > 0.0 ? sum / count : light_along(origin, mirror, inverse_distance, spread);
+  return total > 0.0 ? sum / total : light_along(origin, mirror, inverse_distance, spread);
 }
 
 void main() {
