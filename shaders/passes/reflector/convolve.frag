@@ -12,14 +12,13 @@ const float kLeastRadius = 1.0;
 
 void main() {
   vec2 pixel = gl_FragCoord.xy - u_origin;
-  bool varied = is_varied(pixel);
   vec4 image;
-  if (!varied && u_coarse > 1 && lobe_radius(pixel) >= kLeastRadius * float(u_coarse)) {
+  if (u_coarse > 1 && lobe_radius(pixel) >= kLeastRadius * float(u_coarse)) {
     vec2 size = vec2(u_image_size) / float(u_coarse);
     vec2 at = clamp(pixel / float(u_coarse), vec2(0.5), max(size - 0.5, vec2(0.5)));
     image = textureLod(u_blurred, at / u_texture_size, 0.0);
   } else {
-    image = convolved(pixel, varied);
+    image = convolved(pixel);
   }
   vec3 light = image.a > 0.0 ? image.rgb : u_missing;
   o_light = vec4(light * reflector_reflectance(reflector_cosine()), 1.0);

@@ -3,4 +3,4 @@
 
 layout(location = 0) out vec4 o_light;
 
-void main() { o_light = convolved(gl_FragCoord.xy * float(u_coarse), false); }
+void main() { o_light = convolved(gl_FragCoord.xy * float(u_coarse)); }
