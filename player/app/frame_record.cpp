@@ -19,13 +19,21 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
   const FrameStats& s = record.stats;
   nlohmann::ordered_json passes;
   for (std::size_t i = 0; i < kPassNames.size(); ++i) passes[kPassNames[i]] = s.ms[i];
-  return {{"camera", record.camera},  {"ms", record.ms},
-          {"pass_ms", passes},        {"draws", s.draws},
-          {"triangles", s.triangles}, {"reflectors", s.reflectors},
-          {"maps", s.maps},           {"points", s.points},
-          {"map_bytes", s.map_bytes}, {"reflected_pixels", s.reflected_pixels},
-          {"holes", s.holes},         {"mirror_pixels", s.mirror_pixels},
-          {"sharp", s.sharp},         {"in_zone", record.in_zone}};
+  return {{"camera", record.camera},
+          {"ms", record.ms},
+          {"pass_ms", passes},
+          {"draws", s.draws},
+          {"triangles", s.triangles},
+          {"reflectors", s.reflectors},
+          {"maps", s.maps},
+          {"points", s.points},
+          {"image_pixels", s.image_pixels},
+          {"map_bytes", s.map_bytes},
+          {"reflected_pixels", s.reflected_pixels},
+          {"holes", s.holes},
+          {"mirror_pixels", s.mirror_pixels},
+          {"sharp", s.sharp},
+          {"in_zone", record.in_zone}};
 }
 
 nlohmann::ordered_json as_json(const PlayArguments& arguments) {

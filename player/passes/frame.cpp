@@ -80,7 +80,8 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     if (reflector.elements.empty() || reflector.index_count == 0) continue;
     const Vec4 eye = eye_in_reflector(reflector, view);
     if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
-    Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0, candidates.size()};
+    Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
+                        kMaskQueries * candidates.size()};
     if (candidate.screen.empty) continue;
     const bool see_through = scene.is_transparent(reflector.material);
     if (!see_through && marked_.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
@@ -88,17 +89,18 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
       marked_.push_back(reflector.material);
       candidate.value = static_cast<GLint>(marked_.size());
     }
-    if (queries_.size() <= candidate.query) queries_.push_back(gpu::make_query());
-    reflector_pass_.draw_mask(scene, reflector, view,
+    while (queries_.size() < candidate.query + kMaskQueries) queries_.push_back(gpu::make_query());
+    reflector_pass_.draw_mask(scene, reflector, view, candidate.screen,
                               see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
-                              see_through ? kSeeThroughBit : kReflectorBits, queries_[candidate.query], stats);
+                              see_through ? kSeeThroughBit : kReflectorBits,
+                              std::span(queries_).subspan(candidate.query, kMaskQueries), stats);
     candidates.push_back(candidate);
   }
-  std::erase_if(candidates, [&](const Candidate& candidate) {
-    GLuint any = 0;
-    glGetQueryObjectuiv(queries_[candidate.query].name(), GL_QUERY_RESULT, &any);
-    return any == 0;
-  });
+  for (Candidate& candidate : candidates) {
+    candidate.screen =
+        ReflectorPass::visible_part(candidate.screen, view, std::span(queries_).subspan(candidate.query, kMaskQueries));
+  }
+  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.screen.empty; });
   return candidates;
 }
 
@@ -124,6 +126,7 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
+  stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && candidate.value > 0;
   if (counted && !kernel.blurs() && options.reflections == Reflections::kMarch) {
     FrameStats unused;

@@ -41,9 +41,9 @@ class Renderer {
   // A reflector whose mask was drawn.
   struct Candidate {
     const GpuReflector* reflector = nullptr;
-    NdcRect screen;
-    GLint value = 0;  // in the stencil; 0: see-through
-    std::size_t query = 0;
+    NdcRect screen;         // around what is visible of it
+    GLint value = 0;        // in the stencil; 0: see-through
+    std::size_t query = 0;  // first of kMaskQueries
   };
 
   Renderer() = default;

@@ -16,6 +16,14 @@ void draw_reflector(const GpuReflector& reflector, FrameStats& stats) {
   stats.triangles += reflector.index_count / 3;
 }
 
+// Where strip `i` of those across a rectangle begins, along each axis: whole pixels of the frame, that hold all of it.
+IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
+  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  const IVec2 lower(glm::floor((glm::clamp(screen.lower, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
+  const IVec2 upper(glm::ceil((glm::clamp(screen.upper, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
+  return lower + (upper - lower) * i / kMaskStrips;
+}
+
 // Over what the mask marked with `value`; 0: added wherever the depth leaves the reflector visible.
 gpu::RasterState where_marked(GLint value) {
   gpu::RasterState state;
@@ -44,21 +52,53 @@ Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
-                              GLuint bits, const gpu::Query& query, FrameStats& stats) const {
+void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view,
+                              const NdcRect& screen, GLint value, GLuint bits, std::span<const gpu::Query> queries,
+                              FrameStats& stats) const {
   gpu::RasterState state;
   state.depth_test = true;
   state.color_write = false;
   state.cull = gpu::Cull::kBack;
   state.stencil_ref = value;
-  state.stencil_write = bits;
-  gpu::apply(state);
   mask_.use();
   mask_.set("u_clip_from_pack", view.clip_from_pack);
   scene.bind_geometry();
-  glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
-  draw_reflector(reflector, stats);
-  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  glEnable(GL_SCISSOR_TEST);
+  for (int axis = 0; axis < 2; ++axis) {
+    state.stencil_write = axis == 0 ? bits : 0;
+    gpu::apply(state);
+    for (int i = 0; i < kMaskStrips; ++i) {
+      IVec2 lower = strip_edge(screen, view, 0), upper = strip_edge(screen, view, kMaskStrips);
+      lower[axis] = strip_edge(screen, view, i)[axis];
+      upper[axis] = strip_edge(screen, view, i + 1)[axis];
+      glScissor(lower.x, lower.y, upper.x - lower.x, upper.y - lower.y);
+      const gpu::Query& query = queries[static_cast<std::size_t>(axis * kMaskStrips + i)];
+      glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
+      draw_reflector(reflector, stats);
+      glEndQuery(GL_ANY_SAMPLES_PASSED);
+    }
+  }
+  glDisable(GL_SCISSOR_TEST);
+}
+
+NdcRect ReflectorPass::visible_part(const NdcRect& screen, const View& view, std::span<const gpu::Query> queries) {
+  NdcRect out;
+  for (int axis = 0; axis < 2; ++axis) {
+    int first = kMaskStrips, last = -1;
+    for (int i = 0; i < kMaskStrips; ++i) {
+      GLuint any = 0;
+      glGetQueryObjectuiv(queries[static_cast<std::size_t>(axis * kMaskStrips + i)].name(), GL_QUERY_RESULT, &any);
+      if (any == 0) continue;
+      first = std::min(first, i);
+      last = i;
+    }
+    if (last < 0) return {};
+    const auto pixels = static_cast<float>(axis == 0 ? view.width : view.height);
+    out.lower[axis] = 2 * static_cast<float>(strip_edge(screen, view, first)[axis]) / pixels - 1;
+    out.upper[axis] = 2 * static_cast<float>(strip_edge(screen, view, last + 1)[axis]) / pixels - 1;
+  }
+  out.empty = false;
+  return out;
 }
 
 void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,

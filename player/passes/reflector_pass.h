@@ -1,6 +1,8 @@
 // A reflector's place in the frame: its region in the stencil, and (M * K) R drawn there.
 #pragma once
 
+#include <span>
+
 #include "player/gpu/program.h"
 #include "player/reflections/image_target.h"
 #include "player/scene/frame_options.h"
@@ -8,14 +10,21 @@
 
 namespace oriel {
 
+// A rectangle around what is visible is as tight as a strip.
+inline constexpr int kMaskStrips = 8;
+inline constexpr std::size_t kMaskQueries = 2 * kMaskStrips;
+
 class ReflectorPass {
  public:
   static Result<ReflectorPass> create(gpu::Dialect dialect);
 
   // Marks the pixels of the reflector that the frame's depth leaves visible: `value` in the bits `bits` of the stencil.
-  // The query counts whether there are any.
-  void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value, GLuint bits,
-                 const gpu::Query& query, FrameStats& stats) const;
+  // screen: what the reflector covers. Drawn in strips along each axis; kMaskQueries queries count which have pixels.
+  void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, const NdcRect& screen,
+                 GLint value, GLuint bits, std::span<const gpu::Query> queries, FrameStats& stats) const;
+  // The strips of a mask that have pixels, as a rectangle around what is visible; empty where nothing is. Waits for the
+  // queries.
+  static NdcRect visible_part(const NdcRect& screen, const View& view, std::span<const gpu::Query> queries);
   // An image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
   // 0: adds to the frame wherever the depth leaves the reflector visible.
   void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,

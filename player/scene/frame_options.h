@@ -62,10 +62,11 @@ using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
-  std::uint32_t reflectors = 0;  // that had pixels in view
-  std::uint32_t maps = 0;        // radiance and surround maps chosen
-  std::uint64_t points = 0;      // of them
-  std::uint64_t map_bytes = 0;   // of all radiance and surround maps on the device so far
+  std::uint32_t reflectors = 0;    // that had pixels in view
+  std::uint32_t maps = 0;          // radiance and surround maps chosen
+  std::uint64_t points = 0;        // of them
+  std::uint64_t image_pixels = 0;  // of planar reflectors' images, with their margins
+  std::uint64_t map_bytes = 0;     // of all radiance and surround maps on the device so far
   // Of opaque reflectors, where they are counted.
   std::uint64_t reflected_pixels = 0, holes = 0;
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.

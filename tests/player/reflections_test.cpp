@@ -111,6 +111,35 @@ TEST(NearPlane, CutsThereAndKeepsTheRest) {
   }
 }
 
+// Of a mirror behind a wall only what the wall leaves open costs anything, and it looks the same.
+TEST_F(Reflected, OnlyWhatIsVisibleIsReflected) {
+  Pack pack = mirror_pack();
+  pack.radiance_maps.clear();
+  pack.reflectors.clear();
+  add_mirror(pack, {{0, 0, -1}}, 64, [](const Vec2& at, const Vec3&) {
+    return Seen{Vec3(5.0f + at.x, 5.0f + at.y, 1), 3};
+  });
+  FrameOptions options;
+  options.show = Show::kMKR;
+  const Camera camera = camera_at({0, 0, 2});
+  const Picture open = draw(pack, camera, 128, 96, options);
+  add_quad(pack, {-2, -2, 0.5f}, {2.6f, 0, 0}, {0, 4, 0}, 3, -1);  // leaves less than the right quarter
+  const Picture behind = draw(pack, camera, 128, 96, options);
+  EXPECT_LT(2 * behind.stats.image_pixels, open.stats.image_pixels);
+  int seen = 0;
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 128; ++x)
+      if (behind.at(x, y) != Vec3(0)) {
+        ++seen;
+        EXPECT_NEAR(glm::length(behind.at(x, y) - open.at(x, y)), 0, 1e-5f) << x << "," << y;
+      }
+  EXPECT_GT(seen, 200);
+  add_quad(pack, {-2, -2, 0.4f}, {4, 0, 0}, {0, 4, 0}, 3, -1);
+  const Picture hidden = draw(pack, camera, 128, 96, options);
+  EXPECT_EQ(hidden.stats.image_pixels, 0u);
+  EXPECT_EQ(hidden.stats.reflectors, 0u);
+}
+
 // The lobe shows a parallel square as its form factor from a point under its centre (Nusselt).
 TEST_F(Reflected, EmittersInACosineLobeAreFormFactors) {
   Pack pack = lamp_pack();
