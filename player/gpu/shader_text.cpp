@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kDesktopHead = "#version 330 core\n";
 constexpr std::string_view kEsHead =
     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-    "precision highp sampler2DArray;\nprecision highp isampler2D;\nprecision highp sampler2DArrayShadow;\n";
+    "precision highp sampler2DArray;\nprecision highp isampler2D;\nprecision highp usampler2D;\nprecision highp sampler2DArrayShadow;\n";
 constexpr std::string_view kInclude = "#include \"";
 
 Status append_file(std::string_view name, std::set<std::string_view>& done, ShaderText& out) {
