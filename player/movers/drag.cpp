@@ -64,7 +64,7 @@ MoverMove& move_of(std::vector<MoverMove>& moves, const Mover& mover, const Move
 }
 
 std::string text_of(const MoverMove& move) {
-  return fmt::format("{}={:.4g},{:.4g},{:.4g},{:.4g}", move.node, move.position.x, move.position.y, move.position.z,
+  return fmt::format("{}={:.3f},{:.3f},{:.3f},{:.1f}", move.node, move.position.x, move.position.y, move.position.z,
                      std::remainder(move.yaw_rad, 2 * kPiD) * 180 / kPiD);
 }
 
