@@ -140,8 +140,9 @@ void add_mover_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(lights).description(""))
       ->type_name("shadowed|unshadowed|harmonics")
       ->default_str("shadowed");
-  app.add_option("--light-points", out.frame.light_points,
-                 "Points of each bright light that movers' shadows are taken from: more are softer and cost more")
+  app.add_option(
+         "--light-points", out.frame.light_points,
+         "Points of a bright light that movers' shadows are taken from, at most: lights that look small take fewer")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
 }
