@@ -164,6 +164,8 @@ class FieldBake {
     }
   }
 
+  // As little as keeps irradiance, which is what transfer asks for, from ringing below zero. Radiance itself may: a
+  // window that mends it too takes a tenth of the light of a doorway from what faces it.
   Status window() {
     const std::size_t count = static_cast<std::size_t>(sh_count(options_.bands));
     return parallel_for(context_, "", field_.probes.size(), [&](std::size_t p) {
@@ -173,7 +175,11 @@ class FieldBake {
       double lambda = 0;  // one for all colours, so that none tints what is left
       for (std::size_t c = 0; c < 3; ++c) {
         if (!(values[c * count] > 0)) std::fill(channel(c).begin(), channel(c).end(), 0.0);
-        lambda = std::max(lambda, window_without_ringing(channel(c)));
+        std::vector<double> irradiance(channel(c).begin(), channel(c).end());
+        for (int l = 0; l < options_.bands; ++l)
+          for (int i = sh_index(l, -l); i <= sh_index(l, l); ++i)
+            irradiance[static_cast<std::size_t>(i)] *= cosine_factor(l);
+        lambda = std::max(lambda, window_without_ringing(irradiance));
       }
       for (std::size_t c = 0; c < 3; ++c) window_sh(lambda, channel(c));
       for (std::size_t i = 0; i < sh.size(); ++i) sh[i] = static_cast<float>(values[i]);

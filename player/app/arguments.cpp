@@ -23,6 +23,7 @@ constexpr const char* kFooter =
     "  W A S D        walk           Q E    down, up (flying)     F      fly or walk\n"
     "  arrows, mouse  look           Shift  faster                wheel  speed\n"
     "  click          grab the mouse; Esc releases it, then quits; Ctrl-Q quits\n"
+    "  drag a mover   along its level; with R it turns        Backspace  all movers back\n"
     "  1 … 9          cameras        P      play the path         F12    screenshot\n"
     "  + -            exposure       X      automatic exposure    M      next stage of --show\n\n"
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
@@ -139,8 +140,9 @@ void add_mover_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(lights).description(""))
       ->type_name("shadowed|unshadowed|harmonics")
       ->default_str("shadowed");
-  app.add_option("--light-points", out.frame.light_points,
-                 "Points of each bright light that movers' shadows are taken from: more are softer and cost more")
+  app.add_option(
+         "--light-points", out.frame.light_points,
+         "Points of a bright light that movers' shadows are taken from, at most: lights that look small take fewer")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
 }

@@ -24,6 +24,7 @@ struct Shot {
   std::string name;
   Camera camera;
   std::string file;
+  float time_s = 0;  // into the path, which the movers' clock follows
 };
 
 bool is_picture(const fs::path& path) {
@@ -63,7 +64,7 @@ Result<std::vector<Shot>> path_shots(const GpuScene& scene, const PlayArguments&
   std::vector<Shot> shots;
   for (int i = 0; i < count; ++i) {
     const float time = path_duration_s(*path) * static_cast<float>(i) / static_cast<float>(std::max(count - 1, 1));
-    Shot shot{fmt::format("{}@{:.3f}", path->name, time), camera_on_path(*path, time), {}};
+    Shot shot{fmt::format("{}@{:.3f}", path->name, time), camera_on_path(*path, time), {}, time};
     if (!arguments.output.empty()) {
       shot.file = fs::path(arguments.output) / fmt::format("{:04}.{}", i, arguments.format);
     }
@@ -79,15 +80,15 @@ Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArgument
   for (const std::string& text : arguments.cameras) {
     if (text == "all") {
       if (pack.cameras.empty()) return fail(ErrorCode::kUsage, "--camera all", "found no cameras in the pack");
-      for (const Camera& camera : pack.cameras) shots.push_back({camera.name, camera, {}});
+      for (const Camera& camera : pack.cameras) shots.push_back({camera.name, camera, {}, 0});
       continue;
     }
     ORIEL_TRY(Camera camera, parse_camera(text, choices));
-    shots.push_back({camera.name.empty() || text.find('@') != std::string::npos ? text : camera.name, camera, {}});
+    shots.push_back({camera.name.empty() || text.find('@') != std::string::npos ? text : camera.name, camera, {}, 0});
   }
   if (arguments.cameras.empty()) {
     const Camera camera = initial_camera(choices, scene.bounds().lower, scene.bounds().upper);
-    shots.push_back({camera.name.empty() ? "start" : camera.name, camera, {}});
+    shots.push_back({camera.name.empty() ? "start" : camera.name, camera, {}, 0});
   }
   const fs::path output = arguments.output;
   if (output.empty()) return shots;  // nothing but times
@@ -127,19 +128,19 @@ namespace {
 
 class Studio {
  public:
-  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, std::vector<MoverPose> poses)
+  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments)
       : scene_(scene),
         renderer_(renderer),
         arguments_(arguments),
         options_(arguments.frame),
         zone_(planned_zone(scene.pack())) {
-    options_.poses = std::move(poses);
     options_.timed = !arguments.stats.empty();
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
+    ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
     const View view =
         make_view(shot.camera, arguments_.width, arguments_.height, bounds_with_movers(scene_, options_.poses));
     std::vector<FrameRecord> records;
@@ -201,8 +202,7 @@ Status play_offscreen(Pack pack, const PlayArguments& arguments) {
   const bool along_path = !arguments.path.empty();
   ORIEL_TRY(const auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  ORIEL_TRY(std::vector<MoverPose> poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
-  Studio studio(*scene, *renderer, arguments, std::move(poses));
+  Studio studio(*scene, *renderer, arguments);
   std::vector<FrameRecord> records;
   FlickerMeter flicker;
   for (const Shot& shot : shots) {

@@ -9,6 +9,7 @@
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
+#include "player/movers/drag.h"
 #include "player/movers/poses.h"
 #include "player/passes/frame.h"
 #include "player/walk/zone.h"
@@ -70,12 +71,43 @@ struct Session {
   bool metered = false;
   double path_time = -1;  // seconds into the path; negative: not playing
   int screenshot = 0;     // asked for, if not 0
+  std::vector<MoverMove> moves, moves_at_start;
+  std::optional<Grip> grip;  // of a mover that is dragged
 };
 
 std::string next_screenshot() {
   for (int i = 0;; ++i) {
     const std::string name = fmt::format("oriel-{:03}.png", i);
     if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+constexpr float kTurnPerWidth = 2 * kPi;  // of a mover, across the window
+constexpr float kFarthest = 4;            // that one is dragged, in radii of the scene
+
+// The left button takes what moves there, and it follows the pointer, on its level or, with R, about itself; elsewhere
+// it grabs the mouse. view: of the last frame.
+void drag(const InputFrame& input, const GpuScene& scene, const View& view, const Vec2& last_pointer,
+          WindowInput& window, Session& session) {
+  const Pack& pack = scene.pack();
+  const PickRay ray = ray_through(view, input.pointer);
+  if (input.clicked) {
+    session.grip = grip_mover(pack, session.frame.poses, ray);
+    if (!session.grip) window.grab(true);
+  } else if (session.grip) {
+    Grip& grip = *session.grip;
+    const MoverPose& pose = session.frame.poses[grip.mover];
+    MoverMove& move = move_of(session.moves, pack.movers[grip.mover], pose, pack.mesh.origin);
+    const auto to = on_level(ray, grip.at.y, kFarthest * scene.bounds().radius());
+    if (input.turning) {
+      move.yaw_rad += static_cast<double>(kTurnPerWidth * (input.pointer.x - last_pointer.x));
+    } else if (to) {
+      move.position += DVec3(*to - grip.at);
+    }
+    if (to) grip.at = *to;
+    if (input.holding) return;
+    fmt::print(stderr, "oriel-play: --move \"{}\"\n", text_of(move));
+    session.grip.reset();
   }
 }
 
@@ -109,6 +141,9 @@ void handle_key(int key, const Pack& pack, Session& session) {
       break;
     case GLFW_KEY_M:
       session.frame.show = static_cast<Show>((static_cast<int>(session.frame.show) + 1) % 5);
+      break;
+    case GLFW_KEY_BACKSPACE:
+      session.moves = session.moves_at_start;
       break;
     case GLFW_KEY_F12:
       session.screenshot = 1;
@@ -150,6 +185,7 @@ class Loop {
       : window_(window), scene_(scene), renderer_(renderer), arguments_(arguments), input_(window.get()) {
     session_.camera = camera;
     session_.frame = arguments.frame;
+    session_.moves = session_.moves_at_start = arguments.moves;
     session_.manual_ev100 = arguments.ev100;
     session_.move.speed_m_s = 1.4f;
   }
@@ -164,6 +200,8 @@ class Loop {
       if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
       if (input.quit) return {};
       advance(input, scene_.pack(), dt_s, session_);
+      drag(input, scene_, view_, pointer_, input_, session_);
+      pointer_ = input.pointer;
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_.get(), &width, &height);
       if (width < 1 || height < 1) {  // minimised: nothing to draw, and nothing to hurry for
@@ -179,10 +217,9 @@ class Loop {
   Status draw(int width, int height, float dt_s) {
     session_.frame.timed = title_is_due();  // only that one: timing waits for the device
     session_.frame.white = white_of_exposure(session_.shown_ev100);
-    ORIEL_TRY(session_.frame.poses,
-              poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + seconds_since(start_)));
-    const View view = make_view(session_.camera, width, height, bounds_with_movers(scene_, session_.frame.poses));
-    ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view, session_.frame));
+    ORIEL_TRY(session_.frame.poses, poses_at(scene_.pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
+    view_ = make_view(session_.camera, width, height, bounds_with_movers(scene_, session_.frame.poses));
+    ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view_, session_.frame));
     ORIEL_TRY_VOID(update_exposure(renderer_, dt_s, session_));
     if (session_.screenshot != 0) {
       session_.screenshot = 0;
@@ -219,6 +256,8 @@ class Loop {
   WindowInput input_;
   Session session_;
   const Zone zone_ = planned_zone(scene_.pack());
+  View view_;        // of the last frame
+  Vec2 pointer_{0};  // then
   const Clock::time_point start_ = Clock::now();
   Clock::time_point rate_start_ = Clock::now();
   int rate_frames_ = 0;

@@ -18,8 +18,12 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window,
                      [](GLFWwindow* w, int code, int, int action, int mods) { self(w)->key(code, action, mods); });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int action, int) {
-    if (action == GLFW_PRESS) self(w)->grab(true);
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    if (action != GLFW_PRESS) return;
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+      self(w)->clicked_ = !self(w)->grabbed_;
+    else
+      self(w)->grab(true);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     WindowInput& input = *self(w);
@@ -82,6 +86,14 @@ InputFrame WindowInput::poll(float dt_s) {
   out.move.wheel = static_cast<float>(std::exchange(wheel_, 0.0));
   out.pressed = std::exchange(pressed_, {});
   out.control = control_;
+  double x = 0, y = 0;
+  int width = 0, height = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
+  out.pointer = Vec2(DVec2(x, y) / DVec2(std::max(width, 1), std::max(height, 1)));
+  out.clicked = std::exchange(clicked_, false);
+  out.holding = !grabbed_ && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+  out.turning = down(GLFW_KEY_R);
   out.quit = std::exchange(quit_, false) || glfwWindowShouldClose(window_);
   return out;
 }

@@ -17,6 +17,11 @@ struct InputFrame {
   std::vector<int> pressed;  // GLFW key codes, in order
   bool control = false;      // while the last of them was pressed
   bool quit = false;
+  // The pointer in the window, [0,1]² from the top left corner, while it is free; the left button: pressed since the
+  // last poll, still down.
+  Vec2 pointer{0};
+  bool clicked = false, holding = false;
+  bool turning = false;  // R is down
 };
 
 class WindowInput {
@@ -28,15 +33,16 @@ class WindowInput {
 
   // Handles events and returns them. dt_s: of the last frame, for keys that turn. Esc releases the mouse, or quits.
   InputFrame poll(float dt_s);
+  // Looking around with the mouse; another button than the left one grabs it too.
+  void grab(bool on);
 
  private:
   void key(int code, int action, int mods);
-  void grab(bool on);
   bool down(int code) const { return glfwGetKey(window_, code) == GLFW_PRESS; }
 
   GLFWwindow* window_;
   std::vector<int> pressed_;
-  bool control_ = false, quit_ = false, grabbed_ = false;
+  bool control_ = false, quit_ = false, grabbed_ = false, clicked_ = false;
   double last_x_ = 0, last_y_ = 0, moved_x_ = 0, moved_y_ = 0, wheel_ = 0;
   bool has_last_ = false;
 };

@@ -85,5 +85,8 @@ void Program::set(const char* uniform, std::span<const Vec3> values) const {
 void Program::set(const char* uniform, std::span<const Vec4> values) const {
   glUniform4fv(location(uniform), static_cast<GLsizei>(values.size()), &values[0][0]);
 }
+void Program::set(const char* uniform, std::span<const Mat4> values) const {
+  glUniformMatrix4fv(location(uniform), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
+}
 
 }  // namespace oriel::gpu

@@ -49,6 +49,7 @@ class Program {
   void set(const char* uniform, const Mat4& value) const;
   void set(const char* uniform, std::span<const Vec3> values) const;
   void set(const char* uniform, std::span<const Vec4> values) const;
+  void set(const char* uniform, std::span<const Mat4> values) const;
 
  private:
   GLint location(const char* uniform) const;

@@ -16,6 +16,7 @@ void apply(const RasterState& state) {
   const GLboolean color = state.color_write ? GL_TRUE : GL_FALSE;
   glColorMask(color, color, color, state.color_write && state.alpha_write ? GL_TRUE : GL_FALSE);
   enable(GL_BLEND, state.blend != Blend::kNone);
+  glBlendEquation(state.blend == Blend::kMax ? GL_MAX : GL_FUNC_ADD);
   if (state.blend == Blend::kAdd) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ZERO);
   if (state.blend == Blend::kMultiply) glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
   enable(GL_CULL_FACE, state.cull != Cull::kNone);

@@ -5,7 +5,8 @@
 
 namespace oriel::gpu {
 
-enum class Blend { kNone, kAdd, kMultiply };  // kAdd: colour adds, alpha is replaced; kMultiply: colour only
+// kAdd: colour adds, alpha is replaced; kMultiply: colour only; kMax: the larger of each channel.
+enum class Blend { kNone, kAdd, kMultiply, kMax };
 enum class Cull { kNone, kBack, kFront };
 
 struct RasterState {

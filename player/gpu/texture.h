@@ -20,6 +20,7 @@ inline constexpr TextureFormat kRgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
 inline constexpr TextureFormat kRgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TextureFormat kRgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 inline constexpr TextureFormat kRgba16i{GL_RGBA16I, GL_RGBA_INTEGER, GL_SHORT, 8};
+inline constexpr TextureFormat kRgba32ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
 inline constexpr TextureFormat kR8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TextureFormat kR32ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
 inline constexpr TextureFormat kRgb9e5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4};

@@ -1,194 +1,282 @@
 #include "player/movers/bright_pass.h"
 
-#include "player/movers/shadow_shaft.h"
+#include <algorithm>
+
 #include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
 
-constexpr int kMapSize = 512;                // texels of a layer, as in passes/mover/bright_light.frag
-constexpr int kNoShadows = -2, kScene = -1;  // u_receiver
+// LitSurface::id: the scene, nothing; movers count from 1, by their place among those of the frame.
+constexpr int kSceneId = 0, kNothingId = 1023;
+constexpr GLuint kNothing[] = {0, 0, 0, ~0u};
 
-Vec3 inverse_half(const Bounds& box) {
-  const Vec3 half = 0.5f * (box.upper - box.lower);
-  return {half.x > 0 ? 1 / half.x : 0, half.y > 0 ? 1 / half.y : 0, half.z > 0 ? 1 / half.z : 0};
+int id_of(std::size_t mover) {
+  return static_cast<int>(std::min<std::size_t>(mover + 1, kNothingId));
 }
 
-const LinearShare* share_of(const PlacedMover& placed, std::uint32_t light) {
-  for (const LinearShare& share : placed.light.bright)
-    if (share.light == light) return &share;
-  return nullptr;
+Mat4 box_from_pack(const PlacedMover& placed) {
+  const Bounds& box = placed.mover->bounds;
+  const Vec3 half = 0.5f * (box.upper - box.lower), middle = box.center();
+  Mat4 scale(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    scale[axis][axis] = half[axis] > 0 ? 1 / half[axis] : 0;
+    scale[3][axis] = -middle[axis] * scale[axis][axis];
+  }
+  scale[3][3] = 1;
+  return scale * glm::inverse(placed.pack_from_object);
 }
 
-// A layer's maps, one for each point, lie side by side.
-int tiles_aside(const LightSamples& light) {
-  return light.at.size() > 4 ? 4 : light.at.size() > 1 ? 2 : 1;
+ShadowBox box_around(const PlacedMover& placed) {
+  const Bounds& box = placed.mover->bounds;
+  ShadowBox out;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vec3 upper(i & 1, i >> 1 & 1, i >> 2);
+    out[i] = Vec3(placed.pack_from_object * Vec4(glm::mix(box.lower, box.upper, upper), 1));
+  }
+  return out;
 }
 
-gpu::TextureArray make_maps(int layers) {
-  gpu::TextureOptions options;
-  options.min_filter = options.mag_filter = GL_LINEAR;
-  options.compare = true;
-  return {gpu::kDepth32f, kMapSize, kMapSize, layers, options};
+// The screen's rectangle that holds points: lower x, y, upper x, y. All of it where one is behind the eye.
+Vec4 rectangle_of(const Mat4& clip_from_pack, std::span<const Vec3> points) {
+  Vec2 lower(1), upper(-1);
+  for (const Vec3& p : points) {
+    const Vec4 clip = clip_from_pack * Vec4(p, 1);
+    if (!(clip.w > 1e-6f * std::max(std::abs(clip.x), std::abs(clip.y)))) return {-1, -1, 1, 1};
+    const Vec2 at = glm::clamp(Vec2(clip) / clip.w, Vec2(-1), Vec2(1));
+    lower = glm::min(lower, at);
+    upper = glm::max(upper, at);
+  }
+  return {lower, upper};
+}
+
+std::size_t groups_of(const LightSamples& light) {
+  return (light.at.size() + kPointsOfLayer - 1) / kPointsOfLayer;
+}
+
+std::span<const Vec4> points_of(const LightSamples& light, std::size_t group) {
+  const std::span<const Vec4> rest = std::span(light.at).subspan(group * kPointsOfLayer);
+  return rest.first(std::min<std::size_t>(kPointsOfLayer, rest.size()));
 }
 
 }  // namespace
 
 Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
-  ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
+  ORIEL_TRY(pass.maps_, ShadowMaps::create(dialect));
+  ORIEL_TRY(pass.surface_, gpu::Program::create("mover/surface", dialect));
+  ORIEL_TRY(pass.shadow_, gpu::Program::create("mover/shadow", dialect));
   ORIEL_TRY(pass.light_, gpu::Program::create("mover/bright_light", dialect));
+  pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }
 
-Status BrightPass::ensure_targets(int width, int height, const gpu::Texture& depth, int layers) {
-  if (!framebuffer_ || change_.width() != width || change_.height() != height || depth_of_frame_ != depth.name()) {
-    change_ = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
-    depth_of_frame_ = depth.name();
-    ORIEL_TRY(framebuffer_, gpu::Framebuffer::create("bright lights", &change_, &depth, true));
-  }
-  if (layers > layers_) {
-    mover_depth_ = make_maps(layers);
-    scene_depth_ = make_maps(layers);
-    if (!layers_target_) layers_target_ = gpu::Framebuffer::create_for_layers();
-    layers_ = layers;
-  }
-  return gpu::check_gl("making shadow maps");
+Status BrightPass::Canvas::make(int width, int height, const gpu::Texture& depth, bool stencil) {
+  surfaces = gpu::Texture(gpu::kRgba32ui, width, height, nullptr);
+  taken = gpu::Texture(gpu::kRgba8, width, height, nullptr);
+  change = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
+  ORIEL_TRY(surfaces_target, gpu::Framebuffer::create("surfaces", &surfaces, &depth, stencil));
+  ORIEL_TRY(taken_target, gpu::Framebuffer::create("shadows", &taken, nullptr));
+  ORIEL_TRY(change_target, gpu::Framebuffer::create("bright lights", &change, nullptr));
+  return gpu::check_gl("making the pictures of bright lights");
 }
 
-void BrightPass::draw_depth(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_pack,
-                            FrameStats& stats) const {
-  depth_.set("u_clip_from_pack", clip_from_pack);
-  const Frustum frustum = make_frustum(clip_from_pack);
+void BrightPass::Canvas::bind(const gpu::Framebuffer& target) const {
+  target.bind();
+  glViewport(0, 0, change.width(), change.height());
+}
+
+Status BrightPass::make_targets(int width, int height, const gpu::Texture& depth) {
+  const int half_width = (width + 1) / 2, half_height = (height + 1) / 2;
+  scene_depth_ = gpu::Texture(gpu::kDepth32f, half_width, half_height, nullptr);
+  ORIEL_TRY_VOID(of_movers_.make(width, height, depth, true));
+  return of_scene_.make(half_width, half_height, scene_depth_, false);
+}
+
+void BrightPass::draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_object,
+                             const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const {
+  surface_.set("u_clip_from_pack", clip_from_object);
+  surface_.set("u_pack_from_object", pack_from_object);
+  const Frustum frustum = make_frustum(clip_from_object);
   for (const DrawRange& range : ranges) {
     if (!may_be_visible(frustum, range.bounds)) continue;
     const Material& m = scene.pack().materials[range.material];
-    depth_.set("u_alpha", m.alpha);
-    depth_.set("u_alpha_cutoff", cutoff_of(m));
+    state.cull = cull_of(m);
+    gpu::apply(state);
+    surface_.set("u_id", m.unlit ? kNothingId : id);
+    surface_.set("u_alpha", m.alpha);
+    surface_.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
     draw_indices(range.first_index, range.index_count, stats);
   }
 }
 
-void BrightPass::draw_maps(const GpuScene& scene, const LightSamples& light,
-                           std::span<const PlacedMover* const> casters, FrameStats& stats) const {
-  const int side = tiles_aside(light), tile = kMapSize / side;
-  const float reach = 2 * scene.bounds().radius();
-  depth_.use();
-  depth_.set("u_base_texture", kBaseUnit);
-  layers_target_.bind();
-  gpu::RasterState state;
-  state.depth_test = state.depth_write = true;
-  state.color_write = false;
-  gpu::apply(state);
-  for (std::size_t layer = 0; layer < casters.size(); ++layer) {
-    const PlacedMover& placed = *casters[layer];
-    for (const bool of_scene : {false, true}) {
-      layers_target_.attach_depth_layer(of_scene ? scene_depth_ : mover_depth_, static_cast<int>(layer));
-      glViewport(0, 0, kMapSize, kMapSize);
-      glClear(GL_DEPTH_BUFFER_BIT);
-      if (of_scene) scene.bind_geometry();
-      if (!of_scene) glBindVertexArray(placed.mover->vertex_array.name());
-      for (std::size_t i = 0; i < light.at.size(); ++i) {
-        const Shaft shaft = make_shaft(light.at[i], placed.sphere);
-        const auto column = static_cast<int>(i) % side, row = static_cast<int>(i) / side;
-        glViewport(tile * column, tile * row, tile, tile);
-        if (of_scene)
-          draw_depth(scene, scene.opaque(), clip_from_pack(shaft, scene_range(shaft, reach)), stats);
-        else
-          draw_depth(scene, placed.mover->ranges,
-                     clip_from_pack(shaft, mover_range(shaft, placed.sphere.w)) * placed.pack_from_object, stats);
-      }
-    }
-  }
-}
-
-void BrightPass::set_light(const LightSamples& light, std::span<const PlacedMover* const> casters, float reach) const {
-  std::vector<Vec4> spheres;
-  for (const PlacedMover* caster : casters) spheres.push_back(caster->sphere);
-  light_.use();
-  light_.set("u_base_texture", kBaseUnit);
-  light_.set("u_mover_depth", kShadowUnit);
-  light_.set("u_scene_depth", kStaticUnit);
-  light_.set("u_at", std::span<const Vec4>(light.at));
-  light_.set("u_samples", static_cast<int>(light.at.size()));
-  light_.set("u_side", tiles_aside(light));
-  light_.set("u_intensity", light.intensity);
-  light_.set("u_axis", light.axis);
-  light_.set("u_cones", light.cones);
-  light_.set("u_cosine", light.cosine ? 1 : 0);
-  light_.set("u_center", light.center);
-  light_.set("u_radius", light.radius);
-  if (!spheres.empty()) light_.set("u_spheres", std::span<const Vec4>(spheres));
-  light_.set("u_movers", static_cast<int>(spheres.size()));
-  light_.set("u_reach", reach);
-  mover_depth_.bind(kShadowUnit);
-  scene_depth_.bind(kStaticUnit);
-}
-
-void BrightPass::draw_receiver(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Frustum* frustum,
+// Movers where the frame's depth has them; the scene as if there were none.
+void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
                                FrameStats& stats) const {
   gpu::RasterState state;
   state.depth_test = true;
+  surface_.use();
+  surface_.set("u_base_texture", kBaseUnit);
+  of_movers_.bind(of_movers_.surfaces_target);
+  glClearBufferuiv(GL_COLOR, 0, kNothing);
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    glBindVertexArray(movers[i].mover->vertex_array.name());
+    draw_ranges(scene, movers[i].mover->ranges, clip_from_object(view, movers[i]), movers[i].pack_from_object, id_of(i),
+                state, stats);
+  }
+  of_scene_.bind(of_scene_.surfaces_target);
+  state.depth_write = true;
+  gpu::apply(state);
+  glClearBufferuiv(GL_COLOR, 0, kNothing);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  scene.bind_geometry();
+  draw_ranges(scene, scene.opaque(), view.clip_from_pack, Mat4(1), kSceneId, state, stats);
+}
+
+void BrightPass::start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const {
+  canvas.bind(canvas.taken_target);
+  gpu::RasterState state;
+  gpu::apply(state);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  state.blend = gpu::Blend::kMax;
+  state.cull = gpu::Cull::kFront;  // one layer of pixels, from within too
+  gpu::apply(state);
+  shadow_.use();
+  shadow_.set("u_surfaces", kSurfaceUnit);
+  shadow_.set("u_mover_depth", kShadowUnit);
+  shadow_.set("u_scene_depth", kStaticUnit);
+  shadow_.set("u_clip_from_pack", view.clip_from_pack);
+  shadow_.set("u_at", points);
+  shadow_.set("u_points", static_cast<int>(points.size()));
+  canvas.surfaces.bind(kSurfaceUnit);
+  maps_.movers().bind(kShadowUnit);
+  maps_.scene().bind(kStaticUnit);
+}
+
+void BrightPass::set_caster(const LitMovers::Caster& caster, std::span<const Vec4> points, int layer,
+                            float reach) const {
+  std::array<Mat4, kPointsOfLayer> places{};
+  std::array<Vec4, kPointsOfLayer> depths{};
+  Vec4 tangents(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Shaft shaft = make_shaft(points[i], caster.mover->sphere);
+    places[i] = place_from_pack(shaft);
+    depths[i] = {depth_terms(shaft, mover_range(shaft, caster.mover->sphere.w)),
+                 depth_terms(shaft, scene_range(shaft, reach))};
+    tangents[static_cast<int>(i)] = shaft.tangent;
+  }
+  shadow_.set("u_places", std::span<const Mat4>(places));
+  shadow_.set("u_depths", std::span<const Vec4>(depths));
+  shadow_.set("u_tangents", tangents);
+  shadow_.set("u_layer", layer);
+  shadow_.set("u_caster", id_of(caster.index));
+}
+
+void BrightPass::draw_box(std::span<const Vec3> corners, FrameStats& stats) const {
+  shadow_.set("u_corners", corners);
+  glDrawArrays(GL_TRIANGLES, 0, 36);
+  ++stats.draws;
+}
+
+void BrightPass::start_light(const Canvas& canvas, const LitMovers& lit, std::span<const Vec4> points) const {
+  canvas.bind(canvas.change_target);
+  gpu::RasterState state;
   state.blend = gpu::Blend::kAdd;
-  for (const DrawRange& range : ranges) {
-    const Material& m = scene.pack().materials[range.material];
-    if (m.unlit || (frustum != nullptr && !may_be_visible(*frustum, range.bounds))) continue;
-    state.cull = cull_of(m);
-    gpu::apply(state);
-    light_.set("u_alpha", m.alpha);
-    light_.set("u_alpha_cutoff", cutoff_of(m));
-    scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    draw_indices(range.first_index, range.index_count, stats);
+  gpu::apply(state);
+  light_.use();
+  light_.set("u_surfaces", kSurfaceUnit);
+  light_.set("u_taken", kTakenUnit);
+  light_.set("u_at", points);
+  light_.set("u_points", static_cast<int>(points.size()));
+  light_.set("u_intensity", lit.samples.intensity / static_cast<float>(lit.samples.at.size()));
+  light_.set("u_axis", lit.samples.axis);
+  light_.set("u_cones", lit.samples.cones);
+  light_.set("u_cosine", lit.samples.cosine ? 1 : 0);
+  canvas.surfaces.bind(kSurfaceUnit);
+  canvas.taken.bind(kTakenUnit);
+}
+
+void BrightPass::draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats) const {
+  if (!(rectangle.x < rectangle.z && rectangle.y < rectangle.w)) return;
+  light_.set("u_receiver", id);
+  light_.set("u_rectangle", rectangle);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  ++stats.draws;
+}
+
+void BrightPass::add_to_movers(const View& view, const LitMovers& lit, FrameStats& stats) const {
+  for (const LitMovers::Receiver& r : lit.receivers) {
+    if (!r.visible) continue;
+    light_.set("u_box_from_pack", box_from_pack(*r.mover));
+    light_.set("u_share", r.share);
+    draw_rectangle(id_of(r.index), rectangle_of(view.clip_from_pack, box_around(*r.mover)), stats);
   }
 }
 
-Status BrightPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                        const FrameOptions& options, const gpu::Texture& depth, FrameStats& stats) {
-  ORIEL_TRY_VOID(
-      ensure_targets(view.width, view.height, depth, std::min(static_cast<int>(movers.size()), kMaxShadowMovers)));
-  framebuffer_.bind();
-  glViewport(0, 0, view.width, view.height);
-  gpu::apply({});
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
-  const Frustum frustum = make_frustum(view.clip_from_pack);
-  const std::vector<BrightLight>& lights = scene.pack().light_field.lights;
-  for (std::uint32_t l = 0; l < lights.size(); ++l) {
-    std::vector<const PlacedMover*> lit;
-    for (const PlacedMover& placed : movers)
-      if (share_of(placed, l) != nullptr) lit.push_back(&placed);
-    const LightSamples light = sample_light(lights[l], std::clamp(options.light_points, 1, kMaxLightSamples));
-    if (lit.empty() || light.at.empty()) continue;
-    std::stable_sort(lit.begin(), lit.end(), [&](const PlacedMover* a, const PlacedMover* b) {
-      return length2(Vec3(a->sphere) - light.center) < length2(Vec3(b->sphere) - light.center);
+void BrightPass::take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const {
+  std::vector<Vec3> shadows;
+  for (const LitMovers::Caster& caster : lit.casters)
+    if (caster.on_scene) shadows.insert(shadows.end(), caster.box.begin(), caster.box.end());
+  draw_rectangle(kSceneId, rectangle_of(view.clip_from_pack, shadows), stats);
+}
+
+Status BrightPass::draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats) {
+  const std::size_t groups = groups_of(lit.samples);
+  const float reach = 2 * scene.bounds().radius();
+  std::vector<ShadowMaps::Request> requests;
+  for (std::uint32_t g = 0; g < groups; ++g)
+    for (const LitMovers::Caster& caster : lit.casters)
+      requests.push_back({caster.mover, points_of(lit.samples, g), lit.light, caster.index, g});
+  ORIEL_TRY(const std::vector<int> layers, maps_.layers(scene, requests, stats));
+  glBindVertexArray(no_vertices_.name());
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::span<const Vec4> points = points_of(lit.samples, g);
+    const auto draw = [&](const Canvas& canvas, auto draw_boxes) {
+      start_shadows(canvas, view, points);
+      for (std::size_t c = 0; c < lit.casters.size(); ++c) {
+        set_caster(lit.casters[c], points, layers[g * lit.casters.size() + c], reach);
+        draw_boxes(lit.casters[c]);
+      }
+      start_light(canvas, lit, points);
+    };
+    draw(of_movers_, [&](const LitMovers::Caster& caster) {
+      for (const std::size_t r : caster.on_movers) draw_box(box_around(*lit.receivers[r].mover), stats);
     });
-    const std::size_t casting =
-        options.mover_lights == MoverLights::kShadowed ? std::min<std::size_t>(lit.size(), kMaxShadowMovers) : 0;
-    const std::span<const PlacedMover* const> casters(lit.data(), casting);
-    draw_maps(scene, light, casters, stats);
-    framebuffer_.bind();
-    glViewport(0, 0, view.width, view.height);
-    set_light(light, casters, 2 * scene.bounds().radius());
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-      const PlacedMover& placed = *lit[i];
-      light_.set("u_clip_from_pack", clip_from_object(view, placed));
-      light_.set("u_pack_from_object", placed.pack_from_object);
-      light_.set("u_box_center", placed.mover->bounds.center());
-      light_.set("u_box_scale", inverse_half(placed.mover->bounds));
-      light_.set("u_share", share_of(placed, l)->fit);
-      light_.set("u_receiver", i < casting ? static_cast<int>(i) : kNoShadows);
-      glBindVertexArray(placed.mover->vertex_array.name());
-      draw_receiver(scene, placed.mover->ranges, nullptr, stats);
-    }
-    if (casting == 0) continue;
-    light_.set("u_clip_from_pack", view.clip_from_pack);
-    light_.set("u_pack_from_object", Mat4(1));
-    light_.set("u_receiver", kScene);
-    scene.bind_geometry();
-    draw_receiver(scene, scene.opaque(), &frustum, stats);
+    add_to_movers(view, lit, stats);
+    draw(of_scene_, [&](const LitMovers::Caster& caster) {
+      if (caster.on_scene) draw_box(caster.box, stats);
+    });
+    take_from_scene(view, lit, stats);
   }
   return {};
+}
+
+Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, const View& view,
+                                                     std::span<const PlacedMover> movers, const FrameOptions& options,
+                                                     const gpu::Texture& depth, FrameStats& stats) {
+  const std::vector<LitMovers> lights =
+      find_lit(scene.pack().light_field.lights, movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
+  if (lights.empty()) return std::nullopt;
+  const BrightChange change{&of_movers_.change, &of_scene_.change, &of_scene_.surfaces};
+  Known now{scene.serial(), view.clip_from_pack,  view.width,           view.height,
+            depth.name(),   options.mover_lights, options.light_points, {}};
+  for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
+  if (now == known_) return change;
+  if (known_.width != now.width || known_.height != now.height || known_.depth != now.depth)
+    ORIEL_TRY_VOID(make_targets(view.width, view.height, depth));
+  known_ = {};
+  draw_surfaces(scene, view, movers, stats);
+  gpu::apply({});
+  glClearColor(0, 0, 0, 0);
+  for (const Canvas* canvas : {&of_movers_, &of_scene_}) {
+    canvas->bind(canvas->change_target);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(scene, view, lit, stats));
+  known_ = std::move(now);
+  return change;
 }
 
 }  // namespace oriel

@@ -1,46 +1,79 @@
 // Bright lights on movers, with their shadows; and the shadows of movers on the scene around.
 //
-// Each mover that a bright light shines on has two shadow maps from each of a few points of that light (LightSamples):
-// of the mover itself, and of the scene that stands still, both as wide as the mover is from there. On a mover the
-// light's points count where neither the scene nor a mover is nearer. The scene's lightmap holds the light as if there
-// were no movers: what they block of points that nothing else blocks is to be taken from it.
+// A bright light is a few points (LightSamples), and each mover that it shines on has shadow maps from them
+// (ShadowMaps): of itself, and of the scene that stands still. On a mover the light's points count where neither the
+// scene nor a mover is nearer. The scene's lightmap holds the light as if there were no movers: what they block of
+// points that nothing else blocks is to be taken from it.
+//
+// By pixel: what is seen there (position, normal, which mover) is drawn once. Then, for four points of a light after
+// the other, the share that each mover takes from each point is gathered where its shadow can fall, the largest counts,
+// and the light that is left or taken is added up. Where neither eye nor mover moved, the pictures stay. Movers are
+// seen at full size, the scene at half of it: most shadows are soft.
 #pragma once
 
-#include "player/gpu/framebuffer.h"
-#include "player/movers/light_samples.h"
-#include "player/movers/mover_pass.h"
+#include <optional>
+
+#include "player/gpu/raster_state.h"
+#include "player/movers/lit_movers.h"
+#include "player/movers/shadow_maps.h"
 
 namespace oriel {
 
-inline constexpr int kMaxShadowMovers = 16;  // of one light: others get its light without shadows and cast none
+// What bright lights change, lux by pixel.
+struct BrightChange {
+  const gpu::Texture* on_movers = nullptr;       // what they add there; of the view's size
+  const gpu::Texture* on_scene = nullptr;        // what movers take of them; half the view's size, rounded up
+  const gpu::Texture* scene_surfaces = nullptr;  // where that is: shaders/lib/lit_surface.glsl
+};
 
 class BrightPass {
  public:
   static Result<BrightPass> create(gpu::Dialect dialect);
 
-  // Into a picture of the view's size: lux by pixel that bright lights add on movers, or that movers take from the
-  // scene. depth: of the frame, the movers included. Its own framebuffer stays bound. Error kRuntime.
-  Status draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const FrameOptions& options,
-              const gpu::Texture& depth, FrameStats& stats);
-  // Of the last draw.
-  const gpu::Texture& change() const { return change_; }
+  // depth: of the frame, the movers included. Nothing where bright lights change nothing; what is given holds until the
+  // next call. Own framebuffers stay bound. Error kRuntime.
+  Result<std::optional<BrightChange>> draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                                           const FrameOptions& options, const gpu::Texture& depth, FrameStats& stats);
 
  private:
-  Status ensure_targets(int width, int height, const gpu::Texture& depth, int layers);
-  void draw_maps(const GpuScene& scene, const LightSamples& light, std::span<const PlacedMover* const> casters,
-                 FrameStats& stats) const;
-  void draw_depth(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_pack,
-                  FrameStats& stats) const;
-  void set_light(const LightSamples& light, std::span<const PlacedMover* const> casters, float reach) const;
-  void draw_receiver(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Frustum* frustum,
+  struct Canvas {
+    gpu::Texture surfaces, taken, change;
+    gpu::Framebuffer surfaces_target, taken_target, change_target;
+    Status make(int width, int height, const gpu::Texture& depth, bool stencil);
+    void bind(const gpu::Framebuffer& target) const;
+  };
+  Status make_targets(int width, int height, const gpu::Texture& depth);
+  void draw_surfaces(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
                      FrameStats& stats) const;
+  void draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_object,
+                   const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const;
+  Status draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats);
+  void start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const;
+  void set_caster(const LitMovers::Caster& caster, std::span<const Vec4> points, int layer, float reach) const;
+  void draw_box(std::span<const Vec3> corners, FrameStats& stats) const;
+  void start_light(const Canvas& canvas, const LitMovers& lit, std::span<const Vec4> points) const;
+  void add_to_movers(const View& view, const LitMovers& lit, FrameStats& stats) const;
+  void take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const;
+  void draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats) const;
 
-  gpu::Program depth_, light_;
-  gpu::Texture change_;
-  GLuint depth_of_frame_ = 0;
-  gpu::Framebuffer framebuffer_, layers_target_;
-  gpu::TextureArray mover_depth_, scene_depth_;
-  int layers_ = 0;
+  // What the pictures depend on.
+  struct Known {
+    std::uint64_t scene = 0;
+    Mat4 clip_from_pack{0};
+    int width = 0, height = 0;
+    GLuint depth = 0;  // of the frame
+    MoverLights lights = MoverLights::kShadowed;
+    int points = 0;
+    std::vector<Mat4> poses;
+    bool operator==(const Known&) const = default;
+  };
+
+  ShadowMaps maps_;
+  gpu::Program surface_, shadow_, light_;
+  gpu::VertexArray no_vertices_;
+  gpu::Texture scene_depth_;
+  Canvas of_movers_, of_scene_;
+  Known known_;
 };
 
 }  // namespace oriel

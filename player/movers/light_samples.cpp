@@ -3,6 +3,9 @@
 namespace oriel {
 namespace {
 
+// Tangents of half a light's width: from where it takes 4, 8, and all points.
+constexpr float kPointLike = 0.01f, kWide = 0.4f, kVeryWide = 1;
+
 // Hammersley's set.
 Vec2 hammersley(int i, int count) {
   float y = 0, half = 0.5f;
@@ -72,6 +75,17 @@ LightSamples sample_light(const BrightLight& light, int points) {
     for (const Vec4& at : out.at) out.radius = std::max(out.radius, glm::distance(Vec3(at), out.center));
   }
   return out;
+}
+
+int choose_points(const BrightLight& light, std::span<const Vec4> spheres, int most) {
+  const LightSamples all = sample_light(light, kMaxLightSamples);
+  if (light.kind == BrightLightKind::kPoint || light.kind == BrightLightKind::kSpot) return 1;
+  float tangent = light.kind == BrightLightKind::kDirectional ? all.radius : 0;
+  if (light.kind == BrightLightKind::kPolygon)
+    for (const Vec4& sphere : spheres)
+      tangent = std::max(tangent, all.radius / std::max(glm::distance(Vec3(sphere), all.center), 1e-6f));
+  const int wanted = tangent < kPointLike ? 1 : tangent < kWide ? 4 : tangent < kVeryWide ? 8 : kMaxLightSamples;
+  return std::clamp(most, 1, wanted);
 }
 
 Vec3 facing_irradiance(const LightSamples& light, std::size_t i, const Vec3& p, Vec3& towards) {

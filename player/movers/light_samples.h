@@ -1,6 +1,8 @@
 // A bright light as a few points, for shadows: no OpenGL.
 #pragma once
 
+#include <span>
+
 #include "formats/assets/light_field.h"
 
 namespace oriel {
@@ -23,6 +25,10 @@ struct LightSamples {
 };
 // points: of lights that have a size, 1 to kMaxLightSamples.
 LightSamples sample_light(const BrightLight& light, int points = kMaxLightSamples);
+
+// How many points give a light's shadows of those movers: none blurs more, seen from the nearest, than the light's size
+// asks for. spheres: around the movers. most: 1 to kMaxLightSamples.
+int choose_points(const BrightLight& light, std::span<const Vec4> spheres, int most);
 
 // Irradiance of a surface at p that faces sample i, unshadowed, times `count`: the sum over i is that of the light.
 // towards: unit, from p to the sample.

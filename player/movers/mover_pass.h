@@ -30,6 +30,8 @@ inline Mat4 clip_from_object(const View& view, const PlacedMover& placed) {
   return view.clip_from_pack * placed.pack_from_object;
 }
 
+inline constexpr int kMaxShadowMovers = 16;  // of one light: others get its light without shadows and cast none
+
 // In the stencil, where a mover is seen.
 inline constexpr GLuint kMoverBits = 0x7f;
 

@@ -184,15 +184,15 @@ std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, co
   return see_through;
 }
 
-Result<const gpu::Texture*> Renderer::draw_change(const GpuScene& scene, const View& view,
-                                                  std::span<const PlacedMover> movers, const FrameOptions& options,
-                                                  FrameStats& stats) {
-  if (movers.empty()) return nullptr;
-  ORIEL_TRY_VOID(clock_.time(Pass::kMovers,
-                             [&] { return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats); }));
+Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene, const View& view,
+                                                          std::span<const PlacedMover> movers,
+                                                          const FrameOptions& options, FrameStats& stats) {
+  ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] {
+    return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats);
+  }));
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
-  return &bright_pass_.change();
+  return change;
 }
 
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
@@ -234,11 +234,12 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    ORIEL_TRY(const gpu::Texture* const change, draw_change(scene, view, movers, options, stats));
+    ORIEL_TRY(const auto change, draw_change(scene, view, movers, options, stats));
     clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, change, stats); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
-        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission}, change, stats);
+        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission},
+                         change ? change->on_movers : nullptr, stats);
       });
     }
     ORIEL_TRY(const float white, white_for(scene, options));

@@ -57,9 +57,10 @@ class Renderer {
   // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
   std::vector<const GpuCurvedReflector*> draw_curved(GpuScene& scene, const View& view, const FrameOptions& options,
                                                      std::set<std::uint32_t>& reflective, FrameStats& stats);
-  // What movers change of the light on what is seen; null where there are none.
-  Result<const gpu::Texture*> draw_change(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                                          const FrameOptions& options, FrameStats& stats);
+  // What movers change of the light on what is seen, if anything.
+  Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
+                                                  std::span<const PlacedMover> movers, const FrameOptions& options,
+                                                  FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;

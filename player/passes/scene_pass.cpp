@@ -35,6 +35,8 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   program.set("u_direction", kDirectionUnit);
   program.set("u_normal_texture", kNormalUnit);
   program.set("u_change", kChangeUnit);
+  program.set("u_surfaces", kPlaceUnit);
+  program.set("u_change_scale", Vec2(0));
   program.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
   scene.bind_geometry();
@@ -80,11 +82,16 @@ void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& 
 }
 
 void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                            const std::set<std::uint32_t>& reflective, const gpu::Texture* change,
+                            const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change,
                             FrameStats& stats) const {
   set_frame(opaque_, scene, view);
-  opaque_.set("u_changed", change != nullptr ? 1 : 0);
-  if (change != nullptr) change->bind(kChangeUnit);
+  if (change) {
+    change->on_scene->bind(kChangeUnit);
+    change->scene_surfaces->bind(kPlaceUnit);
+    opaque_.set("u_change_scale",
+                Vec2(static_cast<float>(change->on_scene->width()) / static_cast<float>(view.width),
+                     static_cast<float>(change->on_scene->height()) / static_cast<float>(view.height)));
+  }
   opaque_.set("u_alpha_kind", 0);
   gpu::RasterState state;
   state.depth_test = true;
@@ -110,7 +117,6 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
 void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
                                std::span<const std::uint32_t> dark, FrameStats& stats) const {
   set_frame(opaque_, scene, view);
-  opaque_.set("u_changed", 0);
   opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
   opaque_.set("u_depth_row", depth_row);
   opaque_.set("u_closest", closest);

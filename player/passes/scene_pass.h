@@ -5,6 +5,7 @@
 #include <span>
 
 #include "player/gpu/program.h"
+#include "player/movers/bright_pass.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
 #include "player/view/view.h"
@@ -30,10 +31,11 @@ class ScenePass {
   // Depth of the opaque scene into the bound framebuffer.
   void draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const;
   // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
-  // added to, without the undirected part. reflective: materials with such pixels. change: lux by pixel that movers
-  // take; may be null.
+  // added to, without the undirected part. reflective: materials with such pixels. change: what
+  // movers take, if anything.
   void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                   const std::set<std::uint32_t>& reflective, const gpu::Texture* change, FrameStats& stats) const;
+                   const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change,
+                   FrameStats& stats) const;
   // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
   // orthographic view 1 / dot(depth_row, point). At least `closest`. dark: of Pack::emitters, those that do not shine.
   void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,

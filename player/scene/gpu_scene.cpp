@@ -1,6 +1,7 @@
 #include "player/scene/gpu_scene.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
@@ -44,6 +45,8 @@ MapMeans means_of_maps(const Pack& pack, const Reflector& reflector) {
 Result<std::unique_ptr<GpuScene>> GpuScene::create(Pack pack, const gpu::Device& device) {
   ORIEL_TRY_VOID(check_drawable(pack, device));
   std::unique_ptr<GpuScene> scene(new GpuScene);
+  static std::atomic<std::uint64_t> scenes{0};
+  scene->serial_ = ++scenes;
   scene->pack_ = std::move(pack);
   scene->upload_geometry();
   scene->upload_images();

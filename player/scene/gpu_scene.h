@@ -55,6 +55,8 @@ class GpuScene {
   static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device);
 
   const Pack& pack() const { return pack_; }
+  // Of this scene alone, for what others keep of it.
+  std::uint64_t serial() const { return serial_; }
   const Bounds& bounds() const { return bounds_; }
   // Sorted by material and page.
   const std::vector<DrawRange>& opaque() const { return opaque_; }
@@ -98,6 +100,7 @@ class GpuScene {
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   Pack pack_;
+  std::uint64_t serial_ = 0;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
   std::vector<std::vector<DrawRange>> emitters_;

@@ -15,11 +15,14 @@ enum Unit {
   kReflectanceUnit = 2,
   kDirectionUnit = 3,
   kNormalUnit = 4,
-  kChangeUnit = 5,  // light that movers take or get, by pixel
-  kWeightUnit = 6,  // a mover's transfer
-  kTableUnit = 7,   // and its light
-  kShadowUnit = 6,  // of bright lights, by movers
-  kStaticUnit = 7,  // and by what stands still
+  kChangeUnit = 5,   // light that movers take or get, by pixel
+  kWeightUnit = 6,   // a mover's transfer
+  kTableUnit = 7,    // and its light
+  kPlaceUnit = 8,    // and where
+  kSurfaceUnit = 0,  // of bright lights: what is seen
+  kTakenUnit = 1,    // what movers take of them
+  kShadowUnit = 6,   // shadow maps of movers
+  kStaticUnit = 7,   // and of what stands still
 };
 
 inline gpu::Cull cull_of(const Material& material) {

@@ -1,7 +1,10 @@
 // Movers under known light, read back as cd/m², beside the same maths on the CPU.
+#include "bake/trace/sampler.h"
 #include "formats/camera/camera.h"
+#include "formats/core/octahedral.h"
 #include "formats/motion/mover_pose.h"
 #include "formats/sh/sh.h"
+#include "player/movers/drag.h"
 #include "player/movers/light_samples.h"
 #include "player/movers/shadow_shaft.h"
 #include "tests/player/frame_fixture.h"
@@ -219,6 +222,64 @@ TEST(LightSamples, GiveThePolygonsIrradiance) {
   // A square over a point, by Lambert: four quarters of side 1 at distance 2.
   const float x = 1 / std::sqrt(5.0f), expected = 100 * 4 * 2 * 0.5f * x * std::atan(x);
   EXPECT_NEAR(lux, expected, 0.02f * expected);
+}
+
+// Shadows of points all over the light stay within the cone and its box, as far as the bounds go.
+TEST(ShadowCone, HoldsTheShadow) {
+  const Bounds bounds{Vec3(-4, -2, -4), Vec3(4, 3, 4)};
+  const Vec4 sphere(0.5f, -0.5f, -0.25f, 0.6f);
+  for (const Vec4& light : {Vec4(0, 2.5f, 0, 0.8f), Vec4(3, 0, 1, 0), Vec4(-3, 2, 2, 1.5f)}) {
+    const ShadowCone cone = make_shadow_cone(sphere, Vec3(light), light.w, false);
+    ASSERT_FALSE(cone.everywhere);
+    const ShadowBox box = make_shadow_box(cone, bounds);
+    Sampler sampler(1, 2, 3);
+    for (int i = 0; i < 2000; ++i) {
+      const auto on_sphere = [&] { return sphere_from_square(sampler.next2()); };
+      const Vec3 from = Vec3(light) + light.w * on_sphere(), by = Vec3(sphere) + sphere.w * on_sphere();
+      const Vec3 p = by + 8 * sampler.next1() * (by - from);
+      EXPECT_TRUE(may_meet(cone, Vec4(p, 0))) << i;
+      if (glm::any(glm::lessThan(p, bounds.lower)) || glm::any(glm::greaterThan(p, bounds.upper))) continue;
+      const Vec3 off = (p - cone.center) * cone.frame;
+      const float start = ((box[0] - cone.center) * cone.frame).z, end = ((box[4] - cone.center) * cone.frame).z;
+      EXPECT_TRUE(off.z >= start && off.z <= end) << i;
+    }
+  }
+  EXPECT_FALSE(may_meet(make_shadow_cone(sphere, Vec3(0.5f, 3, -0.25f), 0.1f, false), Vec4(3, -0.5f, 0, 0.1f)));
+  EXPECT_TRUE(make_shadow_cone(sphere, Vec3(0.5f, 0, 0), 0.5f, false).everywhere);
+}
+
+TEST(Drag, TakesWhatIsSeenFirst) {
+  Pack pack;
+  pack.movers = {plane_mover(), plane_mover()};
+  pack.movers[1].name = "other";
+  const std::vector<MoverPose> poses{{{0, 0, -2}, {0, 0, 0, 1}}, {{0.5f, 0, 1}, {0, 0, 0, 1}}};
+  const Bounds all{Vec3(-2), Vec3(2)};
+  const View view = make_view(look_at({0, 0, 5}, {0, 0, 0}, 1.0f), 100, 100, all);
+  const auto middle = grip_mover(pack, poses, ray_through(view, {0.5f, 0.5f}));
+  ASSERT_TRUE(middle);
+  EXPECT_EQ(middle->mover, 1u);
+  EXPECT_NEAR(glm::distance(middle->at, Vec3(0, 0, 1)), 0, 1e-3f);
+  const auto left = grip_mover(pack, poses, ray_through(view, {0.375f, 0.5f}));
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->mover, 0u);
+  EXPECT_LT(left->at.x, -0.5f);
+  EXPECT_FALSE(grip_mover(pack, poses, ray_through(view, {0.02f, 0.02f})));
+  add_quad(pack, {-1, -1, 3}, {2, 0, 0}, {0, 2, 0}, 0, -1);  // stands still, before both
+  EXPECT_FALSE(grip_mover(pack, poses, ray_through(view, {0.5f, 0.5f})));
+}
+
+TEST(Drag, FollowsTheLevel) {
+  const PickRay down{{0, 2, 0}, glm::normalize(Vec3(1, -1, 0))};
+  const auto at = on_level(down, 0.5f, 10);
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(glm::distance(*at, Vec3(1.5f, 0.5f, 0)), 0, 1e-6f);
+  EXPECT_FALSE(on_level(down, 3, 10));
+  EXPECT_FALSE(on_level(down, 0.5f, 1));
+  EXPECT_FALSE(on_level({{0, 2, 0}, {1, 0, 0}}, 0.5f, 10));
+  std::vector<MoverMove> moves;
+  move_of(moves, plane_mover(), {{1, 2, 3}, {0, 0, 0, 1}}, DVec3(10, 0, 0)).yaw_rad = kPiD / 2;
+  EXPECT_EQ(text_of(move_of(moves, plane_mover(), {}, DVec3(0))), "leaf=11.000,2.000,3.000,90.0");
+  EXPECT_EQ(moves.size(), 1u);
 }
 
 TEST(Shaft, HoldsItsSphere) {

@@ -210,6 +210,34 @@ wait $pid
   EXPECT_EQ(resized->height, 120u);
 }
 
+// To the right along its level; then, with R, about itself.
+TEST_F(PlayWindow, MoversAreDragged) {
+  ASSERT_TRUE(write_pack(folder() / "tiny.oriel", oriel::testing::tiny_mapped_pack()));
+  std::string start = kStart;
+  start.replace(start.find("--size"), 6,
+                "--camera 1000000.15,4.5,-249996,1000000.15,4,-250000 --move door=1000000,3,-250000 --size");
+  const Outcome r = in_display(start + R"(
+drag() { xdotool mousemove --window "$window" "$1" 45 mousedown 1; sleep 0.5
+         xdotool mousemove --window "$window" "$2" 45; sleep 0.5; xdotool mouseup 1; sleep 0.5; }
+drag 80 100
+xdotool keydown --window "$window" r; drag 100 110; xdotool keyup --window "$window" r
+xdotool key --window "$window" Escape; sleep 0.5; xdotool key --window "$window" Escape
+wait $pid
+)");
+  EXPECT_EQ(r.code, 0) << r.out;
+  double x = 0, y = 1, z = 0, yaw = 1;
+  const std::size_t first = r.out.find("--move \"door="), second = r.out.find("--move \"door=", first + 1);
+  ASSERT_NE(second, std::string::npos) << r.out;
+  ASSERT_EQ(std::sscanf(r.out.c_str() + first, "--move \"door=%lf,%lf,%lf,%lf\"", &x, &y, &z, &yaw), 4);
+  EXPECT_GT(x, 1e6 + 0.1);
+  EXPECT_EQ(y, 3);
+  EXPECT_EQ(yaw, 0);
+  double turned_x = 0;
+  ASSERT_EQ(std::sscanf(r.out.c_str() + second, "--move \"door=%lf,%lf,%lf,%lf\"", &turned_x, &y, &z, &yaw), 4);
+  EXPECT_EQ(turned_x, x);
+  EXPECT_NEAR(yaw, 22.5, 1) << "10 of 160 pixels of a full turn";
+}
+
 TEST_F(PlayWindow, TheTitleTellsWhatAFrameCosts) {
   const Outcome r = in_display(std::string(kStart) + R"(
 for i in $(seq 50); do xdotool getwindowname "$window" | grep -q ' ms' && break; sleep 0.2; done
