@@ -198,7 +198,7 @@ TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
 TEST(Hostile, WhatReflectionsNeed) {
   const std::string walk = "section WALK (walk grids): ", emitters = "section EMIT (emitters): ",
                     parts = "section REMT (emitters by reflector): ", fits = "section KLTC (kernels as cosines): ",
-                    residual = "section RRES (residual radiance maps): ";
+                    factors = "section FFAC (Fresnel factors): ", residual = "section RRES (residual radiance maps): ";
   expect_refusal(with_raw(kWalkSection, 16, 0u), walk + "element 0: found 0 x 2 texels");
   expect_refusal(with_raw(kWalkSection, 16, 32768u), walk + "its counts need more");
   expect_refusal(with_raw(kWalkSection, 24, std::uint8_t{2}), walk + "element 0: found floor 0 with walkable flag 2");
@@ -216,6 +216,8 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(with_raw(kReflectorEmitterSection, 8, 32768u), parts + "its counts need more");
   expect_refusal(with_raw(kKernelFitSection, 0, 2u), fits + "found kernel 2, expected less than 2");
   expect_refusal(with_raw(kKernelFitSection, 4, ~0u), fits + "its counts need more");
+  expect_refusal(with_raw(kFresnelFactorSection, 0, 9u), factors + "found Fresnel map 9, expected less than 1");
+  expect_refusal(with_raw(kFresnelFactorSection, 4, ~0u), factors + "its counts need more");
   expect_refusal(with_raw(kResidualSection, 0, 3u), residual + "found radiance map 3, expected less than 3");
   Forge twice = Forge::from(tiny_file());
   auto& section = twice.find(kResidualSection);

@@ -111,7 +111,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["emitters"][1]["corners"].size(), 3u);
   EXPECT_EQ(json["reflectors"][0]["emitters"], (std::vector<int>{1, 0}));
   EXPECT_EQ(json["walk_grids"][0]["walkable_m2"], 1);
-  EXPECT_EQ(json["sections"].size(), 30u);
+  EXPECT_EQ(json["sections"].size(), 31u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 

@@ -173,6 +173,8 @@ TEST(Pack, WhatReflectionsNeedComesBack) {
   EXPECT_EQ(out.reflectors[0].visibility, in.reflectors[0].visibility);
   EXPECT_FALSE(out.radiance_maps[1].residual);
   EXPECT_TRUE(out.radiance_maps[2].residual);
+  EXPECT_EQ(out.fresnel_maps[0].factor, in.fresnel_maps[0].factor);
+  EXPECT_EQ(out.fresnel_maps[0].factor.size(), 3u);
   EXPECT_TRUE(out.kernels[0].fits.empty());
   ASSERT_EQ(out.kernels[1].fits.size(), 2u);
   const LobeFit &a = in.kernels[1].fits[0], &b = out.kernels[1].fits[0];

@@ -131,6 +131,8 @@ const Break kBreaks[] = {
     {602, "FRES", [](Pack& p) { p.fresnel_maps[0].sphere.pop_back(); }},
     {603, "FRES", [](Pack& p) { p.fresnel_maps[0].sphere[1].r = 1.01f; }},
     {603, "FRES", [](Pack& p) { p.fresnel_maps[0].table[1].r = kNan; }},
+    {604, "FFAC", [](Pack& p) { p.fresnel_maps[0].factor.resize(1); }},
+    {605, "FFAC", [](Pack& p) { p.fresnel_maps[0].factor[1].g = -0.1f; }},
     {611, "SPLT", [](Pack& p) { p.split_reflectance.table.pop_back(); }},
     {611, "SPLT", [](Pack& p) { p.split_reflectance.roughnesses = 1; }},
     {612, "SPLT", [](Pack& p) { p.split_reflectance.table[1].x = kNan; }},

@@ -255,6 +255,32 @@ TEST(KernelTaps, FollowTheLobeBetweenIncidences) {
     EXPECT_LE(std::abs(tap.at.y), 0.1f) << "the published kernel stays at the mirror ray";
 }
 
+TEST(KernelTaps, WeighByFresnelOfTheHalfVector) {
+  KernelTaps
+      taps;  // at normal incidence and at 60 degrees: the mirror direction, and one 60 degrees up or down from it
+  taps.count = 3;
+  taps.rows = 2;
+  const float up = 2 * std::tan(0.5f * 1.0471976f);
+  taps.taps = {{{0, 0}, 0}, {{0, 0.5f}, 0}, {{0, -0.5f}, 0}, {{0, 0}, 0}, {{0, up}, 0}, {{0, -up}, 0}};
+  FresnelMap map;
+  for (int i = 0; i <= 1024; ++i)
+    map.factor.push_back(Vec3(1 - std::pow(static_cast<float>(i) / 1024, 2.0f)));  // 1 - cosine
+  const std::vector<float> means = weigh_by_fresnel(taps, map);
+  ASSERT_EQ(means.size(), 2u);
+  // Row 1 is normal incidence, where the half vector leans by 30 degrees to the directions at 60.
+  const float leaning = 1 - std::cos(0.5235988f), mean = 2 * leaning / 3;
+  EXPECT_NEAR(means[1], mean, 1e-5);
+  EXPECT_NEAR(taps.taps[3].weight, 0, 1e-4);
+  EXPECT_NEAR(taps.taps[4].weight, leaning / mean, 1e-4);
+  EXPECT_NEAR(taps.taps[5].weight, taps.taps[4].weight, 1e-5);
+  // Row 0 is grazing: the mirror direction goes straight on along the surface, and only the upper tap is above it.
+  EXPECT_NEAR(fresnel_factor(map, 0), 1, 1e-6);
+  EXPECT_NEAR(means[0], 1 - std::sin(std::atan(0.25f)), 1e-4);
+  EXPECT_GT(taps.taps[0].weight, taps.taps[1].weight) << "what goes straight on reflects most";
+  weigh_by_fresnel(taps, FresnelMap{});
+  for (const KernelTap& tap : taps.taps) EXPECT_EQ(tap.weight, 1);
+}
+
 TEST(CheckDrawable, KernelsAndReflectancesFitTheDevice) {
   gpu::Device device;
   device.texture_size = 4;

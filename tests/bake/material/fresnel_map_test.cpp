@@ -82,6 +82,18 @@ TEST(FresnelMap, MirrorFollowsTheExactEquationsTo90Degrees) {
 }
 
 // One table for every colour: the split form with compensation beside the exact R.
+TEST(FresnelMap, FactorsAreTheFacets) {
+  const FresnelMap glass = make_fresnel_map(dielectric(1.5, 0.1f));
+  ASSERT_EQ(glass.factor.size(), 65u);
+  EXPECT_NEAR(glass.factor.back().g, 0.04, 1e-6);
+  EXPECT_NEAR(glass.factor.front().g, 1, 1e-6);
+  const double cosine = 0.25, inside = std::sqrt(1 - (1 - cosine * cosine) / 2.25);  // entry 32 of 65
+  const double s = (cosine - 1.5 * inside) / (cosine + 1.5 * inside),
+               p = (1.5 * cosine - inside) / (1.5 * cosine + inside);
+  EXPECT_NEAR(glass.factor[32].g, 0.5 * (s * s + p * p), 1e-6);
+  EXPECT_TRUE(make_fresnel_map(dielectric(1.5, 0)).factor.empty()) << "a mirror has one direction";
+}
+
 TEST(FresnelMap, SplitTableServesAnyF0) {
   const FresnelCurve curves[] = {{}, {.ior = 1.5f, .schlick = 0}};
   for (const FresnelCurve& curve : curves)
