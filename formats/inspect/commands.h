@@ -33,6 +33,16 @@ const std::string& extract_kinds();
 // Every map as EXR or PNG, and index.json that names them.
 int extract(const std::filesystem::path& path, const ExtractOptions& options);
 
+struct DiffOptions {
+  bool json = false;
+  double tolerance = -1;      // share of a surface's light that may change; negative: any
+  std::size_t surfaces = 20;  // so many are printed, those that changed most; JSON holds all
+};
+
+// What changed between two packs: light by surface, sections, options; Markdown or JSON. Exit code 5 where a surface
+// changed by more than the tolerance, was added or has gone.
+int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options);
+
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.
 int report(const Error& error);
 

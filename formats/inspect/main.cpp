@@ -15,11 +15,14 @@ Exit codes:
   2  a file cannot be read or written
   3  the pack is damaged or invalid
   4  failed at run time: memory
+  5  for diff: the light changed by more than the tolerance
 
 Examples:
   oriel-inspect info house.oriel               what is inside, for people
   oriel-inspect info house.oriel --json        the same for programs
   oriel-inspect validate house.oriel           every checksum and every number
+  oriel-inspect diff old.oriel new.oriel --tolerance 0.02
+                                               which rooms changed, as Markdown; exit code 5 beyond 2 %
   oriel-inspect extract house.oriel --kind lightmap -o maps
                                                maps/lightmap_000.exr holds irradiance in lux
 
@@ -43,6 +46,21 @@ int run(int argc, char** argv) {
   validate_command->add_option("PACK", pack, "The .oriel file")->required();
   validate_command->add_flag("--json", json, "Print the issues as JSON");
 
+  auto* diff_command =
+      app.add_subcommand("diff", "Tell two packs of one building apart: light by surface, sections, options");
+  std::string after;
+  DiffOptions diff_options;
+  diff_command->add_option("BEFORE", pack, "An .oriel file")->required();
+  diff_command->add_option("AFTER", after, "The one to compare with it")->required();
+  diff_command->add_flag("--json", diff_options.json, "Print JSON: all surfaces");
+  diff_command
+      ->add_option("--tolerance", diff_options.tolerance,
+                   "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5")
+      ->check(CLI::Range(0.0, 1e6));
+  diff_command
+      ->add_option("--surfaces", diff_options.surfaces, "How many surfaces to list, those that changed most first")
+      ->capture_default_str();
+
   auto* extract_command = app.add_subcommand("extract", "Write the maps as EXR and PNG files, and index.json");
   extract_command->add_option("PACK", pack, "The .oriel file")->required();
   extract_command->add_option("--kind", options.kind, "What to write: " + extract_kinds())->capture_default_str();
@@ -56,6 +74,7 @@ int run(int argc, char** argv) {
     return code == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
   }
   if (info_command->parsed()) return info(pack, json);
+  if (diff_command->parsed()) return diff(pack, after, diff_options);
   if (validate_command->parsed()) return validate(pack, json);
   return extract(pack, options);
 }

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "formats/core/file.h"
+#include "formats/diff/pack_diff.h"
+#include "formats/inspect/commands.h"
+#include "formats/pack/index.h"
+#include "formats/pack/reader.h"
+
+namespace oriel::inspect {
+namespace {
+
+constexpr std::size_t kLongest = 60;  // of an option's value in Markdown
+
+struct Kind {
+  std::uint64_t sections[2] = {0, 0}, bytes[2] = {0, 0};
+};
+
+struct Opened {
+  Pack pack;
+  PackIndex index;
+};
+
+Result<Opened> open(const std::filesystem::path& path) {
+  ORIEL_TRY(const Bytes file, read_file(path));
+  Opened opened;
+  ORIEL_TRY(opened.index, read_index(file));
+  auto pack = decode_pack(file);
+  if (!pack) return fail(pack.error().code, path.string() + ": " + pack.error().where, "{}", pack.error().message);
+  opened.pack = std::move(*pack);
+  return opened;
+}
+
+std::string kind_text(std::uint32_t kind) {
+  const SectionKind* known = find_section_kind(kind);
+  return known == nullptr ? "unknown" : known->meaning;
+}
+
+std::map<std::string, Kind> kinds_of(const PackIndex& before, const PackIndex& after) {
+  std::map<std::string, Kind> kinds;
+  const PackIndex* const both[] = {&before, &after};
+  for (int i = 0; i < 2; ++i)
+    for (const SectionInfo& section : both[i]->sections) {
+      Kind& kind = kinds[kind_text(section.kind)];
+      ++kind.sections[i];
+      kind.bytes[i] += section.stored_bytes;
+    }
+  return kinds;
+}
+
+const char* text_of(SurfaceState state) {
+  switch (state) {
+    case SurfaceState::kOnlyInFirst:
+      return "gone";
+    case SurfaceState::kOnlyInSecond:
+      return "added";
+    default:
+      return "";
+  }
+}
+
+bool within(const PackDiff& diff, double tolerance) {
+  if (tolerance < 0) return true;
+  for (const SurfaceChange& s : diff.surfaces)
+    if (s.state != SurfaceState::kBoth) return false;
+  return diff.largest() <= tolerance;
+}
+
+std::string shortened(const std::string& text) {
+  return text.empty() ? "-" : text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
+}
+
+void print_markdown(const PackDiff& diff, const std::map<std::string, Kind>& kinds, const DiffOptions& options) {
+  fmt::print("## Light\n\nMean of the first pack: {:.4g} lux. Largest change of a surface: {:.2f} %.\n\n",
+             diff.mean_lux, 100 * diff.largest());
+  fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < std::min(options.surfaces, diff.surfaces.size()); ++i) {
+    const SurfaceChange& s = diff.surfaces[i];
+    fmt::print("| {} | {} | {:.3g} | {:.4g} | {:.4g} | {:.3g} | {:.1f} | {:.2g} → {:.2g} | {} |\n", s.name, s.material,
+               s.area_m2, s.before_lux, s.after_lux, s.change_lux(), 100 * diff.share(s), s.before_error_lux,
+               s.after_error_lux, s.same_shape ? text_of(s.state) : "another shape");
+  }
+  if (diff.surfaces.size() > options.surfaces)
+    fmt::print("\n{} more surfaces changed less.\n", diff.surfaces.size() - options.surfaces);
+  fmt::print("\n## Sections\n\n| kind | before | after | bytes before | bytes after |\n|---|---|---|---|---|\n");
+  for (const auto& [name, kind] : kinds)
+    fmt::print("| {} | {} | {} | {} | {} |\n", name, kind.sections[0], kind.sections[1], kind.bytes[0], kind.bytes[1]);
+  if (diff.options.empty()) return;
+  fmt::print("\n## Provenance\n\n| | before | after |\n|---|---|---|\n");
+  for (const OptionChange& o : diff.options)
+    fmt::print("| {} | {} | {} |\n", o.name, shortened(o.before), shortened(o.after));
+}
+
+void print_json(const PackDiff& diff, const std::map<std::string, Kind>& kinds, bool good) {
+  nlohmann::ordered_json out;
+  out["schema"] = kJsonSchema;
+  out["within_tolerance"] = good;
+  out["mean_lux"] = diff.mean_lux;
+  out["largest_change"] = diff.largest();
+  out["surfaces"] = nlohmann::ordered_json::array();
+  for (const SurfaceChange& s : diff.surfaces)
+    out["surfaces"].push_back({{"name", s.name},
+                               {"material", s.material},
+                               {"state", s.state == SurfaceState::kBoth ? "both" : text_of(s.state)},
+                               {"same_shape", s.same_shape},
+                               {"area_m2", s.area_m2},
+                               {"before_lux", s.before_lux},
+                               {"after_lux", s.after_lux},
+                               {"rms_lux", s.rms_lux},
+                               {"noise_lux", s.noise_lux},
+                               {"change_lux", s.change_lux()},
+                               {"change", diff.share(s)},
+                               {"before_error_lux", s.before_error_lux},
+                               {"after_error_lux", s.after_error_lux}});
+  for (const auto& [name, kind] : kinds)
+    out["sections"][name] = {{"before", {{"sections", kind.sections[0]}, {"bytes", kind.bytes[0]}}},
+                             {"after", {{"sections", kind.sections[1]}, {"bytes", kind.bytes[1]}}}};
+  out["provenance"] = nlohmann::ordered_json::array();
+  for (const OptionChange& o : diff.options)
+    out["provenance"].push_back({{"name", o.name}, {"before", o.before}, {"after", o.after}});
+  fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options) {
+  const auto a = open(before);
+  if (!a) return report(a.error());
+  const auto b = open(after);
+  if (!b) return report(b.error());
+  const PackDiff diff = diff_packs(a->pack, b->pack);
+  const bool good = within(diff, options.tolerance);
+  const auto kinds = kinds_of(a->index, b->index);
+  if (options.json)
+    print_json(diff, kinds, good);
+  else
+    print_markdown(diff, kinds, options);
+  return good ? 0 : static_cast<int>(ErrorCode::kDifferent);
+}
+
+}  // namespace oriel::inspect
