@@ -8,8 +8,8 @@
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
 #include "player/gpu/headless.h"
-#include "player/movers/poses.h"
 #include "player/passes/frame.h"
+#include "player/poses/poses.h"
 
 namespace oriel {
 namespace {

@@ -12,8 +12,8 @@
 #include "player/app/frame_record.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
-#include "player/movers/poses.h"
 #include "player/passes/frame.h"
+#include "player/poses/poses.h"
 #include "player/walk/zone.h"
 
 namespace oriel {

@@ -9,9 +9,9 @@
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/app/window_input.h"
-#include "player/movers/drag.h"
-#include "player/movers/poses.h"
 #include "player/passes/frame.h"
+#include "player/poses/drag.h"
+#include "player/poses/poses.h"
 #include "player/walk/zone.h"
 
 namespace oriel {

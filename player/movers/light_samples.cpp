@@ -3,6 +3,7 @@
 namespace oriel {
 namespace {
 
+constexpr int kEasily = 256;  // points of all pairs of a mover and a light: so many are affordable
 // Tangents of half a light's width: from where it takes 4, 8, and all points.
 constexpr float kPointLike = 0.01f, kWide = 0.4f, kVeryWide = 1;
 
@@ -77,14 +78,16 @@ LightSamples sample_light(const BrightLight& light, int points) {
   return out;
 }
 
-int choose_points(const BrightLight& light, std::span<const Vec4> spheres, int most) {
+int choose_points(const BrightLight& light, std::span<const Vec4> spheres, std::size_t pairs, int most) {
   const LightSamples all = sample_light(light, kMaxLightSamples);
   if (light.kind == BrightLightKind::kPoint || light.kind == BrightLightKind::kSpot) return 1;
   float tangent = light.kind == BrightLightKind::kDirectional ? all.radius : 0;
   if (light.kind == BrightLightKind::kPolygon)
     for (const Vec4& sphere : spheres)
       tangent = std::max(tangent, all.radius / std::max(glm::distance(Vec3(sphere), all.center), 1e-6f));
-  const int wanted = tangent < kPointLike ? 1 : tangent < kWide ? 4 : tangent < kVeryWide ? 8 : kMaxLightSamples;
+  if (tangent < kPointLike) return 1;
+  int wanted = tangent < kWide ? 4 : tangent < kVeryWide ? 8 : kMaxLightSamples;
+  while (wanted < kMaxLightSamples && 2 * wanted * static_cast<int>(pairs) <= kEasily) wanted *= 2;
   return std::clamp(most, 1, wanted);
 }
 

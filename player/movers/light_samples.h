@@ -26,9 +26,10 @@ struct LightSamples {
 // points: of lights that have a size, 1 to kMaxLightSamples.
 LightSamples sample_light(const BrightLight& light, int points = kMaxLightSamples);
 
-// How many points give a light's shadows of those movers: none blurs more, seen from the nearest, than the light's size
-// asks for. spheres: around the movers. most: 1 to kMaxLightSamples.
-int choose_points(const BrightLight& light, std::span<const Vec4> spheres, int most);
+// How many points a light's shadows of those movers are taken from: by how large it looks from the nearest, and more
+// where few movers are lit, as a light that is seen through a door needs them. spheres: around the movers. pairs: of
+// any mover and a light that shines on it. most: 1 to kMaxLightSamples.
+int choose_points(const BrightLight& light, std::span<const Vec4> spheres, std::size_t pairs, int most);
 
 // Irradiance of a surface at p that faces sample i, unshadowed, times `count`: the sum over i is that of the light.
 // towards: unit, from p to the sample.

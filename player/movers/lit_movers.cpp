@@ -60,6 +60,8 @@ void find_casters(std::span<const BrightLight> lights, const Frustum& frustum, c
 std::vector<LitMovers> find_lit(std::span<const BrightLight> lights, std::span<const PlacedMover> movers,
                                 const Frustum& frustum, const Bounds& bounds, const FrameOptions& options) {
   std::vector<LitMovers> out;
+  std::size_t pairs = 0;
+  for (const PlacedMover& placed : movers) pairs += placed.light.bright.size();
   for (std::uint32_t l = 0; l < lights.size(); ++l) {
     LitMovers lit;
     lit.light = l;
@@ -73,7 +75,7 @@ std::vector<LitMovers> find_lit(std::span<const BrightLight> lights, std::span<c
       spheres.push_back(movers[i].sphere);
     }
     if (lit.receivers.empty()) continue;
-    lit.samples = sample_light(lights[l], choose_points(lights[l], spheres, options.light_points));
+    lit.samples = sample_light(lights[l], choose_points(lights[l], spheres, pairs, options.light_points));
     if (lit.samples.at.empty()) continue;
     const auto away = [&](const LitMovers::Receiver& r) { return length2(Vec3(r.mover->sphere) - lit.samples.center); };
     std::stable_sort(lit.receivers.begin(), lit.receivers.end(),

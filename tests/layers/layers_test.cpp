@@ -83,11 +83,12 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
   m["player/scene"] =
       plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps", "player/view"});
+  m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"formats/motion", "player/movers", "player/reflections"});
-  m["player/app"] =
-      plus(m["player/passes"], {"player/passes", "player/walk", "formats/camera", "formats/metrics", "formats/image"});
+  m["player/app"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera",
+                                              "formats/metrics", "formats/image"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;

@@ -4,9 +4,9 @@
 #include "formats/core/octahedral.h"
 #include "formats/motion/mover_pose.h"
 #include "formats/sh/sh.h"
-#include "player/movers/drag.h"
 #include "player/movers/light_samples.h"
 #include "player/movers/shadow_shaft.h"
+#include "player/poses/drag.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

@@ -1,4 +1,4 @@
-#include "player/movers/poses.h"
+#include "player/poses/poses.h"
 
 namespace oriel {
 

@@ -1,4 +1,4 @@
-#include "player/movers/drag.h"
+#include "player/poses/drag.h"
 
 #include <algorithm>
 #include <limits>
