@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -77,14 +78,18 @@ void print_markdown(const PackDiff& diff, const std::map<std::string, Kind>& kin
              diff.mean_lux, 100 * diff.largest());
   fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < std::min(options.surfaces, diff.surfaces.size()); ++i) {
+  const auto changed = static_cast<std::size_t>(std::ranges::count_if(
+      diff.surfaces, [](const SurfaceChange& s) { return s.change_lux() > 0 || s.state != SurfaceState::kBoth; }));
+  const std::size_t listed = std::min(options.surfaces, changed);
+  for (std::size_t i = 0; i < listed; ++i) {
     const SurfaceChange& s = diff.surfaces[i];
     fmt::print("| {} | {} | {:.3g} | {:.4g} | {:.4g} | {:.3g} | {:.1f} | {:.2g} → {:.2g} | {} |\n", s.name, s.material,
                s.area_m2, s.before_lux, s.after_lux, s.change_lux(), 100 * diff.share(s), s.before_error_lux,
                s.after_error_lux, s.same_shape ? text_of(s.state) : "another shape");
   }
-  if (diff.surfaces.size() > options.surfaces)
-    fmt::print("\n{} more surfaces changed less.\n", diff.surfaces.size() - options.surfaces);
+  if (changed > listed) fmt::print("\n{} more changed less.\n", changed - listed);
+  if (diff.surfaces.size() > changed)
+    fmt::print("\n{} surfaces did not change by more than their noise.\n", diff.surfaces.size() - changed);
   fmt::print("\n## Sections\n\n| kind | before | after | bytes before | bytes after |\n|---|---|---|---|---|\n");
   for (const auto& [name, kind] : kinds)
     fmt::print("| {} | {} | {} | {} | {} |\n", name, kind.sections[0], kind.sections[1], kind.bytes[0], kind.bytes[1]);
