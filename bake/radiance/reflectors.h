@@ -24,7 +24,7 @@ struct ReflectorMaterial {
 float reflectance_at_60_deg(const ReflectorMaterial& material);
 
 struct ReflectorOptions {
-  float max_roughness = 0.4f;         // wider lobes show no image
+  float max_roughness = 0.5f;         // wider lobes show no image
   float min_reflectance = 0.03f;      // at 60°, largest channel: weaker ones are not seen
   float min_area_m2 = 0.25f;          // of one reflector
   std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
