@@ -24,9 +24,11 @@ std::string lights_line(const LightCensus& c) {
 }
 
 std::string material_line(const MaterialCensus& m) {
-  std::string line =
-      fmt::format("  {:<24.24} {:<7} alpha {:<7.3g} R(60°) {:<6} {:>8.1f} m²  seen {:>5.1f} %", m.name, name_of(m.lobe),
-                  m.alpha, fmt::format("{:.1f} %", 100.0f * m.reflectance), m.area_m2, 100 * m.seen);
+  const bool reflects = m.reflectance > 0;
+  const std::string alpha = reflects ? fmt::format("alpha {:.3g}", m.alpha) : "",
+                    share = reflects ? fmt::format("R(60°) {:.1f} %", 100.0f * m.reflectance) : "";
+  std::string line = fmt::format("  {:<24.24} {:<7} {:<13} {:<13} {:>8.1f} m²  seen {:>5.1f} %", m.name,
+                                 name_of(m.lobe), alpha, share, m.area_m2, 100 * m.seen);
   if (m.kernel >= 0) line += fmt::format("  kernel {}", m.kernel);
   if (m.normal_map) line += "  normal map";
   if (m.transmission > 0) line += "  transmits";

@@ -1,61 +1,42 @@
 #include "bake/plan/predict.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "bake/radiance/capture.h"
-#include "bake/run/assemble.h"
-#include "bake/run/stages/baked_light.h"
+#include "bake/plan/pilot.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
 namespace {
 
-constexpr double kCoarser[2] = {16, 8};    // texels of the pilots: 1/256 and 1/64 as many
+constexpr double kCoarser[2] = {8, 4};     // texels of the pilots: 1/64 and 1/16 as many
 constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
-constexpr std::uint32_t kFewer = 16;       // samples and maps of the reflections' pilot
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // A small bake of the lightmap.
 struct LightmapPilot {
   Atlas atlas;
   Radiosity radiosity;
-  double texels = 0, seconds = 0, bytes = 0;
+  double texels = 0, seconds = 0;
+  double bytes = 0;               // of the lightmap in a pack
+  std::uint64_t scene_bytes = 0;  // of a pack whose lightmap is black
 };
 
-// What a page of the lightmap takes in a pack.
-Result<double> lightmap_bytes(const Scene& scene, const Atlas& atlas, std::vector<LightmapPage>& pages) {
-  Pack pack;
-  pack.mesh = assemble_mesh(scene, atlas).mesh;
-  assemble_materials(scene,
-                     {std::vector<MaterialSummary>(scene.materials.size()),
-                      std::vector<std::int32_t>(scene.materials.size(), -1),
-                      std::vector<std::int32_t>(scene.materials.size(), -1),
-                      {},
-                      {},
-                      {}},
-                     pack);
-  std::vector<LightmapPage> black = pages;
-  for (LightmapPage& page : black) {
+// What the scene itself takes in a pack, and what its lightmap adds to that.
+Status weigh(const Scene& scene, LightmapPilot& pilot) {
+  Pack pack = pack_of_scene(scene, pilot.atlas);
+  pack.lightmaps = pilot.radiosity.pages;
+  for (LightmapPage& page : pack.lightmaps) {
     std::fill(page.irradiance.begin(), page.irradiance.end(), Vec3(0));
     std::fill(page.standard_error.begin(), page.standard_error.end(), Vec3(0));
     std::fill(page.direction.begin(), page.direction.end(), Vec3(0));
   }
-  pack.lightmaps = std::move(pages);
-  ORIEL_TRY(const Bytes with, encode_pack(pack));
-  std::swap(pack.lightmaps, black);
-  pages = std::move(black);
   ORIEL_TRY(const Bytes without, encode_pack(pack));
-  return static_cast<double>(with.size()) - static_cast<double>(without.size());
+  pack.lightmaps = pilot.radiosity.pages;
+  ORIEL_TRY(const Bytes with, encode_pack(pack));
+  pilot.scene_bytes = without.size();
+  pilot.bytes = static_cast<double>(with.size()) - static_cast<double>(without.size());
+  return {};
 }
 
 RadiosityOptions pilot_options(const CensusInput& in) {
@@ -74,13 +55,12 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   coarse.texel_m = static_cast<float>(coarser) * in.prepared.atlas.texel_m;
   ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context));
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
-  const Clock clock;
+  const WallClock clock;
   ORIEL_TRY(pilot.radiosity, bake_radiosity({*in.prepared.accel, in.lights, path_options(in.options)}, pilot.atlas,
                                             texel_map, pilot_options(in), context));
   pilot.seconds = clock.seconds();
   for (const TexelMapPage& page : texel_map) pilot.texels += static_cast<double>(page.texel.size());
-  std::vector<LightmapPage> pages = pilot.radiosity.pages;
-  ORIEL_TRY(pilot.bytes, lightmap_bytes(in.prepared.scene(), pilot.atlas, pages));
+  ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));
   return pilot;
 }
 
@@ -104,53 +84,6 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   });
   const double reached = std::sqrt(squares / std::max(1.0, texels));
   c.error = std::max(reached, pilot_options(in).error);
-  return c;
-}
-
-OutgoingRadiance light_of(const BakedScene& baked, std::uint64_t seed) {
-  return [&baked, seed](const SeenSurface& seen) {
-    std::uint64_t rays = 0;
-    return baked_radiance_with_lobes(baked, seen, seed, rays);
-  };
-}
-
-double pixels(std::span<const RadianceMap> maps) {
-  double sum = 0;
-  for (const RadianceMap& map : maps) sum += double{1.0f * map.width} * map.height;
-  return sum;
-}
-
-// Views are planned with a sixteenth of the samples: the table of what each candidate needs for each sample is the
-// work. Of the maps each sixteenth is captured.
-Result<Component> pilot_reflections(const CensusInput& in, const LightmapPilot& pilot, Context& context) {
-  Component c{.name = "radiance"};
-  const Accel& accel = *in.prepared.accel;
-  std::vector<FoundReflector> reflectors = in.reflections.found.reflectors;
-  const std::vector<FoundReflector> as_found = reflectors;
-  ViewPlan plan;
-  const Clock planning;
-  if (in.options.view_scheme == ViewScheme::kHemisphere) {
-    plan = plan_views(accel.scene(), reflectors, in.options.views);
-  } else {
-    PlannedViewOptions fewer = in.options.planned;
-    fewer.samples = std::max(1u, fewer.samples / kFewer);
-    ORIEL_TRY(plan, plan_views_for_eyes(Surroundings(accel, as_found, in.options.sight), in.reflections.eyes, fewer,
-                                        context, reflectors));
-    c.seconds = kFewer * planning.seconds();
-  }
-  std::vector<RadianceMap> some;
-  for (std::size_t i = 0; i < plan.maps.size(); i += kFewer) some.push_back(plan.maps[i]);
-  const BakedScene baked{accel, in.lights, pilot.atlas, pilot.radiosity.pages};
-  const Surroundings surroundings(accel, reflectors, in.options.sight);
-  std::atomic<std::uint64_t> rays{0};
-  const Clock capture;
-  ORIEL_TRY_VOID(capture_maps(surroundings, light_of(baked, context.seed), context, some, &rays));
-  double surround = 0;
-  for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
-  const double all = pixels(plan.maps) + surround, scale = some.empty() ? 0 : all / pixels(some);
-  c.seconds += scale * capture.seconds();
-  c.rays = static_cast<std::uint64_t>(scale * static_cast<double>(rays));
-  c.bytes = static_cast<std::uint64_t>(kMapBytesPerPixel * all);
   return c;
 }
 
@@ -183,8 +116,8 @@ void add_limits(const CensusInput& in, Prediction& p) {
 
 void add_memory_limit(const CensusInput& in, Prediction& p) {
   for (const Component& c : p.components) {
-    if (c.name != "radiance" || c.bytes == 0) continue;
-    const auto most = static_cast<double>(in.options.planned.memory_bytes), wanted = static_cast<double>(c.bytes);
+    if (c.raw_bytes == 0) continue;
+    const auto most = static_cast<double>(in.options.planned.memory_bytes), wanted = static_cast<double>(c.raw_bytes);
     p.limits.push_back(
         {"--memory", most, wanted, wanted <= most,
          fmt::format("--memory {:.4g} MiB: maps that show everything sharp take {:.4g} MiB{}", most / 1048576,
@@ -211,7 +144,7 @@ TexelWork fit_work(const double (&n)[2], const double (&w)[2]) {
 
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context) {
   Prediction p;
-  const Clock clock;
+  const WallClock clock;
   p.components.push_back({.name = "preparation", .seconds = spent});
   const bool light = std::any_of(census.stages.begin(), census.stages.end(),
                                  [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
@@ -220,10 +153,12 @@ Result<Prediction> predict(const CensusInput& in, const Census& census, double s
     for (int i = 0; i < 2; ++i) {
       ORIEL_TRY(pilots[i], bake_coarse(in, kCoarser[i], context));
     }
+    p.components.front().bytes = pilots[1].scene_bytes;
     p.components.push_back(extrapolate(in, pilots));
     if (in.options.with_radiance && !in.reflections.empty()) {
-      // Without the memory's limit: how much it would take is what is asked.
-      ORIEL_TRY(Component radiance, pilot_reflections(in, pilots[1], context));
+      ORIEL_TRY(
+          Component radiance,
+          pilot_reflections(in, {*in.prepared.accel, in.lights, pilots[1].atlas, pilots[1].radiosity.pages}, context));
       p.components.push_back(std::move(radiance));
     }
   }

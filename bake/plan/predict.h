@@ -9,8 +9,9 @@ struct Component {
   std::string name;  // "preparation", "radiosity", "material", "radiance", "movers"
   double seconds = 0;
   std::uint64_t rays = 0;
-  std::uint64_t bytes = 0;  // in the pack
-  double error = -1;        // relative, of what it shows; < 0: not predicted
+  std::uint64_t bytes = 0;      // in the pack
+  std::uint64_t raw_bytes = 0;  // of maps, as --memory counts them
+  double error = -1;            // relative, of what it shows; < 0: not predicted
 };
 
 // One thing that was asked for beside what is predicted.
@@ -37,9 +38,9 @@ struct TexelWork {
 };
 TexelWork fit_work(const double (&texels)[2], const double (&work)[2]);
 
-// Bakes the lightmap with texels 8 and 4 times as large (1/64 and 1/16 of them) and extrapolates rays by TexelWork;
-// plans and captures reflections with a sixteenth of the samples and of the memory. Seconds are rays over the
-// rate measured in the pilot. `spent`: seconds that preparation took. Error kStopped and those of the stages.
+// Bakes the lightmap with texels 8 and 4 times as large (1/64 and 1/16 of them) and extrapolates rays, bytes and
+// squared errors by TexelWork; seconds are rays over the rate measured in the finer one. Reflections: pilot.h. Movers
+// are not predicted. `spent`: seconds that preparation took. Error kStopped and those of the stages.
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context);
 
 }  // namespace oriel

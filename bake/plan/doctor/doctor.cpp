@@ -91,7 +91,7 @@ void check_walls(const Scene& scene, const ViewShares& views, std::vector<Findin
     for (std::uint32_t i = 0; i < surface.triangle_count; ++i) back += views.back[surface.first_triangle + i];
     if (back < kSeenBack) continue;
     findings.push_back({FindingKind::kOneSidedWall, surface.name,
-                        fmt::format("{:.2g} % of what people see is its back, which is black", 100 * back),
+                        fmt::format("{:.3g} % of what people see is its back, which is black", 100 * back),
                         "walls that show their front wherever people are",
                         fmt::format("turn it over, mark material '{}' double-sided, or bake with --double-sided",
                                     scene.materials[surface.material].name)});
