@@ -113,12 +113,14 @@ StageCensus directional_stage(const CensusInput& in) {
       {}};
 }
 
-StageCensus radiance_stage(const CensusInput& in) {
-  const std::size_t count = in.options.with_radiance ? in.reflections.found.reflectors.size() : 0;
+StageCensus radiance_stage(const CensusInput& in, bool dark) {
+  const std::size_t count = in.options.with_radiance && !dark ? in.reflections.found.reflectors.size() : 0;
   const ReflectorOptions& o = in.options.reflectors;
   std::string why;
   if (!in.options.with_radiance)
     why = "no radiance maps: left out by --only";
+  else if (dark)
+    why = "no radiance maps: the scene has no light";
   else if (count == 0)
     why = fmt::format(
         "no radiance maps: no planar surface with roughness <= {:.3g} (alpha <= {:.3g}), R >= {:.3g} % and {:.3g} m² "
@@ -131,9 +133,9 @@ StageCensus radiance_stage(const CensusInput& in) {
   return {"radiance", count > 0, why, {{"reflectors", count}}};
 }
 
-StageCensus surround_stage(const CensusInput& in) {
+StageCensus surround_stage(const CensusInput& in, bool dark) {
   const FoundCurvedReflectors& curved = in.reflections.curved;
-  const std::size_t count = in.options.with_radiance ? curved.reflectors.size() : 0;
+  const std::size_t count = in.options.with_radiance && !dark ? curved.reflectors.size() : 0;
   std::uint64_t texels = 0;
   for (const SurroundMap& map : curved.maps) texels += std::uint64_t{map.size} * map.size;
   return {"surround",
@@ -210,8 +212,13 @@ Census take_census(const CensusInput& in) {
   c.lights = count_lights(scene, in.lights);
   c.materials = list_materials(in);
   if (in.options.with_radiance) c.reflectors = list_reflectors(in.reflections);
-  c.stages = {radiosity_stage(in, c.lights), directional_stage(in), radiance_stage(in), surround_stage(in),
-              kernel_stage(in, c.materials), fresnel_stage(in),     mover_stage(in)};
+  c.stages = {radiosity_stage(in, c.lights),
+              directional_stage(in),
+              radiance_stage(in, c.lights.dark),
+              surround_stage(in, c.lights.dark),
+              kernel_stage(in, c.materials),
+              fresnel_stage(in),
+              mover_stage(in)};
   c.omissions = in.prepared.omissions;
   if (in.options.with_radiance)
     c.omissions.insert(c.omissions.end(), in.reflections.omissions.begin(), in.reflections.omissions.end());

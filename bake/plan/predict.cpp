@@ -9,7 +9,8 @@
 namespace oriel {
 namespace {
 
-constexpr double kCoarser[2] = {8, 4};     // texels of the pilots: 1/64 and 1/16 as many
+constexpr double kCoarser = 4;             // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
+constexpr double kLeastTexels = 2000;      // of the finer one, where the scene has as many
 constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
 
@@ -47,6 +48,12 @@ RadiosityOptions pilot_options(const CensusInput& in) {
   return options;
 }
 
+double texels_of(std::span<const TexelMapPage> pages) {
+  double texels = 0;
+  for (const TexelMapPage& page : pages) texels += static_cast<double>(page.texel.size());
+  return texels;
+}
+
 Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context& context) {
   LightmapPilot pilot;
   AtlasOptions coarse = in.options.atlas;
@@ -59,14 +66,13 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   ORIEL_TRY(pilot.radiosity, bake_radiosity({*in.prepared.accel, in.lights, path_options(in.options)}, pilot.atlas,
                                             texel_map, pilot_options(in), context));
   pilot.seconds = clock.seconds();
-  for (const TexelMapPage& page : texel_map) pilot.texels += static_cast<double>(page.texel.size());
+  pilot.texels = texels_of(texel_map);
   ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));
   return pilot;
 }
 
 Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
-  double texels = 0;
-  for (const TexelMapPage& page : in.prepared.texel_map) texels += static_cast<double>(page.texel.size());
+  const double texels = texels_of(in.prepared.texel_map);
   const double n[2] = {pilots[0].texels, pilots[1].texels};
   const auto at_all = [&](const auto& work) {
     const double w[2] = {work(pilots[0]), work(pilots[1])};
@@ -150,9 +156,9 @@ Result<Prediction> predict(const CensusInput& in, const Census& census, double s
                                  [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
   if (light) {
     LightmapPilot pilots[2];
-    for (int i = 0; i < 2; ++i) {
-      ORIEL_TRY(pilots[i], bake_coarse(in, kCoarser[i], context));
-    }
+    const double coarser = std::clamp(std::sqrt(texels_of(in.prepared.texel_map) / kLeastTexels), 1.0, kCoarser);
+    ORIEL_TRY(pilots[0], bake_coarse(in, 2 * coarser, context));
+    ORIEL_TRY(pilots[1], bake_coarse(in, coarser, context));
     p.components.front().bytes = pilots[1].scene_bytes;
     p.components.push_back(extrapolate(in, pilots));
     if (in.options.with_radiance && !in.reflections.empty()) {

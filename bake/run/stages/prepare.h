@@ -23,8 +23,8 @@ struct PreparedScene {
   const Scene& scene() const { return imported->scene; }
 };
 
-// Imports the scene, takes the movers out of it, splits the double-sided surfaces by the light on their sides. Errors as
-// those stages give them.
+// Imports the scene, takes the movers out of it, splits the double-sided surfaces by the light on their sides. Errors
+// as those stages give them.
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
 // Lays out the lightmap. Errors as build_atlas.
 Status lay_out_lightmap(const AtlasOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared);

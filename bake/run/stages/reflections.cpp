@@ -121,7 +121,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   ORIEL_TRY(FoundReflections all, find_reflections(options, accel, materials.summaries, context));
   auto& [region, eyes, lobes, found, curved, omissions] = all;
   report.omissions = std::move(omissions);
-  if (all.empty()) {
+  const bool dark = baked.lights.empty() && max_component(accel.scene().sky) <= 0;
+  if (dark && !all.empty()) report.omissions.emplace_back("radiance maps: the scene has no light");
+  if (dark || all.empty()) {
     pack.walk_grids = std::move(region.grids);
     return report;
   }

@@ -33,8 +33,8 @@ struct ReflectionReport {
 };
 
 // Finds the eye region and the reflectors, plans and captures their maps, all into the pack, whose lightmaps are there.
-// Nothing is planned or traced where there is no reflector. Error kStopped; the pack is then as it was but for its
-// emitters.
+// Nothing is planned or traced where there is no reflector or no light. Error kStopped; the pack is then as it was but
+// for its emitters.
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
                                           const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
                                           Pack& pack);
