@@ -13,9 +13,11 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake house.gltf -o house.oriel --atlas uv1 --resolution 512  the artist's own lightmap coordinates
   oriel-bake house.glb -o house.oriel --sky noon.exr --sky-scale 1000 --ies "lamp=downlight.ies"  measured light
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
+  oriel-bake plan house.glb                                what that would do and cost, and what looks wrong
 
-Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time,
-130 stopped by the user (nothing half-written is left).)";
+Exit codes: 0 done (after one interrupt with what was there), 1 usage, 2 a file cannot be read or written, 3 invalid input,
+4 failed at run time, 5 findings with plan --strict, 130 stopped by the user before there was a first estimate, or by a
+second interrupt (nothing half-written is left).)";
 
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
@@ -27,7 +29,7 @@ struct Texts {
               transfer = "shadowed", probe = "1m";
   std::uint32_t samples = 0;
   int resolution = 0;
-  CLI::Option* texel_option = nullptr;
+  CLI::Option *texel_option = nullptr, *error_option = nullptr, *time_option = nullptr;
 };
 
 void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
@@ -72,11 +74,14 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                                "by 1 % of the mean. Work stops there")
                     ->check(checked(parse_fraction, "SHARE"))
                     ->capture_default_str();
-  app.add_option("--time", texts.time,
-                 "Instead of --error: refine for so long (the stage's fixed work comes first and the round at work is "
-                 "finished). The pack then depends on the machine")
-      ->check(checked(parse_duration, "TIME"))
-      ->excludes(error);
+  texts.error_option = error;
+  texts.time_option =
+      app.add_option(
+             "--time", texts.time,
+             "Instead of --error: the lightmap is refined for so long (its first estimate comes first, whatever it "
+             "takes). The pack then depends on the machine")
+          ->check(checked(parse_duration, "TIME"))
+          ->excludes(error);
   app.add_option("--samples", texts.samples,
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
       ->check(CLI::Range(1u, 1u << 24))
@@ -182,6 +187,9 @@ Status resolve(const Texts& texts, Arguments& args) {
   } else if (!texts.time.empty()) {
     ORIEL_TRY(bake.time_s, parse_duration(texts.time));
     bake.radiosity.error = kBestError;
+    if (texts.error_option->count() > 0) {  // the plan takes both
+      ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
+    }
     bake.radiosity.samples = kMostSamples;
   } else {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
@@ -220,6 +228,15 @@ Status resolve(const Texts& texts, Arguments& args) {
   return {};
 }
 
+// The bake's options as its subcommands take them.
+void add_bake_options(CLI::App& app, Texts& texts, SharedTexts& shared, Arguments& args) {
+  add_atlas_options(app, texts, args.bake);
+  add_radiosity_options(app, texts, args.bake);
+  add_light_options(app, shared, args);
+  add_reflection_options(app, texts, args.bake);
+  add_mover_options(app, texts, args.bake);
+}
+
 // With a subcommand no option of the bake means anything; without one SCENE and -o must be there.
 void require_bake_arguments(const CLI::App& app) {
   const auto commands = app.get_subcommands();
@@ -250,21 +267,24 @@ Arguments parse_arguments(int argc, char** argv) {
   // CLI11's required() would be asked for with the subcommand too: require_bake_arguments() stands in for it.
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
-  add_atlas_options(app, texts, args.bake);
-  add_radiosity_options(app, texts, args.bake);
-  add_light_options(app, shared, args);
-  add_reflection_options(app, texts, args.bake);
-  add_mover_options(app, texts, args.bake);
+  add_bake_options(app, texts, shared, args);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
   const CLI::App* render = add_render(app, render_texts, shared, args);
   add_material(app, material_texts, args.material);
+  CLI::App* plan = add_plan(app, args.bake.scene, args.plan);
+  Texts plan_texts;
+  add_bake_options(*plan, plan_texts, shared, args);
+  add_run_options(*plan, shared, args);
+  plan_texts.time_option->remove_excludes(plan_texts.error_option);
+  plan_texts.error_option->remove_excludes(plan_texts.time_option);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     args.wants_lux = lux->parsed();
     args.render.wanted = render->parsed();
+    args.plan.wanted = plan->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -275,7 +295,7 @@ Arguments parse_arguments(int argc, char** argv) {
   if (resolved && !args.material.wanted)
     resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
                : args.render.wanted ? resolve_render(render_texts, args)
-                                    : resolve(texts, args);
+                                    : resolve(args.plan.wanted ? plan_texts : texts, args);
   if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());
     args.exit_code = 1;

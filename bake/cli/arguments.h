@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/cli/material/material_arguments.h"
+#include "bake/cli/plan/plan_arguments.h"
 #include "bake/cli/progress.h"
 #include "bake/reference/reference.h"
 #include "bake/run/measure.h"
@@ -27,6 +28,7 @@ struct Arguments {
   std::filesystem::path lux_output;  // empty: stdout
   RenderArguments render;            // the subcommand `render` instead, where wanted
   MaterialArguments material;        // the subcommand `material` instead, where wanted
+  PlanArguments plan;                // the subcommand `plan` of `bake` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;

@@ -31,7 +31,13 @@ void on_alarm(int) {
   ::_exit(static_cast<int>(ErrorCode::kStopped));
 }
 
+// The first time the bake ends with what is there, if that makes a pack; else, and the second time, at once.
 void on_stop(int) {
+  if (g_context->finishable && !g_context->finish.exchange(true)) {
+    static constexpr char kText[] = "\noriel-bake: finishing with what is there; again to stop at once\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+    return;
+  }
   g_context->stop.store(true);
   ::alarm(1);
 }
@@ -121,6 +127,8 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
       return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
   }
   ORIEL_TRY(const BakeResult result, bake(args.bake, context));
+  if (result.radiosity.ended_early || context.finish)
+    printer.note("ended early: the pack holds what was there, with the error that is stated");
   print_omissions(result.omissions, printer);
   printer.note(light_line(result.radiosity));
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
@@ -141,6 +149,11 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
 Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
   try {
     if (args.material.wanted) return run_material(args.material);
+    if (args.plan.wanted) {
+      if (!args.plan.json.empty() && args.plan.json != "-")
+        ORIEL_TRY_VOID(check_output(args.plan.json, inputs_of(args.bake.scene, args.bake.import)));
+      return run_plan(args.plan, args.bake, context);
+    }
     if (args.render.wanted) {
       ORIEL_TRY_VOID(check_output(args.render.output, inputs_of(args.render.scene, args.render.import)));
       return run_render(args.render, context);

@@ -25,14 +25,34 @@ class Context {
   std::uint64_t seed = 1;                         // of every random number
   std::function<void(const Progress&)> progress;  // called from one thread at a time; may be empty
   std::function<void(const std::string&)> warn;   // a finding the user should read; may be empty
-  std::atomic<bool> stop{false};  // set from outside (a signal handler may): stages return kStopped soon
+  std::atomic<bool> stop{false};        // set from outside (a signal handler may): stages return kStopped soon
+  std::atomic<bool> finish{false};      // set likewise: what can be left out is, and what is there is the result
+  std::atomic<bool> finishable{false};  // set by the bake: what is there would make a result
 
-  bool stopped() const { return stop.load(std::memory_order_relaxed); }
+  // Work under way shall end: it is thrown away, or within an Interruptible may stay as it is.
+  bool stopped() const { return stop.load(std::memory_order_relaxed) || (enough_ && enough_()); }
   void warning(const std::string& message);
   void report(std::string_view stage, double fraction, std::uint64_t rays = 0);
 
  private:
+  friend class Interruptible;
   std::mutex mutex_;
+  std::function<bool()> enough_;
+};
+
+// While it lives, stopped() is also true once enough() is: for work that may end anywhere. It is made and ends while no
+// other thread uses the context; enough() is called from any thread.
+class Interruptible {
+ public:
+  Interruptible(Context& context, std::function<bool()> enough) : context_(context) {
+    context_.enough_ = std::move(enough);
+  }
+  ~Interruptible() { context_.enough_ = nullptr; }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  Context& context_;
 };
 
 }  // namespace oriel

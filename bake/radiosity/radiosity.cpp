@@ -142,9 +142,24 @@ Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> tex
       rays += traced;
     };
     ORIEL_TRY_VOID(parallel_for(context, "paths", runs.size(), body, &rays));
-    if (next == options.samples || context.stopped() || (options.enough && options.enough())) return {};
+    if (next == options.samples || context.stopped()) return {};
     if (options.error > 0 && relative_error(texel_map, result) <= options.error) return {};
+    if (options.enough) context.finishable = true;
+    if ((result.report.ended_early = options.enough && options.enough())) return {};
   }
+}
+
+// Without any light black is exact: only what lies inside other geometry is to be found.
+Status bake_dark(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+                 Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
+  ORIEL_TRY(const Texels texels, list_texels(transport, atlas, texel_map, context, rays));
+  for (std::size_t i = 0; i < texels.count(); ++i) {
+    LightmapPage& page = result.pages[texels.page[i]];
+    page.state[std::size_t{texels.y[i]} * page.width + texels.x[i]] =
+        texels.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
+    result.visible[texels.page[i]][texels.index[i]] = texels.visible[i];
+  }
+  return {};
 }
 
 }  // namespace
@@ -163,7 +178,10 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     result.visible.emplace_back(map.texel.size());
   }
   std::atomic<std::uint64_t> rays{0};
-  if (options.estimator == Estimator::kCached) {
+  const bool dark = transport.lights.empty() && luminance(transport.accel.scene().sky) <= 0;
+  if (dark) {
+    ORIEL_TRY_VOID(bake_dark(transport, atlas, texel_map, context, rays, result));
+  } else if (options.estimator == Estimator::kCached) {
     ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result));
   } else {
     ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,
@@ -176,12 +194,12 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
       fill_buried(atlas, texel_map[p], result.pages[p]);
       dilate(options.dilation, result.pages[p]);
     }
-    if (options.stitch) {
+    if (options.stitch && !dark) {
       ORIEL_TRY_VOID(stitch_lightmap(transport, atlas, texel_map, context, rays, result));
     }
   }
   summarize(transport.accel.scene(), atlas, texel_map, result);
-  if (options.estimator == Estimator::kCached && options.certify) {
+  if (options.estimator == Estimator::kCached && options.certify && !dark) {
     ORIEL_TRY(result.report.certificate, certify(transport, atlas, texel_map, result, rays, context));
     rays += result.report.certificate.rays;
   }

@@ -32,9 +32,11 @@ struct RadiosityOptions {
                                 // cached: gather rays a texel, at most
   double error = 0;             // stop at this relative error (RadiosityReport::relative_error); 0: take all samples
   int bounces = 0;  // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
-  std::function<bool()> enough = {};  // asked between rounds of refinement: true ends them (a time limit, say)
-  bool certify = true;                // cached: state the difference to unbiased paths
-  FilterOptions filter = {};          // cached
+  // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
+  // limit, say). Context::finishable is set while it is asked.
+  std::function<bool()> enough = {};
+  bool certify = true;        // cached: state the difference to unbiased paths
+  FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
   bool stitch = true;        // make light continuous over the seams of the lightmap
@@ -68,10 +70,11 @@ struct RadiosityReport {
   Vec3 mean{0};  // lux, over valid texels
   Vec3 max{0};   // lux
   double relative_error =
-      0;                  // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
-  int sweeps = 0;         // cached: bounces computed in the coarse lightmap
-  double sweep_tail = 0;  // cached: bound on what further bounces would add, relative
-  double filter_drift = 0;  // cached: relative change of the gathered energy by the filter
+      0;           // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
+  int sweeps = 0;  // cached: bounces computed in the coarse lightmap
+  bool ended_early = false;  // by `enough`: the error asked for does not hold
+  double sweep_tail = 0;     // cached: bound on what further bounces would add, relative
+  double filter_drift = 0;   // cached: relative change of the gathered energy by the filter
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };

@@ -2,89 +2,45 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 
-#include "bake/jobs/parallel.h"
-#include "bake/radiosity/lit_sides.h"
 #include "bake/run/assemble.h"
 #include "bake/run/report.h"
 #include "bake/run/stages/movers.h"
+#include "bake/run/stages/prepare.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-// Runs one stage and notes its wall clock.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<StageTime>& times) : times_(times) {}
-  template <class Stage>
-  auto operator()(const char* name, const Stage& stage) {
-    const auto start = std::chrono::steady_clock::now();
-    std::uint64_t rays = 0;
-    auto result = stage(rays);
-    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), rays});
-    return result;
-  }
-
- private:
-  std::vector<StageTime>& times_;
-};
-
 void warn_about_error(const BakeOptions& options, const RadiosityReport& report, Context& context) {
   const double asked = options.radiosity.error;
-  if (asked <= 0 || options.time_s > 0 || report.relative_error <= 1.25 * asked) return;
+  if (asked <= 0 || options.time_s > 0 || report.ended_early || report.relative_error <= 1.25 * asked) return;
   context.warning(fmt::format(
       "the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays each, or lie "
       "where light changes within a texel; --texel makes those finer",
       100 * report.relative_error, 100 * asked, options.radiosity.samples));
 }
 
-PathOptions path_options(const BakeOptions& options) {
-  PathOptions paths;
-  if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
-  return paths;
+// Whether refinement is to end: the user asks for it, or its time is over.
+std::function<bool()> refined_enough(const BakeOptions& options, const Context& context) {
+  using Clock = std::chrono::steady_clock;
+  const bool limited = options.time_s > 0;
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(limited ? options.time_s : 0));
+  return [=, &finish = context.finish] { return finish || (limited && Clock::now() >= end); };
 }
 
-MaterialOptions material_options(const BakeOptions& options) {
-  MaterialOptions material = options.material;
-  if (options.radiosity.error > 0) material.error = options.radiosity.error;
-  return material;
-}
-
-// Whether the lightmap is to hold directions; why not is noted.
-bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
-  if (wanted == Directional::kOn) return true;
-  const bool mapped = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
-    const SceneMaterial& material = scene.materials[surface.material];
-    return material.normal_texture.image >= 0 && !material.unlit;
-  });
-  if (mapped && wanted == Directional::kAuto) return true;
-  omissions.emplace_back(mapped
-                             ? "directional lightmaps: left out by --directional off; normal maps tilt reflections only"
-                             : "directional lightmaps: no material has a normal map");
-  return false;
-}
-
-struct LitScene {
-  Accel accel;
-  SidesReport sides;
-};
-
-// Splits the scene's double-sided surfaces by the light on their sides; its accelerator.
-Result<LitScene> light_sides(const BakeOptions& options, Scene& scene, Stopwatch& timed, Context& context) {
-  const auto build = [&](auto&) { return Accel::build(scene, {options.reproducible, thread_count(context)}); };
-  ORIEL_TRY(Accel accel, timed("accelerator", build));
-  ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
-              const LightSet lights(scene);
-              auto sides = find_lit_sides({accel, lights, path_options(options)}, context);
-              if (sides) rays = sides->report.rays;
-              return sides;
-            }));
-  if (found.change_scene()) {
-    scene = split_sides(std::move(scene), found.sides);
-    ORIEL_TRY(accel, timed("accelerator", build));
-  }
-  return LitScene{std::move(accel), found.report};
+// Reflections, left out where the user wants the bake to finish.
+Result<ReflectionReport> reflect(const BakeOptions& options, const BakedScene& baked, const MaterialMaps& materials,
+                                 const AssembledMesh& mesh, Context& context, Pack& pack) {
+  const Interruptible until(context, [&] { return context.finish.load(); });
+  auto made = bake_reflections(options, baked, materials, mesh, context, pack);
+  if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
+  pack.emitters.clear();
+  ReflectionReport none;
+  none.omissions.emplace_back("radiance maps: left out, the user asked the bake to finish");
+  return none;
 }
 
 }  // namespace
@@ -97,35 +53,27 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;
   Stopwatch timed(result.times);
-  ORIEL_TRY(ImportedScene imported,
-            timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
-  std::vector<TakenMover> movers;
-  if (options.with_transfer) {
-    ORIEL_TRY(movers, take_movers(imported.scene));
-  } else if (!imported.scene.movers.empty()) {
-    result.omissions.emplace_back("movers: left out by --only; they stand still");
-  }
-  ORIEL_TRY(const LitScene lit, light_sides(options, imported.scene, timed, context));
-  const Scene& scene = imported.scene;
-  const Accel& accel = lit.accel;
-  ORIEL_TRY(const Atlas atlas, timed("atlas", [&](auto&) { return build_atlas(scene, options.atlas, context); }));
-  ORIEL_TRY(const auto texel_map, timed("texel map", [&](auto&) { return build_texel_map(atlas, context); }));
+  ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
+  ORIEL_TRY_VOID(lay_out_lightmap(options.atlas, timed, context, prepared));
+  result.omissions = prepared.omissions;
+  const Scene& scene = prepared.scene();
+  const Accel& accel = *prepared.accel;
+  const Atlas& atlas = prepared.atlas;
+  const std::vector<TakenMover>& movers = prepared.movers;
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 
   RadiosityOptions radiosity_options = options.radiosity;
-  if (options.time_s > 0) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.time_s);
-    radiosity_options.enough = [end] { return std::chrono::steady_clock::now() >= end; };
-  }
+  radiosity_options.enough = refined_enough(options, context);
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
-              auto baked =
-                  bake_radiosity({accel, lights, path_options(options)}, atlas, texel_map, radiosity_options, context);
+              auto baked = bake_radiosity({accel, lights, path_options(options)}, atlas, prepared.texel_map,
+                                          radiosity_options, context);
               if (baked) rays = baked->report.rays;
               return baked;
             }));
   result.radiosity = radiosity.report;
+  context.finishable = true;
   warn_about_error(options, radiosity.report, context);
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
@@ -136,7 +84,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   ReflectionReport reflections;
   if (options.with_radiance) {
     ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
-                auto made = bake_reflections(options, baked, materials, mesh, context, pack);
+                auto made = reflect(options, baked, materials, mesh, context, pack);
                 if (made) rays = made->rays;
                 return made;
               }));
@@ -168,9 +116,9 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, lit.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
-                         mover_reports, options.radiosity.estimator == Estimator::kCached});
-  pack.provenance = provenance_json(options, context.seed, imported.inputs);
+  pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(),
+                         reflections, mover_reports, options.radiosity.estimator == Estimator::kCached});
+  pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   return result;
 }
 

@@ -2,15 +2,10 @@
 #pragma once
 
 #include "bake/run/options.h"
+#include "bake/run/stages/stopwatch.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
-
-struct StageTime {
-  std::string stage;
-  double seconds = 0;
-  std::uint64_t rays = 0;
-};
 
 struct BakeResult {
   Pack pack;

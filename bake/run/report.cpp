@@ -121,6 +121,7 @@ std::string plan_json(const BakeFacts& f) {
         {"sweeps", f.radiosity.sweeps},
         {"sweep_tail", f.radiosity.sweep_tail},
         {"filter_drift", f.radiosity.filter_drift},
+        {"ended_early", f.radiosity.ended_early},
         {"certificate",
          {{"texels", f.radiosity.certificate.texels},
           {"paths", f.radiosity.certificate.paths},

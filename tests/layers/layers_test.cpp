@@ -69,14 +69,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
-  m["bake/plan"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"});
-  m["bake/run"] = plus(m["bake/plan"],
-                       {"bake/plan", "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                        "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
+                               "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                               "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
+  m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
+  m["bake/plan"] = plus(m["bake/plan/doctor"], {"bake/plan/doctor"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
-  m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
+  m["bake/cli/plan"] = plus(m["bake/plan"], {"bake/plan", "bake/cli"});
+  m["bake/cli"] = plus(m["bake/cli/plan"], {"bake/cli/plan", "bake/cli/material", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});

@@ -1,6 +1,7 @@
 #include "bake/radiosity/cached/cached.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
@@ -56,6 +57,7 @@ class CachedBake {
     result.report.sweeps = sweeps.count;
     result.report.sweep_tail = sweeps.tail;
     result.report.filter_drift = estimate_.energy_drift;
+    result.report.ended_early = ended_early_;
     return {};
   }
 
@@ -107,7 +109,15 @@ class CachedBake {
     return variance;
   }
 
-  bool done() const { return context_.stopped() || (options_.enough && options_.enough()); }
+  bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
+
+  // Runs a refinement, which each texel gets whole or not at all, until there is enough.
+  Status refine(const std::function<Status()>& refinement) {
+    const Interruptible until(context_, options_.enough);
+    if (const Status status = refinement(); status || context_.stop) return status;
+    ended_early_ = true;
+    return {};
+  }
 
   // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
   double relative2(std::size_t i, const Vec3& variance) const {
@@ -174,21 +184,24 @@ class CachedBake {
     ORIEL_TRY_VOID(gather(texels_, around_, order_, per_half, cached, context_, gathered_, rays_));
     update_estimate();
     if (options_.error <= 0) return {};
+    if (options_.enough) context_.finishable = true;
     const double goal = (1 - kDirectShare) * target() * target();
     for (;;) {
       const double now = mean_squares(estimate_.variance);
-      if (now <= goal || done()) return {};
+      if (now <= goal) return {};
+      if ((ended_early_ = done())) return {};
       // Each texel doubles its own count: those of one count are gathered together.
       std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
       if (list.empty()) return {};
-      while (!list.empty()) {
+      while (!list.empty() && !ended_early_) {
         const std::uint32_t samples = gathered_.samples[list.front()];
         const auto rest = std::stable_partition(list.begin(), list.end(),
                                                 [&](std::uint32_t i) { return gathered_.samples[i] == samples; });
         const std::vector<std::uint32_t> same(list.begin(), rest);
         list.erase(list.begin(), rest);
         per_half = std::min(most, 2 * std::max(1u, samples));
-        ORIEL_TRY_VOID(gather(texels_, around_, same, per_half, cached, context_, gathered_, rays_));
+        ORIEL_TRY_VOID(
+            refine([&] { return gather(texels_, around_, same, per_half, cached, context_, gathered_, rays_); }));
       }
       update_estimate();
     }
@@ -199,16 +212,18 @@ class CachedBake {
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
       const double now = mean_squares(direct_variance()), goal = kDirectShare * target() * target();
-      if (now <= goal || done()) return {};
+      if (now <= goal) return {};
+      if ((ended_early_ = done())) return {};
       std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
       if (list.empty()) return {};
-      while (!list.empty()) {
+      while (!list.empty() && !ended_early_) {
         const std::uint32_t samples = direct_.per_half[list.front()];
         const auto rest = std::stable_partition(list.begin(), list.end(),
                                                 [&](std::uint32_t i) { return direct_.per_half[i] == samples; });
         const std::vector<std::uint32_t> same(list.begin(), rest);
         list.erase(list.begin(), rest);
-        ORIEL_TRY_VOID(direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_));
+        ORIEL_TRY_VOID(refine(
+            [&] { return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_); }));
       }
     }
   }
@@ -243,6 +258,7 @@ class CachedBake {
   std::vector<float> relative_;   // by texel: squared relative error of the part being refined
   DVec3 mean_{0};                 // lux, over texels that see light
   std::size_t count_ = 0;         // of them
+  bool ended_early_ = false;
 };
 
 }  // namespace

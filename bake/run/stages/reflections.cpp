@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
 
-std::vector<ReflectorMaterial> reflector_materials(const MaterialMaps& maps) {
+std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
-  for (const MaterialSummary& m : maps.summaries) out.push_back({m.roughness, m.f0, m.f90, m.curve});
+  for (const MaterialSummary& m : materials) out.push_back({m.roughness, m.f0, m.f90, m.curve});
   return out;
 }
 
@@ -81,19 +81,6 @@ void keep(std::vector<Found>& found, const AssembledMesh& mesh, std::vector<Kept
   }
 }
 
-// What shines without lying in a plane, with what surrounds it.
-Result<FoundCurvedReflectors> curved_reflectors(const BakeOptions& options, const Accel& accel,
-                                                std::span<const std::uint32_t> triangles,
-                                                std::span<const ReflectorMaterial> materials,
-                                                const OutgoingRadiance& outgoing, Context& context,
-                                                std::atomic<std::uint64_t>& rays) {
-  CurvedOptions curved = options.curved;
-  curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
-  FoundCurvedReflectors found = find_curved_reflectors(accel.scene(), triangles, materials, curved);
-  ORIEL_TRY_VOID(capture_surroundings(accel, found, outgoing, context, &rays));
-  return found;
-}
-
 std::vector<bool> marked(const Scene& scene, std::span<const std::uint32_t> triangles) {
   std::vector<bool> is_marked(scene.triangles.size());
   for (const std::uint32_t t : triangles) is_marked[t] = true;
@@ -111,16 +98,35 @@ OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const Outgoin
 
 }  // namespace
 
+Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel,
+                                          std::span<const MaterialSummary> materials, Context& context) {
+  FoundReflections all;
+  ORIEL_TRY(all.region, find_eye_region(accel, options.eyes, context));
+  if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
+  all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
+  all.lobes = reflector_materials(materials);
+  ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
+  CurvedOptions curved = options.curved;
+  curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
+  all.curved = find_curved_reflectors(accel.scene(), all.found.unplanar, all.lobes, curved);
+  append(all.omissions, all.curved.omitted);
+  return all;
+}
+
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
                                           const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
                                           Pack& pack) {
   const Accel& accel = baked.accel;
   ReflectionReport report;
-  ORIEL_TRY(EyeRegion region, find_eye_region(accel, options.eyes, context));
-  if (!region.note.empty()) report.omissions.push_back(region.note);
-  const std::vector<Vec3> eyes = sample_eyes(region, kTrainingEyes, context.seed);
-  const std::vector<ReflectorMaterial> lobes = reflector_materials(materials);
-  ORIEL_TRY(FoundReflectors found, reflectors_for(options, accel, lobes, eyes, context, report.omissions));
+  ORIEL_TRY(FoundReflections all, find_reflections(options, accel, materials.summaries, context));
+  auto& [region, eyes, lobes, found, curved, omissions] = all;
+  report.omissions = std::move(omissions);
+  const bool dark = baked.lights.empty() && max_component(accel.scene().sky) <= 0;
+  if (dark && !all.empty()) report.omissions.emplace_back("radiance maps: the scene has no light");
+  if (dark || all.empty()) {
+    pack.walk_grids = std::move(region.grids);
+    return report;
+  }
   std::vector<FoundReflector>& reflectors = found.reflectors;
   ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
   std::atomic<std::uint64_t> rays{0};
@@ -141,9 +147,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
                                       report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
   ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
-  ORIEL_TRY(FoundCurvedReflectors curved,
-            curved_reflectors(options, accel, found.unplanar, lobes, with_lobes_of(is_shiny, outgoing), context, rays));
-  append(report.omissions, curved.omitted);
+  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
   if (options.view_scheme == ViewScheme::kPlanned) {
     const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));

@@ -251,6 +251,25 @@ TEST_F(BakeCli, InterruptLeavesNothing) {
     EXPECT_TRUE(entry.path().filename() == "cornell.glb" || entry.path().filename() == "log") << entry.path();
 }
 
+TEST_F(BakeCli, PlanTellsAndFailsWhereFindingsAre) {
+  ASSERT_EQ(run("oriel-bake plan cornell.glb --texel 5cm --quiet --json -"), 0) << log();
+  const auto json = nlohmann::json::parse(log());
+  EXPECT_TRUE(json["findings"].empty());
+  EXPECT_GT(json["prediction"]["seconds"], 0);
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --json plan.json"), 0) << log();
+  EXPECT_NE(log().find("no surround maps"), std::string::npos) << log();
+  EXPECT_TRUE(fs::exists(folder_ / "plan.json"));
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --texel 1mm --max-page 64"), 5) << "texels";
+  EXPECT_NE(log().find("D7 texel density: --texel"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --texel 1mm --max-page 64"), 0) << "told, not strict";
+  ASSERT_EQ(run("oriel-bake plan cornell.glb --texel 2cm --error 1% --time 0.001s"), 0) << log();
+  EXPECT_NE(log().find("INFEASIBLE: --time 0.001 s"), std::string::npos) << log();
+  EXPECT_EQ(run("oriel-bake cornell.glb -o a.oriel --error 1% --time 1s"), 1) << "a bake takes one of them";
+  EXPECT_EQ(run("oriel-bake plan missing.glb"), 2);
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --json ./cornell.glb"), 1) << "an input";
+  EXPECT_EQ(run("oriel-bake plan"), 1);
+}
+
 TEST_F(BakeCli, LuxPrintsATable) {
   write("points.csv", "x,y,z,nx,ny,nz\n0.1,0,-0.1,0,1,0\n0.3,0.2,-0.3,0,0,-1\n");
   ASSERT_EQ(run("oriel-bake lux cornell.glb --points points.csv -o a.csv --error 5%"), 0) << log();

@@ -1,0 +1,228 @@
+#include "bake/plan/census.h"
+
+#include <algorithm>
+#include <set>
+
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kMirrorAlpha = 1e-5f;  // as make_kernel() has it
+
+LightCensus count_lights(const Scene& scene, const LightSet& lights) {
+  LightCensus c;
+  for (const Light& light : scene.lights) {
+    ++(light.type == LightType::kPoint ? c.points : light.type == LightType::kSpot ? c.spots : c.directionals);
+    c.profiles += light.profile >= 0;
+  }
+  for (const Surface& surface : scene.surfaces)
+    if (max_component(scene.materials[surface.material].emission) > 0 && !scene.materials[surface.material].unlit) {
+      ++c.emitting_surfaces;
+      c.emitting_triangles += surface.triangle_count;
+    }
+  c.sky = luminance(scene.sky) <= 0        ? LightCensus::Sky::kNone
+          : scene.sky_image.texels.empty() ? LightCensus::Sky::kConstant
+                                           : LightCensus::Sky::kImage;
+  c.power_lm = luminance(lights.power());
+  c.dark = lights.empty() && c.sky == LightCensus::Sky::kNone;
+  return c;
+}
+
+LobeKind lobe_of(const SceneMaterial& m, const MaterialSummary& s, const BakeOptions& options) {
+  if (m.unlit) return LobeKind::kUnlit;
+  if (max_component(s.f0) <= 0 && s.f90 <= 0 && s.coat <= 0) return LobeKind::kMatte;
+  if (s.alpha < kMirrorAlpha) return LobeKind::kMirror;
+  return s.roughness <= options.reflectors.max_roughness ? LobeKind::kGlossy : LobeKind::kBroad;
+}
+
+// By triangle: whether a planar or curved reflector has it.
+std::vector<bool> reflecting(const Scene& scene, const FoundReflections& found) {
+  std::vector<bool> reflects(scene.triangles.size());
+  for (const FoundReflector& r : found.found.reflectors)
+    for (const std::uint32_t t : r.triangles) reflects[t] = true;
+  for (const FoundCurvedReflector& r : found.curved.reflectors)
+    for (const std::uint32_t t : r.triangles) reflects[t] = true;
+  return reflects;
+}
+
+std::vector<MaterialCensus> list_materials(const CensusInput& in) {
+  const Scene& scene = in.prepared.scene();
+  std::vector<MaterialCensus> all(scene.materials.size());
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const SceneMaterial& material = scene.materials[m];
+    const MaterialSummary& summary = in.materials.summaries[m];
+    MaterialCensus& c = all[m];
+    c.name = material.name;
+    c.lobe = lobe_of(material, summary, in.options);
+    c.alpha = summary.alpha;
+    c.reflectance =
+        c.lobe == LobeKind::kUnlit || c.lobe == LobeKind::kMatte ? 0 : reflectance_at_60_deg(in.reflections.lobes[m]);
+    c.transmission = summary.transmission;
+    const auto slots = texture_slots(material);
+    c.textured = std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return slot->image >= 0; });
+    c.normal_map = material.normal_texture.image >= 0;
+    c.emits = max_component(material.emission) > 0;
+    c.area_m2 = summary.area_m2;
+    c.kernel = in.options.with_material ? in.materials.kernel[m] : -1;
+  }
+  const std::vector<bool> reflects = reflecting(scene, in.reflections);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    MaterialCensus& c = all[scene.surfaces[scene.triangle_surface[t]].material];
+    c.seen += in.seen[t];
+    if (!reflects[t] || !in.options.with_radiance) c.left_out += double{c.reflectance} * in.seen[t];
+  }
+  std::erase_if(all, [](const MaterialCensus& c) { return c.area_m2 <= 0; });
+  return all;
+}
+
+std::vector<ReflectorCensus> list_reflectors(const FoundReflections& all) {
+  std::vector<ReflectorCensus> out;
+  for (const FoundReflector& r : all.found.reflectors)
+    out.push_back({r.reflector.name, true, r.reflector.area_m2, r.reflectance, r.roughness * r.roughness});
+  for (const FoundCurvedReflector& r : all.curved.reflectors) {
+    const ReflectorMaterial& lobe = all.lobes[r.reflector.material];
+    out.push_back({r.reflector.name, false, r.area_m2, reflectance_at_60_deg(lobe), lobe.roughness * lobe.roughness});
+  }
+  return out;
+}
+
+std::uint64_t covered_texels(const PreparedScene& prepared) {
+  std::uint64_t count = 0;
+  for (const TexelMapPage& page : prepared.texel_map) count += page.texel.size();
+  return count;
+}
+
+StageCensus radiosity_stage(const CensusInput& in, const LightCensus& lights) {
+  const std::uint64_t texels = covered_texels(in.prepared);
+  return {"radiosity",
+          !lights.dark && texels > 0,
+          lights.dark   ? "the scene has no light: black is exact, nothing is traced for it"
+          : texels == 0 ? "no surface takes part in light transport"
+                        : fmt::format("irradiance on {} texels of {:.3g} m", texels, in.prepared.atlas.texel_m),
+          {{"texels", texels}, {"pages", in.prepared.atlas.pages.size()}}};
+}
+
+StageCensus directional_stage(const CensusInput& in) {
+  std::vector<std::string> why;
+  const bool runs = choose_directional(in.prepared.scene(), in.options.directional, why);
+  return {
+      "directional",
+      runs,
+      runs ? (in.options.directional == Directional::kOn ? "asked for" : "materials have normal maps") : why.front(),
+      {}};
+}
+
+StageCensus radiance_stage(const CensusInput& in, bool dark) {
+  const std::size_t count = in.options.with_radiance && !dark ? in.reflections.found.reflectors.size() : 0;
+  const ReflectorOptions& o = in.options.reflectors;
+  std::string why;
+  if (!in.options.with_radiance)
+    why = "no radiance maps: left out by --only";
+  else if (dark)
+    why = "no radiance maps: the scene has no light";
+  else if (count == 0)
+    why = fmt::format(
+        "no radiance maps: no planar surface with roughness <= {:.3g} (alpha <= {:.3g}), R >= {:.3g} % and {:.3g} m² "
+        "or "
+        "more is seen from where people walk",
+        o.max_roughness, o.max_roughness * o.max_roughness, 100 * o.min_reflectance, o.min_area_m2);
+  else
+    why = fmt::format("{} planar surface{} show{} an image to people who walk", count, count == 1 ? "" : "s",
+                      count == 1 ? "s" : "");
+  return {"radiance", count > 0, why, {{"reflectors", count}}};
+}
+
+StageCensus surround_stage(const CensusInput& in, bool dark) {
+  const FoundCurvedReflectors& curved = in.reflections.curved;
+  const std::size_t count = in.options.with_radiance && !dark ? curved.reflectors.size() : 0;
+  std::uint64_t texels = 0;
+  for (const SurroundMap& map : curved.maps) texels += std::uint64_t{map.size} * map.size;
+  return {"surround",
+          count > 0,
+          count > 0 ? fmt::format("{} curved surface{} show{} what is around", count, count == 1 ? "" : "s",
+                                  count == 1 ? "s" : "")
+                    : "no surround maps: nothing that is not planar shows an image",
+          {{"reflectors", count}, {"texels", count > 0 ? texels : 0}}};
+}
+
+StageCensus kernel_stage(const CensusInput& in, const std::vector<MaterialCensus>& materials) {
+  std::set<std::int32_t> kernels;
+  std::size_t served = 0;
+  for (const MaterialCensus& m : materials)
+    if (m.kernel >= 0) kernels.insert(m.kernel), ++served;
+  std::string why;
+  if (!in.options.with_material)
+    why = "no kernels: left out by --only";
+  else if (kernels.empty())
+    why = fmt::format("no kernels: no material has a lobe of roughness {:.3g} or less",
+                      in.options.material.max_roughness);
+  else
+    why = fmt::format("{} kernel{} serve{} {} material{}", kernels.size(), kernels.size() == 1 ? "" : "s",
+                      kernels.size() == 1 ? "s" : "", served, served == 1 ? "" : "s");
+  return {"kernels", !kernels.empty(), why, {{"kernels", kernels.size()}, {"materials", served}}};
+}
+
+StageCensus fresnel_stage(const CensusInput& in) {
+  const std::size_t count = in.materials.fresnel_maps.size();
+  return {"fresnel",
+          count > 0,
+          count > 0 ? "what specular lobes take from the diffuse light" : "no Fresnel maps: every material is matte",
+          {{"maps", count}}};
+}
+
+StageCensus mover_stage(const CensusInput& in) {
+  std::uint64_t vertices = 0;
+  for (const TakenMover& mover : in.prepared.movers) vertices += mover.scene.positions.size();
+  const std::size_t count = in.prepared.movers.size();
+  return {"movers",
+          count > 0,
+          count > 0                  ? "transfer by vertex, and the light that movers meet"
+          : in.options.with_transfer ? "no transfer and no light field: no node is marked, animated or named by --mover"
+                                     : "no transfer and no light field: left out by --only",
+          {{"movers", count}, {"vertices", vertices}}};
+}
+
+}  // namespace
+
+const char* name_of(LobeKind lobe) {
+  switch (lobe) {
+    case LobeKind::kUnlit:
+      return "unlit";
+    case LobeKind::kMatte:
+      return "matte";
+    case LobeKind::kMirror:
+      return "mirror";
+    case LobeKind::kGlossy:
+      return "glossy";
+    case LobeKind::kBroad:
+      return "broad";
+  }
+  return "";
+}
+
+Census take_census(const CensusInput& in) {
+  const Scene& scene = in.prepared.scene();
+  Census c;
+  c.triangles = scene.triangles.size();
+  c.surfaces = scene.surfaces.size();
+  c.size_m = scene.upper - scene.lower;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) c.area_m2 += triangle_area(scene, t);
+  for (const WalkGrid& grid : in.reflections.region.grids) c.walkable_m2 += grid.walkable_m2();
+  c.lights = count_lights(scene, in.lights);
+  c.materials = list_materials(in);
+  if (in.options.with_radiance) c.reflectors = list_reflectors(in.reflections);
+  c.stages = {radiosity_stage(in, c.lights),
+              directional_stage(in),
+              radiance_stage(in, c.lights.dark),
+              surround_stage(in, c.lights.dark),
+              kernel_stage(in, c.materials),
+              fresnel_stage(in),
+              mover_stage(in)};
+  c.omissions = in.prepared.omissions;
+  if (in.options.with_radiance)
+    c.omissions.insert(c.omissions.end(), in.reflections.omissions.begin(), in.reflections.omissions.end());
+  return c;
+}
+
+}  // namespace oriel

@@ -1,0 +1,141 @@
+#include "bake/plan/pilot.h"
+
+#include <algorithm>
+
+#include "bake/radiance/capture.h"
+#include "bake/run/assemble.h"
+#include "formats/pack/writer.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples are divided by
+constexpr std::uint32_t kStrips = 4, kPart = 16;   // of a map that is captured: a sixteenth, in strips
+
+double pixels(const RadianceMap& map) {
+  return double{1.0f * map.width} * map.height;
+}
+
+struct SmallPlan {
+  std::vector<FoundReflector> reflectors;  // with their maps
+  std::vector<RadianceMap> maps;           // without pixels
+  double seconds = 0;
+  double pixels = 0;
+};
+
+Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, Context& context) {
+  const std::vector<FoundReflector>& found = in.reflections.found.reflectors;
+  SmallPlan small{found, {}, 0, 0};
+  const WallClock clock;
+  if (in.options.view_scheme == ViewScheme::kHemisphere) {
+    small.maps = plan_views(in.prepared.scene(), small.reflectors, in.options.views).maps;
+  } else {
+    PlannedViewOptions fewer = in.options.planned;
+    fewer.samples = std::max(1u, fewer.samples / divisor);
+    fewer.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
+    const Surroundings surroundings(*in.prepared.accel, found, in.options.sight);
+    ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, in.reflections.eyes, fewer, context, small.reflectors));
+    small.maps = std::move(plan.maps);
+  }
+  small.seconds = clock.seconds();
+  for (const RadianceMap& map : small.maps) small.pixels += pixels(map);
+  return small;
+}
+
+// What a pixel of a reflector's maps costs.
+struct Rate {
+  double seconds = 0, rays = 0, bytes = 0;
+};
+
+// Rows of one map in strips spread over it, pixels as fine as they will be: neighbours are as alike.
+std::vector<RadianceMap> strips_of(const RadianceMap& whole) {
+  std::vector<RadianceMap> strips(kStrips, whole);
+  const std::uint32_t rows = std::max(1u, whole.height / (kStrips * kPart));
+  const float row = (whole.upper.y - whole.lower.y) / static_cast<float>(whole.height);
+  for (std::uint32_t i = 0; i < kStrips; ++i) {
+    const std::uint32_t first = std::min(whole.height - rows, (2 * i + 1) * whole.height / (2 * kStrips));
+    strips[i].height = rows;
+    strips[i].lower.y = whole.lower.y + static_cast<float>(first) * row;
+    strips[i].upper.y = strips[i].lower.y + static_cast<float>(rows) * row;
+  }
+  return strips;
+}
+
+// What these maps, all of one reflector, add to a pack.
+Result<double> stored_bytes(const CensusInput& in, const BakedScene& coarse, Reflector reflector,
+                            std::vector<RadianceMap> maps) {
+  Pack pack = pack_of_scene(in.prepared.scene(), coarse.atlas);
+  pack.lightmaps.assign(coarse.pages.begin(), coarse.pages.end());
+  ORIEL_TRY(const Bytes without, encode_pack(pack));
+  reflector.elements_x = reflector.elements_y = 1;
+  reflector.first_map = 0;
+  reflector.map_count = static_cast<std::uint32_t>(maps.size());
+  for (RadianceMap& map : maps) map.reflector = 0;
+  pack.reflectors.push_back(std::move(reflector));
+  pack.radiance_maps = std::move(maps);
+  ORIEL_TRY(const Bytes with, encode_pack(pack));
+  return static_cast<double>(with.size()) - static_cast<double>(without.size());
+}
+
+// Parts of one map, captured and stored.
+Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, const Surroundings& surroundings,
+                           const RadianceMap& whole, Context& context) {
+  std::vector<RadianceMap> strips = strips_of(whole);
+  std::atomic<std::uint64_t> rays{0};
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    std::uint64_t lobe_rays = 0;
+    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, context.seed, lobe_rays);
+    rays += lobe_rays;
+    return radiance;
+  };
+  const WallClock clock;
+  ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, strips, &rays));
+  const double seconds = clock.seconds(), count = kStrips * pixels(strips.front());
+  ORIEL_TRY(const double bytes,
+            stored_bytes(in, coarse, surroundings.reflectors()[whole.reflector].reflector, std::move(strips)));
+  return Rate{seconds / count, static_cast<double>(rays) / count, bytes / count};
+}
+
+}  // namespace
+
+Pack pack_of_scene(const Scene& scene, const Atlas& atlas) {
+  Pack pack;
+  pack.mesh = assemble_mesh(scene, atlas).mesh;
+  MaterialMaps none;
+  none.summaries.resize(scene.materials.size());
+  none.kernel.assign(scene.materials.size(), -1);
+  none.fresnel_map.assign(scene.materials.size(), -1);
+  assemble_materials(scene, none, pack);
+  return pack;
+}
+
+Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coarse, Context& context) {
+  ORIEL_TRY(const SmallPlan fewest, plan_with_fewer(in, kFewest, context));
+  ORIEL_TRY(const SmallPlan fewer, plan_with_fewer(in, kFewer, context));
+  const bool planned = in.options.view_scheme == ViewScheme::kPlanned;
+  // Greedy choice: as many pixels more with the last factor of four as with the one before.
+  const double more = fewer.pixels > 0 ? std::max(1.0, 2 - fewest.pixels / fewer.pixels) : 1;
+  Component c{.name = "radiance"};
+  c.seconds = planned ? kFewer * fewer.seconds : fewer.seconds;
+  const Surroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
+  double rays = 0, bytes = 0, seconds = 0, all = 0;
+  for (const FoundReflector& found : fewer.reflectors) {
+    const Reflector& r = found.reflector;
+    if (r.map_count == 0) continue;
+    ORIEL_TRY(const Rate rate, capture_parts(in, coarse, surroundings, fewer.maps[r.first_map], context));
+    double own = 0;
+    for (std::uint32_t m = 0; m < r.map_count; ++m) own += more * pixels(fewer.maps[r.first_map + m]);
+    seconds += own * rate.seconds, rays += own * rate.rays, bytes += own * rate.bytes, all += own;
+  }
+  // Texels of surround maps see the same light by one ray each.
+  double surround = 0;
+  for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
+  const double scale = all > 0 ? 1 + surround / all : 1;
+  c.seconds += scale * seconds;
+  c.rays = static_cast<std::uint64_t>(scale * rays);
+  c.bytes = static_cast<std::uint64_t>(all > 0 ? scale * bytes : kMapBytesPerPixel * surround);
+  c.raw_bytes = static_cast<std::uint64_t>(kMapBytesPerPixel * (all + surround));
+  return c;
+}
+
+}  // namespace oriel

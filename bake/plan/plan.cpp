@@ -1,0 +1,80 @@
+#include "bake/plan/plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace oriel {
+namespace {
+
+// The lightmap's layout; where the artist's coordinates cannot be taken that is a finding, and automatic ones serve.
+Status lay_out(BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
+               std::vector<Finding>& findings) {
+  check_lightmap_uv(prepared.scene(), options.atlas, findings);
+  const Status laid = lay_out_lightmap(options.atlas, timed, context, prepared);
+  if (laid || options.atlas.source != AtlasOptions::Source::kUv1 || laid.error().code != ErrorCode::kInvalid)
+    return laid;
+  findings.push_back({FindingKind::kLightmapUv, laid.error().where, laid.error().message,
+                      "coordinates in [0, 1] on which every triangle owns its texels",
+                      "unwrap it again without overlap, or bake with --atlas auto"});
+  options.atlas.source = AtlasOptions::Source::kAuto;
+  return lay_out_lightmap(options.atlas, timed, context, prepared);
+}
+
+// Warnings of import become findings; the context's own listener is put back at the end.
+class WarningCollector {
+ public:
+  explicit WarningCollector(Context& context) : context_(context), listener_(std::move(context.warn)) {
+    context_.warn = [this](const std::string& text) { warnings.push_back(text); };
+  }
+  ~WarningCollector() { context_.warn = std::move(listener_); }
+  WarningCollector(const WarningCollector&) = delete;
+  WarningCollector& operator=(const WarningCollector&) = delete;
+
+  std::vector<std::string> warnings;
+
+ private:
+  Context& context_;
+  std::function<void(const std::string&)> listener_;
+};
+
+double seconds_of(const std::vector<StageTime>& times) {
+  return std::accumulate(times.begin(), times.end(), 0.0,
+                         [](double sum, const StageTime& t) { return sum + t.seconds; });
+}
+
+}  // namespace
+
+Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& context) {
+  ScenePlan plan;
+  plan.scene = asked.scene.string();
+  BakeOptions options = asked;
+  std::vector<StageTime> times;
+  Stopwatch timed(times);
+  WarningCollector collector(context);
+  ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
+  plan.findings = findings_of_import(collector.warnings);
+  const Scene& scene = prepared.scene();
+  ORIEL_TRY_VOID(lay_out(options, timed, context, prepared, plan.findings));
+  const LightSet lights(scene);
+  ORIEL_TRY(const MaterialMaps materials,
+            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
+  ORIEL_TRY(const FoundReflections reflections, timed("reflectors", [&](auto&) {
+              return find_reflections(options, *prepared.accel, materials.summaries, context);
+            }));
+  const ViewShares views = look_around(*prepared.accel, reflections.eyes, context.seed);
+  const CensusInput input{options, prepared, lights, materials, reflections, views.front};
+  plan.census = take_census(input);
+  const double area_m2 = plan.census.area_m2;
+  check_walls(scene, views, plan.findings);
+  check_albedos(scene, materials.summaries, plan.findings);
+  check_lights(scene, lights, area_m2, plan.findings);
+  check_texels(scene, options.atlas, area_m2, plan.findings);
+  std::stable_sort(plan.findings.begin(), plan.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.kind < b.kind; });
+  if (with_pilot) {
+    ORIEL_TRY(plan.prediction, predict(input, plan.census, seconds_of(times), context));
+  }
+  return plan;
+}
+
+}  // namespace oriel

@@ -1,0 +1,178 @@
+#include "bake/plan/predict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/plan/pilot.h"
+#include "formats/pack/writer.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kCoarser = 4;             // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
+constexpr double kLeastTexels = 2000;      // of the finer one, where the scene has as many
+constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
+constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
+
+// A small bake of the lightmap.
+struct LightmapPilot {
+  Atlas atlas;
+  Radiosity radiosity;
+  double texels = 0, seconds = 0;
+  double bytes = 0;               // of the lightmap in a pack
+  std::uint64_t scene_bytes = 0;  // of a pack whose lightmap is black
+};
+
+// What the scene itself takes in a pack, and what its lightmap adds to that.
+Status weigh(const Scene& scene, LightmapPilot& pilot) {
+  Pack pack = pack_of_scene(scene, pilot.atlas);
+  pack.lightmaps = pilot.radiosity.pages;
+  for (LightmapPage& page : pack.lightmaps) {
+    std::fill(page.irradiance.begin(), page.irradiance.end(), Vec3(0));
+    std::fill(page.standard_error.begin(), page.standard_error.end(), Vec3(0));
+    std::fill(page.direction.begin(), page.direction.end(), Vec3(0));
+  }
+  ORIEL_TRY(const Bytes without, encode_pack(pack));
+  pack.lightmaps = pilot.radiosity.pages;
+  ORIEL_TRY(const Bytes with, encode_pack(pack));
+  pilot.scene_bytes = without.size();
+  pilot.bytes = static_cast<double>(with.size()) - static_cast<double>(without.size());
+  return {};
+}
+
+RadiosityOptions pilot_options(const CensusInput& in) {
+  RadiosityOptions options = in.options.radiosity;
+  std::vector<std::string> ignored;
+  options.directional = choose_directional(in.prepared.scene(), in.options.directional, ignored);
+  if (in.options.time_s > 0 && options.error <= kLeastAskedError) options.error = kNominalError;
+  return options;
+}
+
+double texels_of(std::span<const TexelMapPage> pages) {
+  double texels = 0;
+  for (const TexelMapPage& page : pages) texels += static_cast<double>(page.texel.size());
+  return texels;
+}
+
+Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context& context) {
+  LightmapPilot pilot;
+  AtlasOptions coarse = in.options.atlas;
+  coarse.source = AtlasOptions::Source::kAuto;
+  coarse.resolution = 0;
+  coarse.texel_m = static_cast<float>(coarser) * in.prepared.atlas.texel_m;
+  ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context));
+  ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
+  const WallClock clock;
+  ORIEL_TRY(pilot.radiosity, bake_radiosity({*in.prepared.accel, in.lights, path_options(in.options)}, pilot.atlas,
+                                            texel_map, pilot_options(in), context));
+  pilot.seconds = clock.seconds();
+  pilot.texels = texels_of(texel_map);
+  ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));
+  return pilot;
+}
+
+Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
+  const double texels = texels_of(in.prepared.texel_map);
+  const double n[2] = {pilots[0].texels, pilots[1].texels};
+  const auto at_all = [&](const auto& work) {
+    const double w[2] = {work(pilots[0]), work(pilots[1])};
+    return fit_work(n, w).at(texels);
+  };
+  Component c{.name = "radiosity"};
+  const double rays = at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
+  const auto& fine = pilots[1];
+  c.rays = static_cast<std::uint64_t>(rays);
+  c.seconds = fine.seconds * rays / std::max(1.0, static_cast<double>(fine.radiosity.report.rays));
+  c.bytes = static_cast<std::uint64_t>(std::max(0.0, at_all([](const LightmapPilot& p) { return p.bytes; })));
+  // Squared errors add over texels; those that miss what was asked lie on edges.
+  const double squares = at_all([](const LightmapPilot& p) {
+    return p.texels * p.radiosity.report.relative_error * p.radiosity.report.relative_error;
+  });
+  const double reached = std::sqrt(squares / std::max(1.0, texels));
+  c.error = std::max(reached, pilot_options(in).error);
+  return c;
+}
+
+void add_limits(const CensusInput& in, Prediction& p) {
+  const Component* light = nullptr;
+  for (const Component& c : p.components)
+    if (c.name == "radiosity") light = &c;
+  if (!light) return;
+  const double error = in.options.radiosity.error, time = in.options.time_s;
+  if (error > kLeastAskedError || time <= 0) {
+    const bool holds = light->error <= 1.1 * error;
+    if (error > 0)
+      p.limits.push_back({"--error", error, light->error, holds,
+                          fmt::format("--error {:.3g} %: {:.3g} % predicted{}", 100 * error, 100 * light->error,
+                                      holds ? ""
+                                            : fmt::format(", {:.2g} times too much: rays a texel are limited; a "
+                                                          "finer --texel or a larger --error",
+                                                          light->error / error))});
+  }
+  if (time <= 0) return;
+  const double reached = light->error * std::sqrt(std::max(1.0, light->seconds / time));
+  const bool holds = light->seconds <= time;
+  p.limits.push_back(
+      {"--time", time, light->seconds, holds,
+       fmt::format("--time {:.4g} s: an error of {:.3g} % takes {:.3g} s{}", time, 100 * light->error, light->seconds,
+                   holds ? std::string()
+                         : fmt::format(", {:.2g} times too long; the error would be about {:.2g} %",
+                                       light->seconds / time, 100 * reached))});
+}
+
+void add_memory_limit(const CensusInput& in, Prediction& p) {
+  for (const Component& c : p.components) {
+    if (c.raw_bytes == 0) continue;
+    const auto most = static_cast<double>(in.options.planned.memory_bytes), wanted = static_cast<double>(c.raw_bytes);
+    p.limits.push_back(
+        {"--memory", most, wanted, wanted <= most,
+         fmt::format("--memory {:.4g} MiB: maps that show everything sharp take {:.4g} MiB{}", most / 1048576,
+                     wanted / 1048576, wanted <= most ? "" : fmt::format(", {:.2g} times too much", wanted / most))});
+  }
+}
+
+}  // namespace
+
+double TexelWork::at(double texels) const {
+  return edges * std::sqrt(texels) + surfaces * texels;
+}
+
+TexelWork fit_work(const double (&n)[2], const double (&w)[2]) {
+  const double r[2] = {std::sqrt(std::max(n[0], 1.0)), std::sqrt(std::max(n[1], 1.0))};
+  const double per0 = w[0] / r[0], per1 = w[1] / r[1];  // edges + surfaces √n
+  if (!(r[1] > r[0])) return {0, w[1] / (r[1] * r[1])};
+  const double surfaces = (per1 - per0) / (r[1] - r[0]), edges = per0 - surfaces * r[0];
+  // One of the two cannot be negative: the other alone, through the finer pilot.
+  if (surfaces < 0) return {per1, 0};
+  if (edges < 0) return {0, per1 / r[1]};
+  return {edges, surfaces};
+}
+
+Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context) {
+  Prediction p;
+  const WallClock clock;
+  p.components.push_back({.name = "preparation", .seconds = spent});
+  const bool light = std::any_of(census.stages.begin(), census.stages.end(),
+                                 [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
+  if (light) {
+    LightmapPilot pilots[2];
+    const double coarser = std::clamp(std::sqrt(texels_of(in.prepared.texel_map) / kLeastTexels), 1.0, kCoarser);
+    ORIEL_TRY(pilots[0], bake_coarse(in, 2 * coarser, context));
+    ORIEL_TRY(pilots[1], bake_coarse(in, coarser, context));
+    p.components.front().bytes = pilots[1].scene_bytes;
+    p.components.push_back(extrapolate(in, pilots));
+    if (in.options.with_radiance && !in.reflections.empty()) {
+      ORIEL_TRY(
+          Component radiance,
+          pilot_reflections(in, {*in.prepared.accel, in.lights, pilots[1].atlas, pilots[1].radiosity.pages}, context));
+      p.components.push_back(std::move(radiance));
+    }
+  }
+  for (const Component& c : p.components) p.seconds += c.seconds, p.bytes += c.bytes;
+  add_limits(in, p);
+  add_memory_limit(in, p);
+  p.pilot_seconds = clock.seconds();
+  return p;
+}
+
+}  // namespace oriel

@@ -1,0 +1,38 @@
+// The scene as all stages see it: what a bake and its plan begin with.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "bake/radiosity/lit_sides.h"
+#include "bake/run/options.h"
+#include "bake/run/stages/stopwatch.h"
+#include "bake/scene/motion/movers.h"
+
+namespace oriel {
+
+struct PreparedScene {
+  std::unique_ptr<ImportedScene> imported;  // at one place: accel refers to it
+  std::vector<TakenMover> movers;           // apart from the scene; empty where they stand still in it
+  SidesReport sides;
+  std::optional<Accel> accel;  // never empty
+  Atlas atlas;
+  std::vector<TexelMapPage> texel_map;
+  std::vector<std::string> omissions;
+
+  const Scene& scene() const { return imported->scene; }
+};
+
+// Imports the scene, takes the movers out of it, splits the double-sided surfaces by the light on their sides. Errors
+// as those stages give them.
+Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
+// Lays out the lightmap. Errors as build_atlas.
+Status lay_out_lightmap(const AtlasOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared);
+
+PathOptions path_options(const BakeOptions& options);
+// Kernels may differ by the error that the bake may have.
+MaterialOptions material_options(const BakeOptions& options);
+// Whether the lightmap is to hold directions; why not is noted.
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions);
+
+}  // namespace oriel

@@ -1,0 +1,152 @@
+// Bakes that end early: by a signal, by time. What is left is a whole pack with its error, or nothing.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bake/run/pipeline.h"
+#include "bake/run/stages/prepare.h"
+#include "formats/core/file.h"
+#include "formats/pack/reader.h"
+#include "formats/pack/validate.h"
+
+namespace oriel {
+namespace {
+namespace fs = std::filesystem;
+
+class Anytime : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("oriel-anytime-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    const std::string line =
+        fmt::format("'{}/oriel-scenes' cornell -o '{}/cornell.glb' >/dev/null", ORIEL_BIN_DIR, folder_.string());
+    ASSERT_EQ(std::system(line.c_str()), 0);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // A bake that would take minutes.
+  pid_t start() const {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    if (::chdir(folder_.c_str()) != 0) ::_exit(99);
+    const int file = ::open("log", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDERR_FILENO);
+    const std::string program = std::string(ORIEL_BIN_DIR) + "/oriel-bake";
+    ::execl(program.c_str(), "oriel-bake", "cornell.glb", "-o", "a.oriel", "--texel", "1cm", "--error", "0.05%",
+            static_cast<char*>(nullptr));
+    ::_exit(98);
+  }
+  std::string log() const {
+    const auto bytes = read_file(folder_ / "log");
+    return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
+  }
+  bool wait_for_log(const std::string& text) const {
+    for (int i = 0; i < 600; ++i) {
+      if (log().find(text) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
+  static int exit_code(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  fs::path pack() const { return folder_ / "a.oriel"; }
+
+  fs::path folder_;
+};
+
+void expect_whole(const fs::path& path) {
+  const auto pack = read_pack(path);
+  ASSERT_TRUE(pack) << pack.error().text();
+  for (const Issue& issue : validate(*pack)) EXPECT_NE(issue.severity, Severity::kError) << issue.message;
+}
+
+// The first refinement has begun once a round of gathering has ended.
+TEST_F(Anytime, TheFirstSignalEndsWithWhatIsThere) {
+  const pid_t child = start();
+  ASSERT_TRUE(wait_for_log("gather     100 %")) << log();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_EQ(::kill(child, SIGTERM), 0);
+  EXPECT_EQ(exit_code(child), 0) << log();
+  EXPECT_NE(log().find("finishing with what is there"), std::string::npos) << log();
+  EXPECT_NE(log().find("ended early"), std::string::npos) << log();
+  expect_whole(pack());
+  const auto plan = nlohmann::json::parse(read_pack(pack())->plan);
+  EXPECT_TRUE(plan["radiosity"]["ended_early"]);
+  EXPECT_GT(plan["radiosity"]["relative_standard_error"], 0.0005) << "the error is that of what is there";
+  EXPECT_LT(plan["radiosity"]["relative_standard_error"], 0.2);
+}
+
+TEST_F(Anytime, TheSecondSignalStopsAtOnce) {
+  const pid_t child = start();
+  ASSERT_TRUE(wait_for_log("gather     100 %")) << log();
+  ASSERT_EQ(::kill(child, SIGINT), 0);
+  ::kill(child, SIGINT);
+  const int code = exit_code(child);
+  // Signals of one kind that wait are one: then the bake ends with what is there.
+  if (code == 0) return expect_whole(pack());
+  EXPECT_EQ(code, 130) << log();
+  EXPECT_FALSE(fs::exists(pack()));
+}
+
+TEST_F(Anytime, AtAnyMomentAWholePackOrNone) {
+  for (const int milliseconds : {5, 60, 200, 700, 1500}) {
+    fs::remove(pack());
+    const pid_t child = start();
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(child, SIGTERM);
+    const int code = exit_code(child);
+    // Before main() installs its handlers the signal ends the process.
+    EXPECT_TRUE(code == 0 || code == 130 || code == -1) << code;
+    EXPECT_EQ(fs::exists(pack()), code == 0) << milliseconds;
+    if (code == 0) expect_whole(pack());
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename();
+      EXPECT_TRUE(name == "cornell.glb" || name == "log" || name == "a.oriel") << name;
+    }
+  }
+}
+
+// Once there is enough nothing more is refined: of a round at work only the groups of texels that threads have begun.
+TEST_F(Anytime, EnoughEndsARoundAtOnce) {
+  const auto rays_of = [&](std::function<bool()> enough) {
+    BakeOptions options;
+    options.scene = folder_ / "cornell.glb";
+    options.atlas.texel_m = 0.04f;
+    Context context;
+    std::vector<StageTime> times;
+    Stopwatch timed(times);
+    auto prepared = *prepare_scene(options, timed, context);
+    EXPECT_TRUE(lay_out_lightmap(options.atlas, timed, context, prepared));
+    const LightSet lights(prepared.scene());
+    RadiosityOptions radiosity{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
+    radiosity.certify = false;
+    radiosity.enough = std::move(enough);
+    auto made = bake_radiosity({*prepared.accel, lights, {}}, prepared.atlas, prepared.texel_map, radiosity, context);
+    EXPECT_TRUE(made);
+    EXPECT_TRUE(context.finishable);
+    return made->report;
+  };
+  const RadiosityReport all = rays_of([] { return false; }), none = rays_of([] { return true; });
+  std::atomic<int> asked{0};
+  const RadiosityReport some = rays_of([&] { return ++asked > 20; });
+  EXPECT_FALSE(all.ended_early);
+  EXPECT_LE(all.relative_error, 0.01 * 1.3);
+  EXPECT_TRUE(none.ended_early);
+  EXPECT_TRUE(some.ended_early);
+  EXPECT_LT(none.rays, all.rays / 2);
+  EXPECT_GT(some.rays, none.rays) << "what a round had done counts";
+  EXPECT_LT(some.rays, all.rays / 2);
+  EXPECT_GT(none.relative_error, all.relative_error);
+}
+
+}  // namespace
+}  // namespace oriel
