@@ -74,8 +74,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
                         "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
+  // Measures the programs from outside: it knows packs and pictures, and no stage.
+  m["bake/trade"] = plus(assets, {"bake/jobs", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
+  m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
+  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
-  m["bake/cli"] = plus(m["bake/cli/material"], {"bake/cli/material", "bake/reference", "formats/camera"});
+  m["bake/cli"] =
+      plus(m["bake/cli/material"], {"bake/cli/material", "bake/cli/trade", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
