@@ -35,7 +35,8 @@ th {{ vertical-align: bottom; white-space: normal; font-weight: 600 }} .sorts th
 td:first-child, th:first-child {{ text-align: left; white-space: normal; min-width: 15em }}
 td.best {{ background: #e8f4ec }} tr.default td:first-child {{ font-weight: 600 }} td small {{ color: #666; display: block }}
 .pictures {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(490px, 1fr)); gap: 1.2rem 1rem }}
-figure {{ margin: 0 }} figcaption {{ font-size: .85rem }} img {{ width: calc(50% - 2px); height: auto; vertical-align: top }}
+figure {{ margin: 0 }} figure div {{ display: flex; gap: 4px }} figcaption {{ font-size: .85rem }}
+img {{ max-width: calc(50% - 2px); height: auto }}
 </style></head><body>
 )";
 
@@ -195,11 +196,12 @@ std::string pictures_html(const Trade& trade) {
                          pictures->height, escaped(what));
     };
     if (html.empty())
-      html = fmt::format("<figure>{}<figcaption>reference: {} paths a pixel</figcaption></figure>\n",
+      html = fmt::format("<figure><div>{}</div><figcaption>reference: {} paths a pixel</figcaption></figure>\n",
                          image(pictures->reference, "reference"), trade.plan.reference_paths);
     const std::string name = shown_name(row.configuration);
-    html += fmt::format("<figure>{}{}<figcaption>{}: FLIP {:.4f}</figcaption></figure>\n", image(pictures->frame, name),
-                        image(pictures->flip, "FLIP of " + name), escaped(name), row.measures.frames[camera].flip);
+    html += fmt::format("<figure><div>{}{}</div><figcaption>{}: FLIP {:.4f}</figcaption></figure>\n",
+                        image(pictures->frame, name), image(pictures->flip, "FLIP of " + name), escaped(name),
+                        row.measures.frames[camera].flip);
   }
   if (html.empty()) return {};
   return fmt::format(
