@@ -20,6 +20,15 @@ Bounds bounds_of(const Mesh& mesh) {
   return mesh.positions.empty() ? Bounds{Vec3(0), Vec3(0)} : b;
 }
 
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const DVec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]];
+    area += 0.5 * glm::length(glm::cross(b - a, DVec3(mesh.positions[mesh.indices[i + 2]]) - a));
+  }
+  return area;
+}
+
 Vec3 centre_of(const Reflector& r) {
   return Vec3(r.pack_from_reflector * Vec4(0.5f * (r.lower + r.upper), 0, 1));
 }
@@ -118,6 +127,7 @@ SceneFacts survey(const Pack& pack, std::size_t cameras) {
   SceneFacts facts;
   const Bounds bounds = bounds_of(pack.mesh);
   facts.diagonal_m = glm::distance(bounds.lower, bounds.upper);
+  facts.area_m2 = area_of(pack.mesh);
   facts.planar = !pack.reflectors.empty();
   facts.curved = !pack.curved_reflectors.empty();
   facts.movers = !pack.movers.empty();

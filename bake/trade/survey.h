@@ -10,6 +10,7 @@ namespace oriel::trade {
 
 struct SceneFacts {
   double diagonal_m = 0;  // of the scene's bounds
+  double area_m2 = 0;     // of all surfaces: how many texels there will be
   bool planar = false;    // planar reflectors
   bool curved = false;    // curved ones
   bool glossy = false;    // a reflector with a lobe wider than a mirror's

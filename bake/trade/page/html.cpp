@@ -89,7 +89,7 @@ std::optional<double> frame_ms(const Measures& m) {
   return m.frame_ms;
 }
 
-constexpr std::array<Column, 13> kColumns = {{
+constexpr std::array<Column, 14> kColumns = {{
     {"bake s", "{:.2f}", 1, "frames_by_bake", bake_s},
     {"bake CPU s", "{:.2f}", 1, "", bake_cpu_s},
     {"frame ms", "{:.1f}", 1, "frames_by_ms", frame_ms},
@@ -97,10 +97,11 @@ constexpr std::array<Column, 13> kColumns = {{
     {"texels relRMSE %", "{:.2f}", 100, "texels_by_bake", of_texels<&TexelError::rel_rmse>},
     {"texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
     {"texels bias %", "{:+.2f}", 100, "", of_texels<&TexelError::bias>},
+    {"texels noise %", "{:.2f}", 100, "", of_texels<&TexelError::noise>},
     {"frames relRMSE %", "{:.2f}", 100, "", of_frames<&FrameError::sum>},
     {"D %", "{:.2f}", 100, "", of_frames<&FrameError::diffuse>},
     {"S %", "{:.2f}", 100, "", specular_error},
-    {"noise %", "{:.2f}", 100, "", of_frames<&FrameError::noise>},
+    {"frames noise %", "{:.2f}", 100, "", of_frames<&FrameError::noise>},
     {"FLIP", "{:.4f}", 1, "", mean_flip},
     {"PSNR dB", "{:.1f}", 1, "", psnr},
 }};

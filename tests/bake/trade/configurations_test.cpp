@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 SceneFacts everything() {
-  return {10, true, true, true, true, {"0"}};
+  return {10, 100, true, true, true, true, {"0"}};
 }
 
 std::set<std::string> knobs(const TradePlan& plan) {
@@ -81,6 +81,19 @@ TEST(Configurations, OfMirrorsOrCurvesAloneLeaveOutWhatTheyDoNotHave) {
   EXPECT_THAT(knobs(plan_trade(curves, 0.1, false)), Contains("fresnel"));
 }
 
+// 100 m² are 2500 texels of 20 cm.
+TEST(Configurations, SmallScenesHaveBetterReferences) {
+  SceneFacts facts = everything();
+  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "16384");
+  facts.area_m2 = 1300;
+  EXPECT_EQ(plan_trade(facts, 0.1, true).reference.at("--samples"), "1024");
+  for (const double area : {0.0, 1e9}) {
+    facts.area_m2 = area;
+    const int samples = std::stoi(plan_trade(facts, 0.1, false).reference.at("--samples"));
+    EXPECT_EQ(samples, area == 0 ? 16384 : 512);
+  }
+}
+
 TEST(Configurations, LengthsAreThoseThatTheBakeTakes) {
   EXPECT_EQ(length_text(0.2), "20cm");
   EXPECT_EQ(length_text(0.025), "2.5cm");
@@ -100,6 +113,7 @@ TEST(Survey, TellsWhatAPackHolds) {
   const SceneFacts facts = survey(pack, 4);
   EXPECT_TRUE(facts.planar && facts.curved && facts.movers && facts.glossy);
   EXPECT_GT(facts.diagonal_m, 4);
+  EXPECT_NEAR(facts.area_m2, 4 * 4 + 4 * 3, 1e-5);
   EXPECT_EQ(facts.cameras.size(), pack.cameras.size());
   EXPECT_EQ(facts.cameras[0], pack.cameras[0].name);
   EXPECT_EQ(survey(pack, 1).cameras.size(), 1u);
