@@ -38,14 +38,18 @@ bool before(const Vec3& eye, const Reflector& r) {
   return glm::dot(eye - centre_of(r), Vec3(r.pack_from_reflector[2])) > 0;
 }
 
-// How large a reflector looks from a camera, as the solid angle of a small patch; 0 where its centre is out of view.
+constexpr double kWellSeen = 0.1;  // steradians: some tenth of a frame
+
+// How large a reflector looks from a camera, as the solid angle of a small patch, up to where it is well seen; 0 where
+// its centre is out of view.
 double seen(const Camera& camera, const Reflector& r) {
   const Vec3 to = centre_of(r) - camera.eye;
   const float distance = glm::length(to);
   if (distance == 0 || !before(camera.eye, r)) return 0;
   const float ahead = glm::dot(to / distance, glm::normalize(camera.forward));
   if (ahead < std::cos(std::max(camera.vertical_fov_rad, 0.5f) / 2)) return 0;
-  return r.area_m2 * -glm::dot(to / distance, Vec3(r.pack_from_reflector[2])) / (distance * distance);
+  const double facing = -glm::dot(to / distance, Vec3(r.pack_from_reflector[2]));
+  return std::min(kWellSeen, r.area_m2 * facing / (distance * distance));
 }
 
 // The first, then one after the other that which adds most to what is seen of each reflector, or where none adds

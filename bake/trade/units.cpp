@@ -11,30 +11,26 @@ Result<Measures> Units::once(const std::string& kind, const std::string& label, 
   if (auto found = store_.find(key)) {
     if (counting_) return *found;
     ++reused_;
+    ++finished_;
     return done_[key] = std::move(*found);
   }
   if (counting_) {
     kinds_[kind].missing.insert(key);
     return Measures{};
   }
-  if (over()) {
-    ++left_;
-    return done_[key] = Measures{};
-  }
+  if (over()) return done_[key] = Measures{};
   ++started_;
   note_(fmt::format("{} of {}: {}{}", started_ + reused_, all_.size(), label, time_left()));
   const auto start = Clock::now();
   Result<Measures> measured = work();
   Kind& own = kinds_[kind];
   own.missing.erase(key);
-  if (!measured && measured.error().code == ErrorCode::kStopped) {
-    ++left_;
-    return done_[key] = Measures{};
-  }
+  if (!measured && measured.error().code == ErrorCode::kStopped) return done_[key] = Measures{};
   if (!measured) return measured;
   own.seconds += seconds_since(start);
   ++own.count;
   ORIEL_TRY_VOID(store_.keep(key, *measured));
+  ++finished_;
   return done_[key] = std::move(*measured);
 }
 

@@ -29,7 +29,7 @@ class Units {
   std::size_t total() const { return all_.size(); }
   std::size_t started() const { return started_; }  // by this run
   std::size_t reused() const { return reused_; }
-  std::size_t left() const { return left_; }
+  std::size_t left() const { return all_.size() - finished_; }  // not finished, failed ones among them
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -53,7 +53,7 @@ class Units {
   std::set<std::string> all_;
   std::map<std::string, Kind> kinds_;
   std::map<std::string, Measures> done_;  // by key
-  std::size_t started_ = 0, reused_ = 0, left_ = 0;
+  std::size_t started_ = 0, reused_ = 0, finished_ = 0;
 };
 
 }  // namespace oriel::trade

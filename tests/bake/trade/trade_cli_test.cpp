@@ -38,6 +38,10 @@ TEST_F(TradeCli, StopsGoesOnAndRunsNothingTwice) {
   ASSERT_EQ(run(sweep), 0) << text("log");
   EXPECT_THAT(text("log"), HasSubstr(" 0 left"));
   EXPECT_THAT(text("log"), ::testing::Not(HasSubstr(" 0 found finished")));
+  const std::string log = text("log");
+  const std::size_t last = log.rfind(" of ");
+  const std::string done = log.substr(log.rfind('\n', last) + 1, last - log.rfind('\n', last) - 1);
+  EXPECT_EQ(log.compare(last, done.size() + 5, fmt::format(" of {}:", done)), 0) << "all parts were counted before";
   const auto json = nlohmann::json::parse(text("out/trade.json"));
   EXPECT_EQ(json["unfinished"], 0);
   std::set<std::string> knobs;
