@@ -140,11 +140,6 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
 }
 
 void add_mover_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
-  app.add_option("--mover", bake.import.movers,
-                 "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or "
-                 "animates. May be repeated")
-      ->type_name("NODE")
-      ->take_all();
   app.add_option("--sh-bands", bake.transfer.bands,
                  "Bands of spherical harmonics of movers' transfer and of the light around them: their square is the "
                  "number of coefficients")
@@ -234,6 +229,7 @@ void add_bake_options(CLI::App& app, Texts& texts, SharedTexts& shared, Argument
   add_radiosity_options(app, texts, args.bake);
   add_light_options(app, shared, args);
   add_reflection_options(app, texts, args.bake);
+  add_mover_option(app, args);
   add_mover_options(app, texts, args.bake);
 }
 
@@ -257,6 +253,7 @@ Arguments parse_arguments(int argc, char** argv) {
   LuxTexts lux_texts;
   RenderTexts render_texts;
   MaterialTexts material_texts;
+  TradeTexts trade_texts;
   CLI::App app(
       "Bakes the light of a glTF 2.0 scene into one .oriel pack: radiosity textures with their error, radiance maps\n"
       "with depth behind planar reflectors, BRDF kernels and Fresnel maps. Play it with oriel-play, look into it with "
@@ -279,12 +276,17 @@ Arguments parse_arguments(int argc, char** argv) {
   add_run_options(*plan, shared, args);
   plan_texts.time_option->remove_excludes(plan_texts.error_option);
   plan_texts.error_option->remove_excludes(plan_texts.time_option);
+  CLI::App* trade = add_trade(app, trade_texts, args.trade);
+  add_light_options(*trade, shared, args);
+  add_mover_option(*trade, args);
+  add_run_options(*trade, shared, args);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     args.wants_lux = lux->parsed();
     args.render.wanted = render->parsed();
     args.plan.wanted = plan->parsed();
+    args.trade.wanted = trade->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -295,6 +297,7 @@ Arguments parse_arguments(int argc, char** argv) {
   if (resolved && !args.material.wanted)
     resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
                : args.render.wanted ? resolve_render(render_texts, args)
+               : args.trade.wanted  ? resolve_trade(trade_texts, args.seed, args.trade)
                                     : resolve(args.plan.wanted ? plan_texts : texts, args);
   if (!resolved) {
     std::fprintf(stderr, "oriel-bake: %s\n", resolved.error().text().c_str());

@@ -4,6 +4,7 @@
 #include "bake/cli/material/material_arguments.h"
 #include "bake/cli/plan/plan_arguments.h"
 #include "bake/cli/progress.h"
+#include "bake/cli/trade/trade_arguments.h"
 #include "bake/reference/reference.h"
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
@@ -29,6 +30,7 @@ struct Arguments {
   RenderArguments render;            // the subcommand `render` instead, where wanted
   MaterialArguments material;        // the subcommand `material` instead, where wanted
   PlanArguments plan;                // the subcommand `plan` of `bake` instead, where wanted
+  TradeArguments trade;              // the subcommand `trade` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;

@@ -1,4 +1,4 @@
-// oriel-bake: a glTF scene into one .oriel pack, into a table of illuminance, or into a path-traced frame.
+// oriel-bake: a glTF scene into one .oriel pack, a table of illuminance, a path-traced frame, or what these cost.
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +20,7 @@ namespace {
 
 // What the signal handlers need; set before they are installed.
 Context* g_context = nullptr;
+bool g_keeps = false;  // a stop keeps what is finished, and is waited for
 char g_temporary[4096] = "";
 
 // Stages look at the flag many times a second, but libraries' long calls do not: after a second the process ends
@@ -39,7 +40,7 @@ void on_stop(int) {
     return;
   }
   g_context->stop.store(true);
-  ::alarm(1);
+  if (!g_keeps) ::alarm(1);
 }
 
 void install_signal_handlers(Context& context, const std::filesystem::path& output) {
@@ -59,7 +60,7 @@ int print_error(const Error& error, ProgressPrinter::Style style, ProgressPrinte
     std::fprintf(stderr, "%s\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     std::fprintf(stderr, "oriel-bake: %s\n",
-                 error.code == ErrorCode::kStopped ? "stopped; nothing was written" : error.text().c_str());
+                 error.code == ErrorCode::kStopped && !g_keeps ? "stopped; nothing was written" : error.text().c_str());
   }
   return static_cast<int>(error.code);
 }
@@ -154,6 +155,7 @@ Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
         ORIEL_TRY_VOID(check_output(args.plan.json, inputs_of(args.bake.scene, args.bake.import)));
       return run_plan(args.plan, args.bake, context);
     }
+    if (args.trade.wanted) return run_trade(args.trade, context, [&](const std::string& text) { printer.note(text); });
     if (args.render.wanted) {
       ORIEL_TRY_VOID(check_output(args.render.output, inputs_of(args.render.scene, args.render.import)));
       return run_render(args.render, context);
@@ -178,6 +180,7 @@ int main_of_bake(int argc, char** argv) {
   ProgressPrinter printer(args.style);
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
+  g_keeps = args.trade.wanted;
   install_signal_handlers(context, args.wants_lux       ? args.lux_output
                                    : args.render.wanted ? args.render.output
                                                         : args.bake.output);

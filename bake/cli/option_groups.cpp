@@ -30,6 +30,14 @@ void add_light_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
       ->take_all();
 }
 
+void add_mover_option(CLI::App& app, Arguments& args) {
+  app.add_option("--mover", args.bake.import.movers,
+                 "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or "
+                 "animates. May be repeated")
+      ->type_name("NODE")
+      ->take_all();
+}
+
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
   app.add_option("--scene", args.bake.import.scene, "Which scene of the file; -1: its default")->capture_default_str();
   app.add_flag("--double-sided", args.bake.import.double_sided,

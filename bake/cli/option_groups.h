@@ -27,6 +27,8 @@ struct SharedTexts {
 
 // Light that the scene file does not hold.
 void add_light_options(CLI::App& app, SharedTexts& texts, Arguments& args);
+// Which nodes move.
+void add_mover_option(CLI::App& app, Arguments& args);
 // Scene of the file, threads, seed, progress.
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args);
 Status resolve_shared(const SharedTexts& texts, Arguments& args);
