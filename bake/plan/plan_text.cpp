@@ -92,7 +92,7 @@ std::string plan_text(const ScenePlan& plan) {
       if (s.runs != runs) continue;
       std::string amounts;
       for (const auto& [unit, number] : s.amounts)
-        if (runs) amounts += fmt::format("{}{} {}", amounts.empty() ? "" : ", ", number, unit);
+        if (runs) amounts += fmt::format("{}{} {}", amounts.empty() ? "" : ", ", unit, number);
       text += fmt::format("  {:<12} {}{}\n", s.name, s.why, amounts.empty() ? "" : " (" + amounts + ")");
     }
   }

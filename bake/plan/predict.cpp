@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kCoarser = 4;             // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
 constexpr double kLeastTexels = 2000;      // of the finer one, where the scene has as many
+constexpr double kMissed = 1.5;            // the error asked for by so much: rays a texel are limited
 constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
 
@@ -79,10 +80,15 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
     return fit_work(n, w).at(texels);
   };
   Component c{.name = "radiosity"};
-  const double rays = at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
-  const auto& fine = pilots[1];
+  const LightmapPilot& fine = pilots[1];
+  const RadiosityReport& report = fine.radiosity.report;
+  // Where the limit of rays a texel ends the work, texels all cost about that.
+  const bool limited = report.relative_error > kMissed * pilot_options(in).error && pilot_options(in).error > 0;
+  const double rays = limited
+                          ? static_cast<double>(report.rays) * texels / n[1]
+                          : at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
   c.rays = static_cast<std::uint64_t>(rays);
-  c.seconds = fine.seconds * rays / std::max(1.0, static_cast<double>(fine.radiosity.report.rays));
+  c.seconds = fine.seconds * rays / std::max(1.0, static_cast<double>(report.rays));
   c.bytes = static_cast<std::uint64_t>(std::max(0.0, at_all([](const LightmapPilot& p) { return p.bytes; })));
   // Squared errors add over texels; those that miss what was asked lie on edges.
   const double squares = at_all([](const LightmapPilot& p) {
