@@ -22,7 +22,7 @@ class Planner {
     out.reference = {{"--estimator", "reference"},
                      {"--samples", std::to_string(reference_samples())},
                      {"--only", facts_.movers ? "radiosity,transfer" : "radiosity"}};
-    out.reference_paths = quick_ ? 512 : 1024;
+    out.reference_paths = quick_ ? 256 : 1024;
     out.width = quick_ ? 240 : 360;
     out.height = quick_ ? 160 : 240;
     configurations_.push_back(default_);
