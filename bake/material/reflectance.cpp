@@ -91,11 +91,7 @@ FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOption
 }
 
 Vec3 fresnel_lookup(const FresnelMap& map, float cos_theta) {
-  if (map.table.empty()) return Vec3(0);
-  const auto last = map.table.size() - 1;
-  const float x = std::sqrt(unit(cos_theta)) * static_cast<float>(last);
-  const auto i = std::min(static_cast<std::size_t>(x), last);
-  return glm::mix(map.table[i], map.table[std::min(i + 1, last)], x - static_cast<float>(i));
+  return lookup_by_cosine(map.table, cos_theta);
 }
 
 Vec3 sphere_lookup(const FresnelMap& map, float cos_theta) {

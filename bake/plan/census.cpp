@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "bake/trace/brdf/specular.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
-
-constexpr float kMirrorAlpha = 1e-5f;  // as make_kernel() has it
 
 LightCensus count_lights(const Scene& scene, const LightSet& lights) {
   LightCensus c;

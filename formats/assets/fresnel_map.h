@@ -1,6 +1,9 @@
 // R: how much a material reflects by direction (Bastos et al. 1999, section 8.2.2).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "formats/core/vec.h"
@@ -22,6 +25,16 @@ struct FresnelMap {
   std::uint32_t sphere_size = 0;
   std::vector<Vec3> sphere;
 };
+
+// Linear between the entries of a table whose entry i of n is at cosθ = (i / (n-1))². The cosine is clamped to [0,1],
+// NaN counts as 0; 0 for an empty table.
+inline Vec3 lookup_by_cosine(std::span<const Vec3> table, float cos_theta) {
+  if (table.empty()) return Vec3(0);
+  const auto last = table.size() - 1;
+  const float at = std::sqrt(cos_theta > 0 ? std::min(cos_theta, 1.0f) : 0.0f) * static_cast<float>(last);
+  const auto i = std::min(static_cast<std::size_t>(at), last);
+  return glm::mix(table[i], table[std::min(i + 1, last)], at - static_cast<float>(i));
+}
 
 // R of any f0 by single scattering: f0 * scale + f90 * bias (Karis 2013), for the GGX lobe with Schlick's Fresnel;
 // times 1 + f0 (1 / (scale + bias) - 1) what multiple scattering gives back is in it. Entry (i, j) is at cosθ = (i /

@@ -29,8 +29,8 @@ Light light_at(const Pack& pack, const MeshPart& part, const Vec2& uv) {
                     y1 = std::min<std::size_t>(y0 + 1, page.height - 1);
   const double tx = x - static_cast<float>(x0), ty = y - static_cast<float>(y0);
   Light light;
-  const auto add = [&](std::size_t tx_, std::size_t ty_, double weight) {
-    const std::size_t at = ty_ * page.width + tx_;
+  const auto add = [&](std::size_t column, std::size_t row, double weight) {
+    const std::size_t at = row * page.width + column;
     light.lux += weight * luminance(page.irradiance[at]);
     const double error = luminance(page.standard_error[at]);
     light.variance += weight * error * error;  // texels beside each other share their noise: no gain from blending
@@ -72,7 +72,7 @@ class PartSampler {
   const MeshPart& part_;
 };
 
-// Points of triangle t out of `count`, by the golden ratio in two dimensions (Roberts 2018), folded into the triangle.
+// Point i of a triangle, by the golden ratio in two dimensions (Roberts 2018), folded into the triangle.
 Vec3 point_of(std::size_t i) {
   const double g = 1.32471795724474602596, n = static_cast<double>(i) + 1;
   double u = std::fmod(0.5 + n / g, 1.0), v = std::fmod(0.5 + n / (g * g), 1.0);

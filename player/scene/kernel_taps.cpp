@@ -109,11 +109,7 @@ SlicePosition find_slice(const BrdfKernel& kernel, double cos_theta) {
 }
 
 float fresnel_factor(const FresnelMap& map, double cos_theta) {
-  if (map.factor.size() < 2) return 1;
-  const auto last = map.factor.size() - 1;
-  const double at = std::sqrt(std::clamp(cos_theta, 0.0, 1.0)) * static_cast<double>(last);
-  const auto i = std::min(static_cast<std::size_t>(at), last - 1);
-  return luminance(glm::mix(map.factor[i], map.factor[i + 1], static_cast<float>(at - static_cast<double>(i))));
+  return map.factor.empty() ? 1 : luminance(lookup_by_cosine(map.factor, static_cast<float>(cos_theta)));
 }
 
 std::vector<float> weigh_by_fresnel(KernelTaps& taps, const FresnelMap& map) {
