@@ -7,13 +7,25 @@ IVec2 map_texel(const MapRay& ray, float at, const IVec2& size) {
   return glm::clamp(IVec2(glm::floor(ray.from + at * ray.direction)), IVec2(0), size - 1);
 }
 
-// Disparity over the surface around a texel of it, bilinear.
-float surface_disparity(const Relief& relief, const Vec2& at, float surface) {
+// The first border between texels more than a little after `at`.
+float next_border(const MapRay& ray, float at) {
+  const Vec2 from = glm::sign(ray.direction) * (ray.from + at * ray.direction);
+  const Vec2 inside = glm::fract(from + kBorder) - kBorder;
+  const Vec2 steps = (1.0f - inside) / glm::max(glm::abs(ray.direction), 1e-6f);
+  return at + std::min(steps.x, steps.y);
+}
+
+// Disparity, bilinear.
+float disparity_at(const Relief& relief, const Vec2& at) {
   const Vec2 inside = glm::clamp(at, Vec2(0.5f), Vec2(relief.size) - 0.5f) - 0.5f;
   const IVec2 low(glm::floor(inside)), high = glm::min(low + 1, relief.size - 1);
   const Vec2 t = inside - Vec2(low);
-  const float s = glm::mix(glm::mix(relief.at(low), relief.at({high.x, low.y}), t.x),
-                           glm::mix(relief.at({low.x, high.y}), relief.at(high), t.x), t.y);
+  return glm::mix(glm::mix(relief.at(low), relief.at({high.x, low.y}), t.x),
+                  glm::mix(relief.at({low.x, high.y}), relief.at(high), t.x), t.y);
+}
+
+// The same over the surface around a texel of it.
+float on_surface(float s, float surface) {
   return std::clamp(s, surface / (1 + kConnected), surface * (1 + kConnected));
 }
 
@@ -27,7 +39,7 @@ bool is_connected(const Relief& relief, const MapRay& ray, float begin, float en
 // The crossing in [begin, end], found by false position.
 float refine_crossing(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
   const auto height = [&](float at) {
-    return ray.disparity(at) - surface_disparity(relief, ray.from + at * ray.direction, surface);
+    return ray.disparity(at) - on_surface(disparity_at(relief, ray.from + at * ray.direction), surface);
   };
   float above = height(begin), below = height(end);
   for (int i = 0; i < 2; ++i) {
@@ -71,12 +83,13 @@ MapHit march(const Relief& relief, const MapRay& ray) {
   float at = 0, s = ray.s_begin, hidden = ray.hidden, surface = -1;
   bool before = relief.at(map_texel(ray, 0, relief.size)) <= s * (1 + kTouching);
   int level = std::clamp(static_cast<int>(std::ceil(std::log2(ray.length))), 1, kRangeLevels);
+  IVec2 texel{0};
   bool hit = false;
   for (int step = 0; step < kMaxMarchSteps && at < ray.length; ++step) {
-    const float next = std::min(at + static_cast<float>(1 << level), ray.length);
+    const float next = std::min(level > 0 ? at + static_cast<float>(1 << level) : next_border(ray, at), ray.length);
     const float s_next = ray.disparity(next);
     if (level > 0) {
-      const IVec2 texel = map_texel(ray, 0.5f * (at + next), relief.size);
+      texel = map_texel(ray, 0.5f * (at + next), relief.size);
       const Vec2 range = relief.range(level, {texel.x >> level, texel.y >> level});
       if (before ? range.y < s_next : range.x > s) {
         hidden += before ? 0 : next - at;
@@ -92,15 +105,15 @@ MapHit march(const Relief& relief, const MapRay& ray) {
       }
       continue;
     }
-    surface = relief.at(map_texel(ray, next, relief.size));
+    texel = map_texel(ray, 0.5f * (at + next), relief.size);
+    surface = relief.at(texel);
+    before = before || surface < s;
     if (before && surface >= s_next) {
-      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at, next, surface);
+      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at - 0.5f, at + 0.5f, surface);
       if (hit) break;
       before = false;
-    } else if (!before) {
-      hidden += next - at;
-      before = surface < s_next;
     }
+    hidden += before ? 0 : next - at;
     at = next;
     s = s_next;
     level = 1;
@@ -108,8 +121,13 @@ MapHit march(const Relief& relief, const MapRay& ray) {
   if (!hit) return {};
   const float crossing =
       refine_crossing(relief, ray, std::max(at - 0.5f, 0.0f), std::min(at + 1.5f, ray.length), surface);
-  return {ray.from + crossing * ray.direction, ray.disparity(crossing),
-          1 / (1 + kDistrust * hidden / static_cast<float>(std::max(relief.size.x, relief.size.y)))};
+  const float trust = 1 / (1 + kDistrust * hidden / static_cast<float>(std::max(relief.size.x, relief.size.y)));
+  const Vec2 place = ray.from + crossing * ray.direction;
+  const float s_mixed = disparity_at(relief, place);
+  // Beside another surface its own texel tells, so that nothing of the other is mixed in.
+  if (s_mixed != on_surface(s_mixed, surface))
+    return {Vec2(texel) + 0.5f, std::clamp(surface, ray.disparity(std::min(at + 1, ray.length)), s), trust};
+  return {place, ray.disparity(crossing), trust};
 }
 
 }  // namespace oriel

@@ -19,6 +19,8 @@ inline constexpr float kConnected = 0.1f;
 inline constexpr float kTouching = 0.003f;
 // A ray hidden over 1 / kDistrust of the map is half trusted.
 inline constexpr float kDistrust = 128;
+// A ray within so many pixels of the border of a texel has left it.
+inline constexpr float kBorder = 1e-3f;
 inline constexpr int kMaxMarchSteps = 96;
 
 // The part of a ray inside a map's frame: from a pixel position over `length` pixels (the longer of x and y) along

@@ -4,6 +4,7 @@
 const float kConnected = 0.1;
 const float kTouching = 0.003;
 const float kDistrust = 128.0;
+const float kBorder = 1e-3;
 const int kRangeLevels = 6;
 const int kMaxSteps = 96;
 
@@ -46,6 +47,14 @@ ivec2 map_texel(MapRay ray, float at, ivec2 size) {
   return clamp(ivec2(floor(ray.from + at * ray.direction)), ivec2(0), size - 1);
 }
 
+// The first border between texels more than a little after `at`.
+float next_border(MapRay ray, float at) {
+  vec2 from = sign(ray.direction) * (ray.from + at * ray.direction);
+  vec2 inside = fract(from + kBorder) - kBorder;
+  vec2 steps = (1.0 - inside) / max(abs(ray.direction), vec2(1e-6));
+  return at + min(steps.x, steps.y);
+}
+
 // Where the ray meets a surface: pixel position, disparity, and trust in (0, 1]; trust 0: the map does not see it.
 struct MapHit {
   vec2 at;
@@ -53,10 +62,14 @@ struct MapHit {
   float trust;
 };
 
-// Disparity over the surface around a texel of it, bilinear.
-float surface_disparity(sampler2DArray disparity, int layer, ivec2 size, vec2 at, float surface) {
+// Disparity, bilinear.
+float disparity_at(sampler2DArray disparity, int layer, ivec2 size, vec2 at) {
   vec2 inside = clamp(at, vec2(0.5), vec2(size) - 0.5) / vec2(textureSize(disparity, 0).xy);
-  float s = textureLod(disparity, vec3(inside, float(layer)), 0.0).r;
+  return textureLod(disparity, vec3(inside, float(layer)), 0.0).r;
+}
+
+// The same over the surface around a texel of it.
+float on_surface(float s, float surface) {
   return clamp(s, surface / (1.0 + kConnected), surface * (1.0 + kConnected));
 }
 
@@ -67,17 +80,20 @@ bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, f
   return surface <= 1.0 && abs(surface - last) <= max(kConnected * surface, 2.0 * abs(after - surface));
 }
 
+// How far the ray is above the surface.
+float height_above(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float at, float surface) {
+  return ray_disparity(ray, at) - on_surface(disparity_at(disparity, layer, size, ray.from + at * ray.direction), surface);
+}
+
 // The crossing in [begin, end], found by false position.
 float refine_crossing(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
-  float above = ray_disparity(ray, begin) -
-      surface_disparity(disparity, layer, size, ray.from + begin * ray.direction, surface);
-  float below = ray_disparity(ray, end) - surface_disparity(disparity, layer, size, ray.from + end * ray.direction, surface);
+  float above = height_above(disparity, layer, size, ray, begin, surface);
+  float below = height_above(disparity, layer, size, ray, end, surface);
   for (int i = 0; i < 2; ++i) {
     if (above <= 0.0) return begin;
     if (below >= 0.0) return end;
     float middle = mix(begin, end, above / (above - below));
-    float left = ray_disparity(ray, middle) -
-        surface_disparity(disparity, layer, size, ray.from + middle * ray.direction, surface);
+    float left = height_above(disparity, layer, size, ray, middle, surface);
     if (left > 0.0) {
       begin = middle;
       above = left;
@@ -96,6 +112,7 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kTouching);
   int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
   int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
+  ivec2 texel = ivec2(0);
   bool hit = false;
   // Squares in a loop of their own: a machine that runs a branch for all pixels or none looks up texels only at their end.
   for (int step = 0; step < kMaxSteps && at < ray.length; ++step) {
@@ -119,17 +136,17 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
       }
     }
     if (level > 0 || step >= kMaxSteps || at >= ray.length) break;
-    float next = min(at + 1.0, ray.length);
+    float next = min(next_border(ray, at), ray.length);
     float s_next = ray_disparity(ray, next);
-    surface = texelFetch(disparity, ivec3(map_texel(ray, next, size), layer), 0).r;
+    texel = map_texel(ray, 0.5 * (at + next), size);
+    surface = texelFetch(disparity, ivec3(texel, layer), 0).r;
+    before = before || surface < s;
     if (before && surface >= s_next) {
-      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at, next, surface);
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at - 0.5, at + 0.5, surface);
       if (hit) break;
       before = false;
-    } else if (!before) {
-      hidden += next - at;
-      before = surface < s_next;
     }
+    hidden += before ? 0.0 : next - at;
     at = next;
     s = s_next;
     level = 1;
@@ -137,7 +154,13 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   if (!hit) return miss;
   float crossing =
       refine_crossing(disparity, layer, size, ray, max(at - 0.5, 0.0), min(at + 1.5, ray.length), surface);
-  return MapHit(ray.from + crossing * ray.direction, ray_disparity(ray, crossing), 1.0 / (1.0 + kDistrust * hidden / float(max(size.x, size.y))));
+  float trust = 1.0 / (1.0 + kDistrust * hidden / float(max(size.x, size.y)));
+  vec2 place = ray.from + crossing * ray.direction;
+  float s_mixed = disparity_at(disparity, layer, size, place);
+  // Beside another surface its own texel tells, so that nothing of the other is mixed in.
+  if (s_mixed != on_surface(s_mixed, surface))
+    return MapHit(vec2(texel) + 0.5, clamp(surface, ray_disparity(ray, min(at + 1.0, ray.length)), s), trust);
+  return MapHit(place, ray_disparity(ray, crossing), trust);
 }
 
 // 1 / distance along the ray from the mirrored eye to a hit. to_plane: distance to where the ray leaves the plane; pace: length

@@ -52,6 +52,13 @@ float room_with_post(const Vec3& from, const Vec3& direction) {
   return std::fabs(from.x + t * direction.x) < 0.05f ? std::min(t, room(from, direction)) : room(from, direction);
 }
 
+// A wall across it at z = 0.5 with a slit 0.04 m wide.
+float room_with_slit(const Vec3& from, const Vec3& direction) {
+  const float t = 0.5f / direction.z;
+  const bool through = std::fabs(from.x + t * direction.x) < 0.02f;
+  return through ? room(from, direction) : std::min(t, room(from, direction));
+}
+
 struct Ray {
   Vec2 on_plane;
   Vec3 direction;
@@ -138,6 +145,35 @@ TEST_F(March, WhatAPostHidesIsTrustedLess) {
   EXPECT_GT(hidden, 500);
   // Within a pixel of the post's two edges, which are a hundredth of the picture each.
   EXPECT_LT(wrong, trusted / 50);
+}
+
+// Whether a ray passes a slit of a few pixels is what the pixel says where it crosses the wall, neither its neighbours'
+// word nor that of where steps happen to end. Where the hit's light is taken, little of the other surface is mixed in.
+TEST_F(March, ASlitIsAsWideAsItsPixels) {
+  const RadianceMap map = capture({0.6f, 0.3f, -0.4f}, 256, room_with_slit);
+  const Relief relief = make_relief(map);
+  const float s_wall = 0.4f / 0.9f;
+  const auto is_wall = [&](const Vec2& pixel) { return relief.at(IVec2(pixel)) > 0.9f * s_wall; };
+  int passed = 0, stopped = 0, wrong = 0, mixed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec2 on_plane = random_ray().on_plane, at(random(-0.05f, 0.05f), random(-0.5f, 0.5f));
+    const Vec2 pixel = (Vec2(map.eye) + (at - Vec2(map.eye)) * s_wall + 1.0f) * 128.0f;
+    const bool expected = is_wall(pixel);
+    // Within kTouching of a border both are right.
+    if (is_wall(pixel - Vec2(0.4f, 0)) != expected || is_wall(pixel + Vec2(0.4f, 0)) != expected) continue;
+    const MapHit hit = shoot(map, relief, {on_plane, Vec3(at - on_plane, 0.5f)});
+    const bool at_wall = std::fabs(hit.s / s_wall - 1) < kConnected;
+    (expected ? stopped : passed) += 1;
+    wrong += (hit.trust == 1 && at_wall) != expected;
+    const float left = std::floor(hit.at.x - 0.5f), share = hit.at.x - 0.5f - left;
+    if (hit.trust <= 0 || left < 0 || left > 254) continue;
+    mixed += (is_wall({left, hit.at.y}) != at_wall && share < 0.8f) ||
+             (is_wall({left + 1, hit.at.y}) != at_wall && share > 0.2f);
+  }
+  EXPECT_GT(passed, 1000);
+  EXPECT_GT(stopped, 1000);
+  EXPECT_LT(wrong, 5);
+  EXPECT_LT(mixed, 5);
 }
 
 TEST_F(March, TheSkyIsSeenAtInfinityAndUnseenPixelsAreNot) {
