@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/pack/pack.h"
-#include "player/app/arguments.h"
+#include "player/options/arguments.h"
 
 namespace oriel {
 

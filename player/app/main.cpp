@@ -4,11 +4,11 @@
 
 #include "formats/camera/path.h"
 #include "formats/pack/reader.h"
-#include "player/app/arguments.h"
 #include "player/app/compare.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
-#include "player/app/window.h"
+#include "player/options/arguments.h"
+#include "player/window/window.h"
 
 namespace {
 using namespace oriel;
@@ -34,7 +34,8 @@ Status play(const PlayArguments& arguments) {
     return {};
   }
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);
-  return arguments.offscreen ? play_offscreen(std::move(pack), arguments) : play_in_window(std::move(pack), arguments);
+  return arguments.offscreen ? play_offscreen(std::move(pack), arguments)
+                             : play_in_window(std::move(pack), arguments, stop_requested);
 }
 
 }  // namespace

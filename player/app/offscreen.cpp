@@ -7,11 +7,10 @@
 
 #include "formats/camera/camera_spec.h"
 #include "formats/camera/path.h"
-#include "formats/image/exr.h"
-#include "formats/image/png.h"
-#include "player/app/frame_record.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
+#include "player/output/frame_record.h"
+#include "player/output/picture.h"
 #include "player/passes/frame.h"
 #include "player/poses/poses.h"
 #include "player/walk/zone.h"
@@ -109,22 +108,6 @@ Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArgument
   for (Shot& shot : shots) shot.file = output / (file_name(shot.name, taken) + "." + arguments.format);
   return shots;
 }
-
-}  // namespace
-
-Status write_picture(Renderer& renderer, const std::string& path, int width, int height, float ev100, ToneCurve curve,
-                     const std::string& camera) {
-  const auto w = static_cast<std::uint32_t>(width), h = static_cast<std::uint32_t>(height);
-  if (fs::path(path).extension() == ".exr") {
-    return write_exr(
-        path, FloatImage{w, h, 3, renderer.read_light()},
-        {{"oriel.camera", camera}, {"oriel.unit", "cd/m2"}, {"oriel.ev100", fmt::format("{:.3f}", ev100)}});
-  }
-  ORIEL_TRY(std::vector<std::uint8_t> pixels, renderer.read_display(ev100, curve));
-  return write_png(path, ByteImage{w, h, 3, std::move(pixels)});
-}
-
-namespace {
 
 class Studio {
  public:

@@ -14,6 +14,7 @@ namespace oriel {
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
 // frame.
 enum class Show { kAll, kM, kMK, kMKR, kD };
+inline constexpr int kShows = 5;
 // How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
 // mirrored scene; or not at all.
 enum class Reflections { kMarch, kPoints, kGeometry, kOff };

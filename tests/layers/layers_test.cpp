@@ -94,8 +94,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"formats/motion", "player/movers", "player/reflections"});
-  m["player/app"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera",
-                                              "formats/metrics", "formats/image"});
+  // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
+  m["player/session"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera"});
+  m["player/options"] = plus(m["player/session"], {"player/session"});
+  m["player/output"] = plus(m["player/options"], {"player/options", "formats/image"});
+  m["player/panel"] = plus(m["player/options"], {"player/options"});
+  m["player/window"] = plus(m["player/output"], {"player/output", "player/panel"});
+  m["player/app"] = plus(m["player/window"], {"player/window", "formats/metrics"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;
@@ -111,10 +116,12 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
-    {"GLFW/", {"player/app"}},
+    {"GLFW/", {"player/panel", "player/window"}},
+    {"imgui", {"player/panel"}},
+    {"backends/imgui", {"player/panel"}},
     {"epoxy/",
      {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/passes",
-      "player/app"}},
+      "player/window", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {

@@ -210,6 +210,24 @@ wait $pid
   EXPECT_EQ(resized->height, 120u);
 }
 
+// A click on the panel is the panel's; elsewhere it grabs the mouse, which Esc releases before it quits.
+TEST_F(PlayWindow, ThePanelKeepsItsClicks) {
+  const char* click_and_escape = R"(
+xdotool mousemove --window "$window" "$1" 60; sleep 0.5; xdotool click 1; sleep 0.5
+xdotool key --window "$window" F1; sleep 0.3; xdotool key --window "$window" F1; sleep 0.3
+xdotool key --window "$window" Escape; sleep 1
+kill -0 $pid && echo "still there"
+kill $pid; wait $pid
+)";
+  const auto clicked_at = [&](const std::string& x) {
+    std::string script = std::string(kStart) + "set -- " + x + click_and_escape;
+    script.replace(script.find("--size 160x90"), 13, "--panel --size 480x300");
+    return in_display(script).out;
+  };
+  EXPECT_EQ(clicked_at("400").find("still there"), std::string::npos);
+  EXPECT_NE(clicked_at("60").find("still there"), std::string::npos);
+}
+
 // To the right along its level; then, with R, about itself.
 TEST_F(PlayWindow, MoversAreDragged) {
   ASSERT_TRUE(write_pack(folder() / "tiny.oriel", oriel::testing::tiny_mapped_pack()));

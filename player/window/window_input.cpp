@@ -1,6 +1,7 @@
-#include "player/app/window_input.h"
+#include "player/window/window_input.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace oriel {
@@ -10,6 +11,32 @@ constexpr float kTurnPixelsPerSecond = 500;  // of arrow keys, as if the mouse h
 
 WindowInput* self(GLFWwindow* window) {
   return static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+}
+
+// What a key of the table is called, for those that letters and signs do not name by themselves.
+int code_of(std::string_view name) {
+  if (name == "Backspace") return GLFW_KEY_BACKSPACE;
+  if (name == "Home") return GLFW_KEY_HOME;
+  if (name == "Tab") return GLFW_KEY_TAB;
+  if (name == "F1") return GLFW_KEY_F1;
+  if (name == "F12") return GLFW_KEY_F12;
+  if (name == "+") return GLFW_KEY_EQUAL;
+  return name.size() == 1 ? name[0] : GLFW_KEY_UNKNOWN;
+}
+
+// On any keyboard: of the number pad too.
+int plain(int code) {
+  if (code == GLFW_KEY_KP_ADD) return GLFW_KEY_EQUAL;
+  if (code == GLFW_KEY_KP_SUBTRACT) return GLFW_KEY_MINUS;
+  return code;
+}
+
+Command command_of(int code) {
+  if (code >= GLFW_KEY_1 && code <= GLFW_KEY_9) return {Action::kCamera, static_cast<std::size_t>(code - GLFW_KEY_1)};
+  if (code == GLFW_KEY_0) return {Action::kCamera, 9};
+  for (const Binding& b : key_bindings())
+    if (b.action != Action::kHeld && code_of(b.keys) == code) return {b.action, 0};
+  return {};
 }
 
 }  // namespace
@@ -58,12 +85,11 @@ void WindowInput::key(int code, int action, int mods) {
     }
     return;
   }
-  control_ = (mods & GLFW_MOD_CONTROL) != 0;
-  if (code == GLFW_KEY_Q && control_) quit_ = true;
+  if (code == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0) quit_ = true;
+  const Command command = command_of(plain(code));
   // Exposure keys repeat while held; others count once.
-  const bool repeats =
-      code == GLFW_KEY_EQUAL || code == GLFW_KEY_MINUS || code == GLFW_KEY_KP_ADD || code == GLFW_KEY_KP_SUBTRACT;
-  if (action == GLFW_PRESS || repeats) pressed_.push_back(code);
+  const bool repeats = command.action == Action::kBrighter || command.action == Action::kDarker;
+  if (action == GLFW_PRESS || repeats) commands_.push_back(command);
 }
 
 InputFrame WindowInput::poll(float dt_s) {
@@ -84,8 +110,7 @@ InputFrame WindowInput::poll(float dt_s) {
   out.move.mouse_x_px = static_cast<float>(std::exchange(moved_x_, 0.0)) + axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
   out.move.mouse_y_px = static_cast<float>(std::exchange(moved_y_, 0.0)) + axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
   out.move.wheel = static_cast<float>(std::exchange(wheel_, 0.0));
-  out.pressed = std::exchange(pressed_, {});
-  out.control = control_;
+  out.commands = std::exchange(commands_, {});
   double x = 0, y = 0;
   int width = 0, height = 0;
   glfwGetCursorPos(window_, &x, &y);

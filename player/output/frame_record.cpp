@@ -1,11 +1,11 @@
-#include "player/app/frame_record.h"
+#include "player/output/frame_record.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
-#include "player/app/option_names.h"
+#include "player/options/option_names.h"
 
 namespace oriel {
 namespace {

@@ -7,15 +7,14 @@
 
 #include <vector>
 
-#include "player/walk/controller.h"
+#include "player/session/session.h"
 
 namespace oriel {
 
 // What happened since the last poll.
 struct InputFrame {
   MoveInput move;
-  std::vector<int> pressed;  // GLFW key codes, in order
-  bool control = false;      // while the last of them was pressed
+  std::vector<Command> commands;  // in order
   bool quit = false;
   // The pointer in the window, [0,1]² from the top left corner, while it is free; the left button: pressed since the
   // last poll, still down.
@@ -35,14 +34,15 @@ class WindowInput {
   InputFrame poll(float dt_s);
   // Looking around with the mouse; another button than the left one grabs it too.
   void grab(bool on);
+  bool grabbed() const { return grabbed_; }
 
  private:
   void key(int code, int action, int mods);
   bool down(int code) const { return glfwGetKey(window_, code) == GLFW_PRESS; }
 
   GLFWwindow* window_;
-  std::vector<int> pressed_;
-  bool control_ = false, quit_ = false, grabbed_ = false, clicked_ = false;
+  std::vector<Command> commands_;
+  bool quit_ = false, grabbed_ = false, clicked_ = false;
   double last_x_ = 0, last_y_ = 0, moved_x_ = 0, moved_y_ = 0, wheel_ = 0;
   bool has_last_ = false;
 };

@@ -1,10 +1,11 @@
-#include "player/app/arguments.h"
+#include "player/options/arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 
-#include "player/app/option_names.h"
+#include "player/options/option_names.h"
+#include "player/session/keys.h"
 
 namespace oriel {
 namespace {
@@ -18,14 +19,7 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n";
 
-constexpr const char* kFooter =
-    "In the window:\n"
-    "  W A S D        walk           Q E    down, up (flying)     F      fly or walk\n"
-    "  arrows, mouse  look           Shift  faster                wheel  speed\n"
-    "  click          grab the mouse; Esc releases it, then quits; Ctrl-Q quits\n"
-    "  drag a mover   along its level; with R it turns        Backspace  all movers back\n"
-    "  1 … 9          cameras        P      play the path         F12    screenshot\n"
-    "  + -            exposure       X      automatic exposure    M      next stage of --show\n\n"
+constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
     "            4 failed at run time (no OpenGL 3.3, no display), 5 further from the reference than --max-flip,\n"
     "            130 stopped by the user";
@@ -131,13 +125,10 @@ void add_mover_options(CLI::App& app, PlayArguments& out) {
       ->check(CLI::Range(-1e9, 1e9))
       ->type_name("S")
       ->capture_default_str();
-  const std::map<std::string, MoverLights> lights{{"shadowed", MoverLights::kShadowed},
-                                                  {"unshadowed", MoverLights::kUnshadowed},
-                                                  {"harmonics", MoverLights::kHarmonics}};
   app.add_option("--mover-lights", out.frame.mover_lights,
                  "How the brightest lights shine on movers: pixel by pixel with shadows from and onto them, without "
                  "shadows, or in harmonics as all other light")
-      ->transform(CLI::CheckedTransformer(lights).description(""))
+      ->transform(CLI::CheckedTransformer(kMoverLights).description(""))
       ->type_name("shadowed|unshadowed|harmonics")
       ->default_str("shadowed");
   app.add_option(
@@ -202,6 +193,8 @@ void add_options(CLI::App& app, PlayArguments& out) {
       ->type_name("NAME");
   app.add_option("--stats", out.stats, "Offscreen: time each pass and write times, counts and the options as JSON")
       ->type_name("FILE");
+  app.add_flag("--panel", out.panel,
+               "Open the panel at once: exposure, stages, reflections, times, what is under the pointer");
   app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");
 }
 
@@ -232,7 +225,7 @@ std::string contradiction(const PlayArguments& out) {
 std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv) {
   PlayArguments out;
   CLI::App app(kDescription, "oriel-play");
-  app.footer(kFooter);
+  app.footer("In the window:\n" + key_help() + "\n" + kExitCodes);
   app.set_version_flag("--version", "oriel-play " ORIEL_PLAY_VERSION);
   add_options(app, out);
   try {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "formats/core/result.h"
-#include "player/app/arguments.h"
+#include "player/options/arguments.h"
 
 namespace oriel {
 

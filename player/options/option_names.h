@@ -25,6 +25,9 @@ inline const std::map<std::string, KernelPlace> kKernelPlaces{{"lobe", KernelPla
                                                               {"centred", KernelPlace::kCentred}};
 inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflectance::kTable},
                                                               {"sphere", Reflectance::kSphereMap}};
+inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverLights::kShadowed},
+                                                             {"unshadowed", MoverLights::kUnshadowed},
+                                                             {"harmonics", MoverLights::kHarmonics}};
 
 // The name of a value that the map has.
 template <class T>

@@ -33,6 +33,7 @@ struct PlayArguments {
   int frames = -1;    // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
   std::string path;   // offscreen: frames along it instead of cameras
   std::string stats;  // a file for what the frames cost
+  bool panel = false;
   bool gl_debug = false;
 };
 

@@ -1,0 +1,205 @@
+#include "player/panel/panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "player/options/option_names.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kMargin = 10, kPanelWidth = 330;  // pixels at a scale of 1
+constexpr float kLeastEv100 = -6, kMostEv100 = 20;
+
+float scaled(float pixels) {
+  return pixels * ImGui::GetIO().FontGlobalScale;
+}
+
+void text(const std::string& line) {
+  ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());
+}
+
+// A choice by the names that the command line has for it.
+template <class T>
+void choose(const char* label, const std::map<std::string, T>& names, T& value) {
+  if (!ImGui::BeginCombo(label, name_of(names, value).c_str())) return;
+  for (const auto& [name, each] : names)
+    if (ImGui::Selectable(name.c_str(), each == value)) value = each;
+  ImGui::EndCombo();
+}
+
+void draw_light(Session& session) {
+  bool automatic = !session.manual_ev100;
+  if (ImGui::Checkbox("automatic exposure", &automatic)) {
+    session.manual_ev100.reset();
+    if (!automatic) session.manual_ev100 = session.shown_ev100;
+  }
+  float ev100 = session.shown_ev100;
+  if (ImGui::SliderFloat("EV 100", &ev100, kLeastEv100, kMostEv100, "%.1f")) session.manual_ev100 = ev100;
+  text(fmt::format("white: {:.4g} cd/m²", white_of_exposure(session.shown_ev100)));
+  choose("tone curve", kToneCurves, session.curve);
+}
+
+void draw_reflections(FrameOptions& frame) {
+  choose("stage", kStages, frame.show);
+  choose("reflections", kReflections, frame.reflections);
+  ImGui::SliderInt("maps", &frame.maps_per_element, 0, 8);
+  choose("selection", kSelections, frame.selection);
+  choose("blur", kBlurs, frame.blur);
+  choose("kernel", kKernelPlaces, frame.kernel);
+  choose("Fresnel", kReflectances, frame.reflectance);
+}
+
+void draw_places(const Pack& pack, Session& session) {
+  if (ImGui::Button("home")) perform({Action::kHome, 0}, pack, session);
+  if (!pack.paths.empty()) {
+    ImGui::SameLine();
+    if (ImGui::Button(session.path_time_s >= 0 ? "stop the path" : "play the path"))
+      perform({Action::kPlayPath, 0}, pack, session);
+  }
+  ImGui::SameLine();
+  ImGui::Checkbox("fly", &session.move.fly);
+  for (std::size_t i = 0; i < pack.cameras.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const std::string& name = pack.cameras[i].name;
+    if (ImGui::Selectable(name.empty() ? "(camera)" : name.c_str(), false))
+      perform({Action::kCamera, i}, pack, session);
+    ImGui::PopID();
+  }
+  const DVec3 eye = DVec3(session.camera.eye) + pack.mesh.origin;
+  text(fmt::format("eye {:.2f}, {:.2f}, {:.2f} m", eye.x, eye.y, eye.z));
+}
+
+void draw_movers(const Pack& pack, Session& session) {
+  choose("their light", kMoverLights, session.frame.mover_lights);
+  if (ImGui::Button("all back")) perform({Action::kMoversBack, 0}, pack, session);
+  for (std::size_t i = 0; i < std::min(pack.movers.size(), session.frame.poses.size()); ++i) {
+    const DVec3 at = DVec3(session.frame.poses[i].position) + pack.mesh.origin;
+    text(fmt::format("{}: {:.2f}, {:.2f}, {:.2f} m", pack.movers[i].name, at.x, at.y, at.z));
+  }
+}
+
+void draw_statistics(const FrameMeter& meter) {
+  const std::vector<float> ms(meter.ms.begin(), meter.ms.end());
+  const float most = ms.empty() ? 1 : *std::max_element(ms.begin(), ms.end());
+  const float mean = meter.mean_ms();
+  text(fmt::format("{:.1f} ms, {:.1f} frames/s; worst {:.1f} ms", mean, mean > 0 ? 1000 / mean : 0, most));
+  ImGui::PlotLines("##frames", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, 1.1f * most,
+                   ImVec2(ImGui::GetContentRegionAvail().x, scaled(50)));
+  const FrameStats& s = meter.stats;
+  if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchProp)) {
+    for (std::size_t i = 0; i < kPassNames.size(); ++i) {
+      if (s.ms[i] < 0.05) continue;
+      ImGui::TableNextColumn();
+      text(kPassNames[i]);
+      ImGui::TableNextColumn();
+      text(fmt::format("{:.1f} ms", s.ms[i]));
+    }
+    ImGui::EndTable();
+  }
+  text(fmt::format("{} draws, {} triangles", s.draws, s.triangles));
+  text(fmt::format("{} reflectors, {} maps, {:.1f} MB of them", s.reflectors, s.maps,
+                   static_cast<double>(s.map_bytes) * 1e-6));
+  text(meter.device);
+}
+
+const char* word_for(TexelState state) {
+  switch (state) {
+    case TexelState::kValid:
+      return "baked";
+    case TexelState::kBuried:
+      return "inside other geometry";
+    case TexelState::kDilated:
+      return "filled from neighbours";
+    case TexelState::kEmpty:
+      break;
+  }
+  return "empty";
+}
+
+void draw_picked(const std::optional<PickedSurface>& picked) {
+  if (!picked) {
+    ImGui::TextUnformatted("nothing");
+    return;
+  }
+  text(fmt::format("{}, {:.2f} m away", picked->part, picked->distance_m));
+  text(fmt::format("material {}", picked->material));
+  text(fmt::format("base colour {:.2f} {:.2f} {:.2f}", picked->albedo.r, picked->albedo.g, picked->albedo.b));
+  text(fmt::format("roughness {:.2f}, metallic {:.2f}", picked->roughness, picked->metallic));
+  if (picked->page < 0) {
+    ImGui::TextUnformatted("no lightmap: unlit");
+    return;
+  }
+  text(fmt::format("{:.4g} ± {:.2g} lux", picked->lux, picked->lux_error));
+  text(fmt::format("texel {}, {} of page {}: {}", picked->texel.x, picked->texel.y, picked->page,
+                   word_for(picked->state)));
+}
+
+void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
+                Session& session) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float margin = scaled(kMargin), width = std::min(scaled(kPanelWidth), size.x - 2 * margin);
+  ImGui::SetNextWindowPos(ImVec2(size.x - width - margin, margin), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(width, size.y - 2 * margin), ImGuiCond_FirstUseEver);
+  if (ImGui::Begin("Oriel", &session.panel)) {
+    ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
+    const auto opens = [](const char* name) { return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen); };
+    if (opens("Frames")) draw_statistics(meter);
+    if (opens("Under the pointer")) draw_picked(picked);
+    if (opens("Light")) draw_light(session);
+    if (opens("Reflections")) draw_reflections(session.frame);
+    if (!pack.movers.empty() && opens("Movers")) draw_movers(pack, session);
+    if (opens("Places")) draw_places(pack, session);
+    ImGui::PopItemWidth();
+  }
+  ImGui::End();
+}
+
+void draw_key_sheet(Session& session) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, 0.5f * size.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  if (ImGui::Begin("Keys", &session.key_sheet, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse) &&
+      ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const Binding& binding : key_bindings()) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.does);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void draw_zone_word() {
+  const float margin = scaled(kMargin);
+  ImGui::SetNextWindowPos(ImVec2(margin, ImGui::GetIO().DisplaySize.y - margin), ImGuiCond_Always, ImVec2(0, 1));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::Begin("zone", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::TextUnformatted("reflections were planned for other places");
+  ImGui::End();
+}
+
+}  // namespace
+
+void FrameMeter::add(float frame_ms) {
+  ms.push_back(frame_ms);
+  if (ms.size() > kKept) ms.pop_front();
+}
+
+float FrameMeter::mean_ms() const {
+  return ms.empty() ? 0 : std::accumulate(ms.begin(), ms.end(), 0.0f) / static_cast<float>(ms.size());
+}
+
+void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
+                  Session& session) {
+  if (!meter.in_zone && meter.stats.reflectors > 0) draw_zone_word();
+  if (session.panel) draw_panel(pack, meter, picked, session);
+  if (session.key_sheet) draw_key_sheet(session);
+}
+
+}  // namespace oriel

@@ -1,0 +1,28 @@
+// What is drawn over the frame: the panel, the sheet of keys, a word where reflections were not planned for.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "player/session/pick.h"
+#include "player/session/session.h"
+
+namespace oriel {
+
+// How the last frames went.
+struct FrameMeter {
+  std::deque<float> ms;  // of the last frames, the newest last
+  FrameStats stats;      // of the newest; with passes' times of the last one that was timed
+  bool in_zone = true;
+  std::string device;  // its name
+
+  static constexpr std::size_t kKept = 120;
+  void add(float frame_ms);
+  float mean_ms() const;
+};
+
+// Between Gui::begin and Gui::end. Changes the session as the user does. picked: what lies under the pointer.
+void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
+                  Session& session);
+
+}  // namespace oriel

@@ -1,0 +1,108 @@
+#include "player/session/session.h"
+
+#include <cmath>
+
+#include "formats/camera/path.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kTurnPerWidth = 2 * kPi;  // of a mover, across the window
+constexpr float kAdaptation_s = 0.3f;
+constexpr float kExposureStep = 1 / 3.0f;
+
+void look_from(const Camera& camera, Session& session) {
+  session.camera = camera;
+  session.path_time_s = -1;
+}
+
+}  // namespace
+
+void perform(const Command& command, const Pack& pack, Session& session) {
+  switch (command.action) {
+    case Action::kHeld:
+      break;
+    case Action::kKeySheet:
+      session.key_sheet = !session.key_sheet;
+      break;
+    case Action::kPanel:
+      session.panel = !session.panel;
+      break;
+    case Action::kStage:
+      session.frame.show = static_cast<Show>((static_cast<int>(session.frame.show) + 1) % kShows);
+      break;
+    case Action::kFly:
+      session.move.fly = !session.move.fly;
+      break;
+    case Action::kHome:
+      look_from(session.home, session);
+      break;
+    case Action::kPlayPath:
+      session.path_time_s = session.path_time_s >= 0 || pack.paths.empty() ? -1 : 0;
+      break;
+    case Action::kBrighter:
+      session.manual_ev100 = session.shown_ev100 - kExposureStep;
+      break;
+    case Action::kDarker:
+      session.manual_ev100 = session.shown_ev100 + kExposureStep;
+      break;
+    case Action::kAutoExposure:
+      session.manual_ev100.reset();
+      break;
+    case Action::kMoversBack:
+      session.moves = session.moves_at_start;
+      break;
+    case Action::kScreenshot:
+      session.screenshot = true;
+      break;
+    case Action::kCamera:
+      if (command.camera < pack.cameras.size()) look_from(pack.cameras[command.camera], session);
+      break;
+  }
+}
+
+void move_on(const MoveInput& input, const Pack& pack, float dt_s, Session& session) {
+  if (session.path_time_s < 0) {
+    session.camera = move_camera(session.camera, session.move, input, dt_s);
+    return;
+  }
+  session.path_time_s += dt_s;
+  session.camera = camera_on_path(pack.paths[0], static_cast<float>(session.path_time_s));
+  if (session.path_time_s > path_duration_s(pack.paths[0])) session.path_time_s = -1;
+}
+
+void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Session& session) {
+  if (session.manual_ev100) {
+    session.shown_ev100 = *session.manual_ev100;
+    session.metered = false;
+    return;
+  }
+  if (!metered_ev100) return;
+  const float share = session.metered ? 1 - std::exp(-dt_s / kAdaptation_s) : 1.0f;
+  session.shown_ev100 += (*metered_ev100 - session.shown_ev100) * share;
+  session.metered = true;
+}
+
+Dragged drag_movers(const DragInput& input, const Pack& pack, const View& view, float farthest_m, Session& session) {
+  const PickRay ray = ray_through(view, input.pointer);
+  if (input.clicked) {
+    session.grip = grip_mover(pack, session.frame.poses, ray);
+    return {!session.grip, {}};
+  }
+  if (!session.grip) return {};
+  Grip& grip = *session.grip;
+  const MoverPose& pose = session.frame.poses[grip.mover];
+  MoverMove& move = move_of(session.moves, pack.movers[grip.mover], pose, pack.mesh.origin);
+  const auto to = on_level(ray, grip.at.y, farthest_m);
+  if (input.turning) {
+    move.yaw_rad += static_cast<double>(kTurnPerWidth * (input.pointer.x - input.last_pointer.x));
+  } else if (to) {
+    move.position += DVec3(*to - grip.at);
+  }
+  if (to) grip.at = *to;
+  if (input.holding) return {};
+  session.grip.reset();
+  return {false, text_of(move)};
+}
+
+}  // namespace oriel

@@ -1,0 +1,59 @@
+// What the user has set and where the user is: all that keys and the panel change. No window, no drawing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/motion/mover_pose.h"
+#include "formats/pack/pack.h"
+#include "player/passes/display_pass.h"
+#include "player/poses/drag.h"
+#include "player/scene/frame_options.h"
+#include "player/session/keys.h"
+#include "player/walk/controller.h"
+
+namespace oriel {
+
+struct Session {
+  Camera camera, home;
+  MoveState move;
+  FrameOptions frame;
+  ToneCurve curve = ToneCurve::kAces;
+  std::optional<float> manual_ev100;  // nothing: automatic
+  float shown_ev100 = 0;
+  bool metered = false;
+  double path_time_s = -1;  // into the first path; negative: not playing
+  bool screenshot = false;  // asked for
+  bool panel = false, key_sheet = false;
+  std::vector<MoverMove> moves, moves_at_start;
+  std::optional<Grip> grip;  // of a mover that is dragged
+};
+
+struct Command {
+  Action action = Action::kHeld;
+  std::size_t camera = 0;  // of kCamera
+};
+
+void perform(const Command& command, const Pack& pack, Session& session);
+
+// Along the path while it plays, else as the user walks.
+void move_on(const MoveInput& input, const Pack& pack, float dt_s, Session& session);
+
+// Towards the exposure that was metered (none: nothing was seen), over a third of a second, as eyes do; at once on the
+// first frame. A manual one holds.
+void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Session& session);
+
+// What the pointer does to movers: the left button takes what moves under it, and it follows, on its level or turning
+// about itself. view: of the frame that the user sees.
+struct DragInput {
+  Vec2 pointer{0}, last_pointer{0};  // in the window, [0,1]² from the top left corner
+  bool clicked = false, holding = false, turning = false;
+};
+struct Dragged {
+  bool missed = false;  // a click met no mover
+  std::string dropped;  // one was let go: where it stands now, as --move takes it
+};
+Dragged drag_movers(const DragInput& input, const Pack& pack, const View& view, float farthest_m, Session& session);
+
+}  // namespace oriel

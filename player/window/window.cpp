@@ -1,0 +1,206 @@
+#include "player/window/window.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include "formats/camera/camera_spec.h"
+#include "player/output/frame_record.h"
+#include "player/output/picture.h"
+#include "player/panel/gui.h"
+#include "player/panel/panel.h"
+#include "player/poses/poses.h"
+#include "player/walk/zone.h"
+#include "player/window/window_input.h"
+
+namespace oriel {
+namespace {
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// GLFW and its window, closed in the right order on every way out.
+class GlfwWindow {
+ public:
+  static Result<std::unique_ptr<GlfwWindow>> open(int width, int height) {
+    std::unique_ptr<GlfwWindow> out(new GlfwWindow);
+    if (!glfwInit()) return refused("opening a display");
+    out->initialized_ = true;
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    out->window_ = glfwCreateWindow(width, height, "Oriel", nullptr, nullptr);
+    if (out->window_ == nullptr) return refused("making a window with OpenGL 3.3 core");
+    glfwMakeContextCurrent(out->window_);
+    glfwSwapInterval(1);
+    return out;
+  }
+  ~GlfwWindow() {
+    if (window_ != nullptr) glfwDestroyWindow(window_);
+    if (initialized_) glfwTerminate();
+  }
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+  GLFWwindow* get() const { return window_; }
+
+ private:
+  GlfwWindow() = default;
+  static tl::unexpected<Error> refused(const char* what) {
+    const char* why = nullptr;
+    glfwGetError(&why);
+    return fail(ErrorCode::kRuntime, "window", "{} failed: {}. Without a display, use --offscreen -o FILE.png", what,
+                why != nullptr ? why : "no reason given");
+  }
+  bool initialized_ = false;
+  GLFWwindow* window_ = nullptr;
+};
+
+std::string next_screenshot() {
+  for (int i = 0;; ++i) {
+    const std::string name = fmt::format("oriel-{:03}.png", i);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scene
+
+class Loop {
+ public:
+  Loop(GlfwWindow& window, GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, const Camera& camera,
+       const gpu::Device& device)
+      : window_(window),
+        scene_(scene),
+        renderer_(renderer),
+        arguments_(arguments),
+        input_(window.get()),
+        gui_(window.get()) {
+    session_.camera = session_.home = camera;
+    session_.frame = arguments.frame;
+    session_.curve = arguments.curve;
+    session_.moves = session_.moves_at_start = arguments.moves;
+    session_.manual_ev100 = arguments.ev100;
+    session_.panel = arguments.panel;
+    meter_.device = device.renderer;
+  }
+
+  Status run(const std::function<bool()>& stopped) {
+    Clock::time_point last = Clock::now();
+    int frames = 0;
+    while (true) {
+      const auto dt_s = static_cast<float>(seconds_since(last));
+      last = Clock::now();
+      InputFrame input = input_.poll(dt_s);
+      if (stopped()) return fail(ErrorCode::kStopped, "", "stopped by the user");
+      if (input.quit) return {};
+      act(input, dt_s);
+      int width = 0, height = 0;
+      glfwGetFramebufferSize(window_.get(), &width, &height);
+      if (width < 1 || height < 1) {  // minimised: nothing to draw, and nothing to hurry for
+        glfwWaitEventsTimeout(0.1);
+        continue;
+      }
+      ORIEL_TRY_VOID(draw(width, height, dt_s));
+      meter_.add(static_cast<float>(1000 * seconds_since(last)));
+      if (++frames == arguments_.frames) return {};
+    }
+  }
+
+ private:
+  void act(InputFrame& input, float dt_s) {
+    if (gui_.has_pointer() && !input_.grabbed()) {
+      input.clicked = false;
+      input.move.wheel = 0;
+    }
+    for (const Command& command : input.commands) perform(command, scene_.pack(), session_);
+    move_on(input.move, scene_.pack(), dt_s, session_);
+    const Dragged dragged = drag_movers({input.pointer, pointer_, input.clicked, input.holding, input.turning},
+                                        scene_.pack(), view_, kFarthest * scene_.bounds().radius(), session_);
+    if (dragged.missed) input_.grab(true);
+    if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
+    pointer_ = input.pointer;
+  }
+
+  Status draw(int width, int height, float dt_s) {
+    session_.frame.timed = numbers_are_due();  // only that one: timing waits for the device
+    session_.frame.white = white_of_exposure(session_.shown_ev100);
+    ORIEL_TRY(session_.frame.poses, poses_at(scene_.pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
+    view_ = make_view(session_.camera, width, height, bounds_with_movers(scene_, session_.frame.poses));
+    ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view_, session_.frame));
+    ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
+    adapt_exposure(metered, dt_s, session_);
+    if (std::exchange(session_.screenshot, false)) keep_screenshot(width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    renderer_.display(session_.shown_ev100, session_.curve);
+    note(stats);
+    gui_.begin(!input_.grabbed());
+    draw_overlay(scene_.pack(), meter_, picked_, session_);
+    gui_.end();
+    glfwSwapBuffers(window_.get());
+    return {};
+  }
+
+  void keep_screenshot(int width, int height) {
+    const std::string name = next_screenshot();
+    const Status written =
+        write_picture(renderer_, name, width, height, session_.shown_ev100, session_.curve, session_.camera.name);
+    fmt::print(stderr, "oriel-play: {}\n", written ? name : written.error().text());
+  }
+
+  bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
+
+  // The panel's and the title's numbers, twice a second.
+  void note(const FrameStats& stats) {
+    const PassTimes ms = session_.frame.timed ? stats.ms : meter_.stats.ms;
+    meter_.stats = stats;
+    meter_.stats.ms = ms;
+    meter_.in_zone = zone_.holds(session_.camera.eye);
+    ++frames_;
+    if (!session_.frame.timed) return;
+    if (session_.panel && !input_.grabbed()) picked_ = pick_surface(scene_.pack(), ray_through(view_, pointer_));
+    const std::string title =
+        fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack, frames_ / seconds_since(numbers_start_),
+                    session_.shown_ev100, describe(stats, meter_.in_zone));
+    glfwSetWindowTitle(window_.get(), title.c_str());
+    numbers_start_ = Clock::now();
+    frames_ = 0;
+  }
+
+  GlfwWindow& window_;
+  GpuScene& scene_;
+  Renderer& renderer_;
+  const PlayArguments& arguments_;
+  WindowInput input_;
+  Gui gui_;  // after the input, to whose callbacks it passes on
+  Session session_;
+  FrameMeter meter_;
+  std::optional<PickedSurface> picked_;
+  const Zone zone_ = planned_zone(scene_.pack());
+  View view_;        // of the last frame
+  Vec2 pointer_{0};  // then
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point numbers_start_ = Clock::now();
+  int frames_ = 0;  // since
+};
+
+}  // namespace
+
+Status play_in_window(Pack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
+  ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
+  ORIEL_TRY(const gpu::Device device, gpu::open_device());
+  if (arguments.gl_debug) gpu::enable_debug_output(device);
+  ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+  const Pack& shown = scene->pack();
+  const CameraChoices choices{shown.cameras, shown.paths, shown.mesh.origin};
+  Camera camera = initial_camera(choices, scene->bounds().lower, scene->bounds().upper);
+  if (!arguments.cameras.empty()) {
+    ORIEL_TRY(camera, parse_camera(arguments.cameras[0], choices));
+  }
+  ORIEL_TRY(const auto renderer, Renderer::create(device));
+  return Loop(*window, *scene, *renderer, arguments, camera, device).run(stopped);
+}
+
+}  // namespace oriel

@@ -1,0 +1,80 @@
+// Keys, their sheet, and what they change.
+#include "player/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+
+class SessionTest : public ::testing::Test {
+ protected:
+  void press(Action action, std::size_t camera = 0) { perform({action, camera}, pack_, session_); }
+  const Pack pack_ = testing::tiny_pack();
+  Session session_;
+};
+
+TEST(Keys, EachActionHasOneLineAndNoKeyTwo) {
+  std::set<Action> actions;
+  std::set<std::string> keys;
+  for (const Binding& binding : key_bindings()) {
+    EXPECT_TRUE(keys.insert(binding.keys).second) << binding.keys;
+    if (binding.action == Action::kHeld) continue;
+    EXPECT_TRUE(actions.insert(binding.action).second) << binding.keys;
+    EXPECT_NE(key_help().find(binding.does), std::string::npos);
+  }
+  EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::kCamera)) << "all but kHeld";
+}
+
+TEST_F(SessionTest, CamerasAndHome) {
+  session_.home.eye = {1, 2, 3};
+  press(Action::kCamera, 1);
+  EXPECT_EQ(session_.camera.eye, pack_.cameras.at(1).eye);
+  press(Action::kCamera, 99);
+  EXPECT_EQ(session_.camera.eye, pack_.cameras.at(1).eye) << "there is no such camera";
+  press(Action::kHome);
+  EXPECT_EQ(session_.camera.eye, Vec3(1, 2, 3));
+}
+
+TEST_F(SessionTest, StagesComeRound) {
+  std::set<Show> shown;
+  for (int i = 0; i < kShows; ++i) {
+    shown.insert(session_.frame.show);
+    press(Action::kStage);
+  }
+  EXPECT_EQ(shown.size(), static_cast<std::size_t>(kShows));
+  EXPECT_EQ(session_.frame.show, Show::kAll);
+}
+
+TEST_F(SessionTest, ThePathEndsAndACameraStopsIt) {
+  press(Action::kPlayPath);
+  EXPECT_GE(session_.path_time_s, 0);
+  move_on({}, pack_, 1e6f, session_);
+  EXPECT_LT(session_.path_time_s, 0);
+  press(Action::kPlayPath);
+  press(Action::kCamera);
+  EXPECT_LT(session_.path_time_s, 0);
+}
+
+// At once on the first frame, then e-fold in 0.3 s; steps of a third from where it stands; X gives it back.
+TEST_F(SessionTest, ExposureAdaptsUntilItIsSet) {
+  adapt_exposure(6.0f, 0.1f, session_);
+  EXPECT_EQ(session_.shown_ev100, 6);
+  adapt_exposure(8.0f, 0.3f, session_);
+  EXPECT_NEAR(session_.shown_ev100, 8 - 2 * std::exp(-1.0f), 1e-5f);
+  adapt_exposure(std::nullopt, 0.3f, session_);
+  EXPECT_NEAR(session_.shown_ev100, 8 - 2 * std::exp(-1.0f), 1e-5f);
+  const float before = session_.shown_ev100;
+  press(Action::kBrighter);
+  adapt_exposure(12.0f, 1, session_);
+  EXPECT_NEAR(session_.shown_ev100, before - 1 / 3.0f, 1e-5f);
+  press(Action::kAutoExposure);
+  adapt_exposure(12.0f, 0.1f, session_);
+  EXPECT_EQ(session_.shown_ev100, 12);
+}
+
+}  // namespace
+}  // namespace oriel
