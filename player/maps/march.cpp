@@ -33,7 +33,8 @@ float on_surface(float s, float surface) {
 bool is_connected(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
   const float last = relief.at(map_texel(ray, begin, relief.size));
   const float after = relief.at(map_texel(ray, std::min(end + 1, ray.length), relief.size));
-  return surface <= 1 && std::fabs(surface - last) <= std::max(kConnected * surface, 2 * std::fabs(after - surface));
+  const float rise = surface - last, further = std::copysign(2.0f, rise) * (after - surface);
+  return surface <= 1 && std::fabs(rise) <= std::max(kConnected * surface, further);
 }
 
 // The crossing in [begin, end], found by false position.
@@ -107,9 +108,11 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     }
     texel = map_texel(ray, 0.5f * (at + next), relief.size);
     surface = relief.at(texel);
-    before = before || surface < s;
+    // It comes out behind an edge, or through the back of a surface, which it does not meet again at once.
+    if (!before)
+      before = surface < s_next || (surface < s && !is_connected(relief, ray, at - 2 * kBorder, at + 0.5f, surface));
     if (before && surface >= s_next) {
-      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at - 0.5f, at + 0.5f, surface);
+      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at - 2 * kBorder, at + 0.5f, surface);
       if (hit) break;
       before = false;
     }
@@ -125,7 +128,7 @@ MapHit march(const Relief& relief, const MapRay& ray) {
   const Vec2 place = ray.from + crossing * ray.direction;
   const float s_mixed = disparity_at(relief, place);
   // Beside another surface its own texel tells, so that nothing of the other is mixed in.
-  if (s_mixed != on_surface(s_mixed, surface))
+  if (std::fabs(s_mixed - surface) > kMixed * surface)
     return {Vec2(texel) + 0.5f, std::clamp(surface, ray.disparity(std::min(at + 1, ray.length)), s), trust};
   return {place, ray.disparity(crossing), trust};
 }

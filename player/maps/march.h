@@ -21,6 +21,8 @@ inline constexpr float kTouching = 0.003f;
 inline constexpr float kDistrust = 128;
 // A ray within so many pixels of the border of a texel has left it.
 inline constexpr float kBorder = 1e-3f;
+// Between texels, disparity that differs by more than this share from the hit texel's own is another surface's too.
+inline constexpr float kMixed = 0.03f;
 inline constexpr int kMaxMarchSteps = 96;
 
 // The part of a ray inside a map's frame: from a pixel position over `length` pixels (the longer of x and y) along

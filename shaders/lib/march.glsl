@@ -5,6 +5,7 @@ const float kConnected = 0.1;
 const float kTouching = 0.003;
 const float kDistrust = 128.0;
 const float kBorder = 1e-3;
+const float kMixed = 0.03;
 const int kRangeLevels = 6;
 const int kMaxSteps = 96;
 
@@ -77,7 +78,8 @@ float on_surface(float s, float surface) {
 bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
   float last = texelFetch(disparity, ivec3(map_texel(ray, begin, size), layer), 0).r;
   float after = texelFetch(disparity, ivec3(map_texel(ray, min(end + 1.0, ray.length), size), layer), 0).r;
-  return surface <= 1.0 && abs(surface - last) <= max(kConnected * surface, 2.0 * abs(after - surface));
+  float rise = surface - last, further = (rise < 0.0 ? -2.0 : 2.0) * (after - surface);
+  return surface <= 1.0 && abs(rise) <= max(kConnected * surface, further);
 }
 
 // How far the ray is above the surface.
@@ -140,9 +142,11 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
     float s_next = ray_disparity(ray, next);
     texel = map_texel(ray, 0.5 * (at + next), size);
     surface = texelFetch(disparity, ivec3(texel, layer), 0).r;
-    before = before || surface < s;
+    // It comes out behind an edge, or through the back of a surface, which it does not meet again at once.
+    if (!before)
+      before = surface < s_next || (surface < s && !is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, at + 0.5, surface));
     if (before && surface >= s_next) {
-      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at - 0.5, at + 0.5, surface);
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, at + 0.5, surface);
       if (hit) break;
       before = false;
     }
@@ -158,7 +162,7 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   vec2 place = ray.from + crossing * ray.direction;
   float s_mixed = disparity_at(disparity, layer, size, place);
   // Beside another surface its own texel tells, so that nothing of the other is mixed in.
-  if (s_mixed != on_surface(s_mixed, surface))
+  if (abs(s_mixed - surface) > kMixed * surface)
     return MapHit(vec2(texel) + 0.5, clamp(surface, ray_disparity(ray, min(at + 1.0, ray.length)), s), trust);
   return MapHit(place, ray_disparity(ray, crossing), trust);
 }

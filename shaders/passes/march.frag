@@ -69,7 +69,7 @@ void main() {
       float pixels = map_pixels(hit, map, s_distance);
       vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
       // Maps that do not agree about the distance do not mix: the weightier ones win.
-      float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust;
+      float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust * hit.trust;
       if (total > 0.0) {
         float mean = sum.a / total;
         float agreement = exp2(-pow(abs(inverse - mean) / (kSameDepth * max(inverse, mean)), 2.0));
