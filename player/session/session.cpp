@@ -14,6 +14,7 @@ constexpr float kExposureStep = 1 / 3.0f;
 void look_from(const Camera& camera, Session& session) {
   session.camera = camera;
   session.path_time_s = -1;
+  session.walking = false;
 }
 
 }  // namespace
@@ -33,6 +34,7 @@ void perform(const Command& command, const Pack& pack, Session& session) {
       break;
     case Action::kFly:
       session.move.fly = !session.move.fly;
+      session.walking = !session.move.fly;
       break;
     case Action::kHome:
       look_from(session.home, session);
@@ -61,9 +63,13 @@ void perform(const Command& command, const Pack& pack, Session& session) {
   }
 }
 
-void move_on(const MoveInput& input, const Pack& pack, float dt_s, Session& session) {
+void move_on(const MoveInput& input, const Pack& pack, const Floors& floors, float dt_s, Session& session) {
   if (session.path_time_s < 0) {
+    const Vec3 from = session.camera.eye;
     session.camera = move_camera(session.camera, session.move, input, dt_s);
+    if (session.move.fly) return;
+    if (session.camera.eye != from) session.walking = true;
+    if (session.walking) session.camera.eye = floors.walk(from, session.camera.eye, dt_s, session.move.fall_m_s);
     return;
   }
   session.path_time_s += dt_s;

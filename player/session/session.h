@@ -12,12 +12,14 @@
 #include "player/scene/frame_options.h"
 #include "player/session/keys.h"
 #include "player/walk/controller.h"
+#include "player/walk/floors.h"
 
 namespace oriel {
 
 struct Session {
   Camera camera, home;
   MoveState move;
+  bool walking = false;  // on the floors; not before the first step from a camera, whose height is its own
   FrameOptions frame;
   ToneCurve curve = ToneCurve::kAces;
   std::optional<float> manual_ev100;  // nothing: automatic
@@ -37,8 +39,8 @@ struct Command {
 
 void perform(const Command& command, const Pack& pack, Session& session);
 
-// Along the path while it plays, else as the user walks.
-void move_on(const MoveInput& input, const Pack& pack, float dt_s, Session& session);
+// Along the path while it plays, else as the user flies, or walks on the floors.
+void move_on(const MoveInput& input, const Pack& pack, const Floors& floors, float dt_s, Session& session);
 
 // Towards the exposure that was metered (none: nothing was seen), over a third of a second, as eyes do; at once on the
 // first frame. A manual one holds.

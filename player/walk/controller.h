@@ -25,6 +25,7 @@ struct MoveOptions {
 struct MoveState {
   bool fly = false;  // walking keeps the eye's height and moves in the horizontal plane
   float speed_m_s = 1.4f;
+  float fall_m_s = 0;  // of one who walks off the ground
 };
 
 // The camera after dt_s seconds, and the state with the wheel's speed. Times and inputs that are not finite, or

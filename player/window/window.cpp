@@ -116,7 +116,7 @@ class Loop {
       input.move.wheel = 0;
     }
     for (const Command& command : input.commands) perform(command, scene_.pack(), session_);
-    move_on(input.move, scene_.pack(), dt_s, session_);
+    move_on(input.move, scene_.pack(), floors_, dt_s, session_);
     const Dragged dragged = drag_movers({input.pointer, pointer_, input.clicked, input.holding, input.turning},
                                         scene_.pack(), view_, kFarthest * scene_.bounds().radius(), session_);
     if (dragged.missed) input_.grab(true);
@@ -178,6 +178,7 @@ class Loop {
   Session session_;
   FrameMeter meter_;
   std::optional<PickedSurface> picked_;
+  const Floors floors_{scene_.pack().walk_grids};
   const Zone zone_ = planned_zone(scene_.pack());
   View view_;        // of the last frame
   Vec2 pointer_{0};  // then

@@ -52,7 +52,7 @@ TEST_F(SessionTest, StagesComeRound) {
 TEST_F(SessionTest, ThePathEndsAndACameraStopsIt) {
   press(Action::kPlayPath);
   EXPECT_GE(session_.path_time_s, 0);
-  move_on({}, pack_, 1e6f, session_);
+  move_on({}, pack_, Floors({}), 1e6f, session_);
   EXPECT_LT(session_.path_time_s, 0);
   press(Action::kPlayPath);
   press(Action::kCamera);
