@@ -61,9 +61,11 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
   app.add_option(
          "--show", out.frame.show,
          "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
-         "(MKR), the diffuse light alone (D), or the whole frame (all)")
+         "(MKR), the diffuse light alone (D), or the whole frame (all); or of each texel its illuminance (lux), "
+         "standard error "
+         "(error) or state (texels) in colours")
       ->transform(CLI::CheckedTransformer(kStages).description(""))
-      ->type_name("M|MK|MKR|D|all")
+      ->type_name("M|MK|MKR|D|all|lux|error|texels")
       ->default_str("all");
   app.add_option(
          "--reflections", out.frame.reflections,

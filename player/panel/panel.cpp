@@ -3,9 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "player/options/option_names.h"
+#include "player/survey/survey_colors.h"
 
 namespace oriel {
 namespace {
@@ -42,8 +44,30 @@ void draw_light(Session& session) {
   choose("tone curve", kToneCurves, session.curve);
 }
 
+// The colours of a survey with their values, from dark to white.
+void draw_legend(Show show) {
+  if (show == Show::kTexels) {
+    ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
+    return;
+  }
+  const HeatScale scale = heat_scale(show);
+  const float decades = std::log10(scale.highest / scale.lowest);
+  for (float d = 0; d < decades + 0.5f; d += 1) {
+    const Vec3 c = heat(d / decades);
+    if (d > 0) ImGui::SameLine();
+    ImGui::TextColored(ImVec4(std::max(c.r, 0.2f), std::max(c.g, 0.2f), c.b, 1), "%g",
+                       static_cast<double>(scale.lowest * std::pow(10.0f, d)));
+  }
+  ImGui::SameLine();
+  ImGui::TextUnformatted(scale.unit);
+}
+
 void draw_reflections(FrameOptions& frame) {
   choose("stage", kStages, frame.show);
+  if (is_survey(frame.show)) {
+    draw_legend(frame.show);
+    return;
+  }
   choose("reflections", kReflections, frame.reflections);
   ImGui::SliderInt("maps", &frame.maps_per_element, 0, 8);
   choose("selection", kSelections, frame.selection);
@@ -149,7 +173,7 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
     if (opens("Frames")) draw_statistics(meter);
     if (opens("Under the pointer")) draw_picked(picked);
     if (opens("Light")) draw_light(session);
-    if (opens("Reflections")) draw_reflections(session.frame);
+    if (opens("Shown")) draw_reflections(session.frame);
     if (!pack.movers.empty() && opens("Movers")) draw_movers(pack, session);
     if (opens("Places")) draw_places(pack, session);
     ImGui::PopItemWidth();

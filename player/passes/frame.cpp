@@ -53,6 +53,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
   ORIEL_TRY(renderer->curved_pass_, CurvedPass::create(device.dialect));
+  ORIEL_TRY(renderer->survey_pass_, SurveyPass::create(device.dialect));
   ORIEL_TRY(renderer->display_, DisplayPass::create(device.dialect));
   ORIEL_TRY_VOID(gpu::check_gl("compiling shaders"));
   return renderer;
@@ -220,6 +221,12 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
   clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  if (is_survey(options.show)) {
+    clock_.time(Pass::kScene, [&] { survey_pass_.draw(scene, view, options.show, stats); });
+    stats.ms = clock_.read();
+    ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
+    return stats;
+  }
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
   const std::vector<Candidate> candidates =

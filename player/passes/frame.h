@@ -14,6 +14,7 @@
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/reproject_pass.h"
+#include "player/survey/survey_pass.h"
 
 namespace oriel {
 
@@ -73,6 +74,7 @@ class Renderer {
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;
   CurvedPass curved_pass_;
+  SurveyPass survey_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_;
   std::optional<ImageTarget> image_;

@@ -12,9 +12,10 @@
 namespace oriel {
 
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
-// frame.
-enum class Show { kAll, kM, kMK, kMKR, kD };
-inline constexpr int kShows = 5;
+// frame. After those what the bake knows of texels, as colours: illuminance, its standard error, the texels themselves.
+enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels };
+inline constexpr int kShows = 8;
+inline bool is_survey(Show show) { return show >= Show::kLux; }
 // How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
 // mirrored scene; or not at all.
 enum class Reflections { kMarch, kPoints, kGeometry, kOff };

@@ -20,7 +20,7 @@ constexpr Binding kBindings[] = {
     {"+", "brighter", Action::kBrighter},
     {"-", "darker", Action::kDarker},
     {"X", "automatic exposure", Action::kAutoExposure},
-    {"M", "next stage: M, M*K, its share R, D, the whole frame", Action::kStage},
+    {"M", "next stage: M, M*K, times R, D; illuminance, error, texels; the frame", Action::kStage},
     {"Tab", "panel", Action::kPanel},
     {"F1", "this sheet", Action::kKeySheet},
     {"F12", "screenshot into this folder", Action::kScreenshot},

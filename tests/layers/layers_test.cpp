@@ -93,12 +93,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
-  m["player/passes"] = plus(m["player/reflections"], {"formats/motion", "player/movers", "player/reflections"});
+  m["player/survey"] = plus(m["player/scene"], {"player/scene"});
+  m["player/passes"] = plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera"});
   m["player/options"] = plus(m["player/session"], {"player/session"});
   m["player/output"] = plus(m["player/options"], {"player/options", "formats/image"});
-  m["player/panel"] = plus(m["player/options"], {"player/options"});
+  m["player/panel"] = plus(m["player/options"], {"player/options", "player/survey"});
   m["player/window"] = plus(m["player/output"], {"player/output", "player/panel"});
   m["player/app"] = plus(m["player/window"], {"player/window", "formats/metrics"});
   m["scenes/kit"] = core;
@@ -120,7 +121,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"imgui", {"player/panel"}},
     {"backends/imgui", {"player/panel"}},
     {"epoxy/",
-     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/passes",
+     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/survey", "player/passes",
       "player/window", "player/app"}},
 };
 

@@ -1,0 +1,26 @@
+// Draws surfaces in the colours of survey_colors.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/scene/frame_options.h"
+#include "player/scene/gpu_scene.h"
+#include "player/view/view.h"
+
+namespace oriel {
+
+class SurveyPass {
+ public:
+  static Result<SurveyPass> create(gpu::Dialect dialect);
+
+  // Opaque surfaces over their depth, in the colours of `show`; those without a lightmap are grey. Colours are kept
+  // until another `show` or scene is asked for.
+  void draw(const GpuScene& scene, const View& view, Show show, FrameStats& stats);
+
+ private:
+  gpu::Program program_;
+  std::vector<gpu::Texture> pages_;
+  Show painted_ = Show::kAll;
+  std::uint64_t scene_ = 0;  // whose pages they are
+};
+
+}  // namespace oriel
