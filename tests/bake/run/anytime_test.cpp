@@ -128,7 +128,7 @@ TEST_F(Anytime, EnoughEndsARoundAtOnce) {
     EXPECT_TRUE(lay_out_lightmap(options.atlas, timed, context, prepared));
     const LightSet lights(prepared.scene());
     RadiosityOptions radiosity{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
-    radiosity.certify = false;
+    radiosity.verify = 0;
     radiosity.enough = std::move(enough);
     auto made = bake_radiosity({*prepared.accel, lights, {}}, prepared.atlas, prepared.texel_map, radiosity, context);
     EXPECT_TRUE(made);
