@@ -81,11 +81,13 @@ class Verifier {
   Status ask(std::span<HeldOut> batch) { return ask(batch, most_paths_); }
   std::uint64_t rays() const { return rays_; }
 
-  // Squared relative error, mean over channels, free of the paths' noise on average.
+  // Squared relative error, mean over channels, free of the paths' noise on average: relative to what is brighter, the
+  // texel or its paths, so that no texel counts for more than its whole light.
   double square(const HeldOut& h) const {
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
-      const double denominator = h.baked[c] * h.baked[c] + floor2_[c];
+      const double brighter = std::max(h.baked[c], 0.5 * (h.a[c] + h.b[c]));
+      const double denominator = brighter * brighter + floor2_[c];
       if (denominator > 0) sum += (h.baked[c] - h.a[c]) * (h.baked[c] - h.b[c]) / denominator;
     }
     return sum / 3;

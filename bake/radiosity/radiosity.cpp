@@ -54,7 +54,8 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
   return sum;
 }
 
-// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean.
+// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean. The
+// irradiance is the true one's mean square: of a dark texel that is not known at all the error is its light, not more.
 double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
   DVec3 mean(0);
   double count = 0, squares = 0;
@@ -67,8 +68,9 @@ double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& 
   each_valid([&](const Vec3& e, const Vec3&) { mean += DVec3(e), ++count; });
   each_valid([&](const Vec3& e, const Vec3& error) {
     for (int c = 0; c < 3; ++c) {
-      const double floor = 0.01 * mean[c] / count, denominator = double{e[c]} * e[c] + floor * floor;
-      if (denominator > 0) squares += double{error[c]} * error[c] / denominator;
+      const double floor = 0.01 * mean[c] / count, square = double{error[c]} * error[c];
+      const double denominator = double{e[c]} * e[c] + square + floor * floor;
+      if (denominator > 0) squares += square / denominator;
     }
   });
   return count > 0 ? std::sqrt(squares / (3 * count)) : 0;

@@ -72,15 +72,15 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
-  Vec3 mean{0};  // lux, over valid texels
-  Vec3 max{0};   // lux
-  double relative_error =
-      0;           // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
-  int sweeps = 0;  // cached: bounces computed in the coarse lightmap
-  bool ended_early = false;  // by `enough`: the error asked for does not hold
-  int refinements = 0;       // cached: after held-out texels told of a larger error than was asked for
-  double sweep_tail = 0;     // cached: bound on what further bounces would add, relative
-  double filter_drift = 0;   // cached: relative change of the gathered energy by the filter
+  Vec3 mean{0};               // lux, over valid texels
+  Vec3 max{0};                // lux
+  double relative_error = 0;  // rms of standard error, over texels and channels, relative to the true light (as the
+                              // estimate and its error tell it) and 1 % of the mean
+  int sweeps = 0;             // cached: bounces computed in the coarse lightmap
+  bool ended_early = false;   // by `enough`: the error asked for does not hold
+  int refinements = 0;        // cached: after held-out texels told of a larger error than was asked for
+  double sweep_tail = 0;      // cached: bound on what further bounces would add, relative
+  double filter_drift = 0;    // cached: relative change of the gathered energy by the filter
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };

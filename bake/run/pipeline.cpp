@@ -186,8 +186,9 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.paths = scene.paths;
   pack.sky = scene.sky;
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(),
-                         reflections, mover_reports, options.radiosity.estimator == Estimator::kCached});
+  pack.plan =
+      plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
+                 mover_reports, options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   return result;

@@ -129,7 +129,7 @@ class CachedBake {
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
       const double value = double{direct_.value[i][c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
-      const double denominator = value * value + floor * floor;
+      const double denominator = value * value + variance[c] + floor * floor;  // the truth's, on average
       if (denominator > 0) sum += variance[c] / denominator;
     }
     return sum / 3;

@@ -61,13 +61,16 @@ Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::
 }
 
 Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
-             Context& context, std::vector<ViewQuality>& quality) {
+             const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
+             ReflectionReport& report) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
+    const auto own = maps.subspan(reflector.first_map, reflector.map_count);
     ORIEL_TRY(const auto samples,
               sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
-    quality.push_back(
-        judge_maps(surroundings, maps.subspan(reflector.first_map, reflector.map_count), samples, context));
+    report.quality.push_back(judge_maps(surroundings, own, samples, context));
+    ORIEL_TRY(const ReflectedError error, judge_light(surroundings, r, own, samples, outgoing, context, rays));
+    report.errors.push_back(error);
   }
   return {};
 }
@@ -213,9 +216,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
+  const std::vector<Vec3> others = held_out_eyes(region, kHeldOutEyes, context.seed);
+  ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
   report.rays = rays;
-  ORIEL_TRY_VOID(
-      judge(surroundings, plan.maps, held_out_eyes(region, kHeldOutEyes, context.seed), context, report.quality));
   pack.radiance_maps = std::move(plan.maps);
   keep(reflectors, mesh, pack.reflectors);
   pack.surround_maps = std::move(curved.maps);

@@ -6,6 +6,7 @@
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/baked_light.h"
+#include "bake/run/stages/judge.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -28,8 +29,9 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
 
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
+  std::vector<ReflectedError> errors;  // by reflector: and how right that is
   std::vector<std::string> omissions;  // what was not modelled, and why
-  std::uint64_t rays = 0;              // of capture
+  std::uint64_t rays = 0;              // of capture and judging
 };
 
 // Reflections before there is light: what needs none of it.
