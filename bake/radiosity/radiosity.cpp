@@ -212,19 +212,23 @@ class Finisher {
     const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
     ORIEL_TRY(report.certificate, certify(transport_, atlas_, map_, result, options_.error, at_most, context_));
     rays_ += report.certificate.rays;
-    const double asked = options_.error, measured = report.certificate.relative_error;
-    const bool missed = asked > 0 && measured > kTolerated * asked && report.certificate.error_low > asked;
+    const double asked = options_.error;
+    const Certificate& c = report.certificate;
+    const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
     if (!missed || report.ended_early || report.refinements == kRefinements) return 0;
     if (options_.enough && options_.enough()) return 0;
-    goal_ = (report.refinements == 0 ? asked : goal_) * std::max(kSharpest, asked / measured);
+    // What the noise that is stated does not explain stays, however many rays are traced.
+    const double stays = std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2);
+    const double goal2 = asked * asked - std::max(stays, 0.0);
+    if (goal2 < std::pow(kSharpest * asked, 2)) return 0;
     ++report.refinements;
     result.pages = empty_pages(map_, options_.directional);
-    return goal_;
+    return std::sqrt(goal2);
   }
 
  private:
   static constexpr double kTolerated = 1.1;
-  static constexpr double kSharpest = 0.5;  // of the goal, at once: the rest is measured again
+  static constexpr double kSharpest = 0.25;  // of the error asked for: less noise would cost more than it brings
 
   const Transport& transport_;
   const Atlas& atlas_;
@@ -232,7 +236,6 @@ class Finisher {
   const RadiosityOptions& options_;
   Context& context_;
   std::atomic<std::uint64_t>& rays_;
-  double goal_ = 0;
 };
 
 }  // namespace

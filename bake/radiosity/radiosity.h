@@ -38,7 +38,8 @@ struct RadiosityOptions {
   // limit, say). Context::finishable is set while it is asked.
   std::function<bool()> enough = {};
   // cached: so many rays, as a share of the bake's, measure the error of held-out texels by unbiased paths (at least
-  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined, at most kRefinements times.
+  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise can mend it,
+  // at most kRefinements times.
   double verify = 0.1;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;

@@ -24,7 +24,15 @@ constexpr double kLate_s = 2, kLate = 0.1;  // by which --time may be missed
 void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const Deadline& deadline,
                       Context& context) {
   const double asked = options.radiosity.error, stated = report.relative_error;
-  if (asked <= 0 || context.finish || stated <= 1.25 * asked) return;
+  const Certificate& c = report.certificate;
+  if (asked <= 0 || context.finish) return;
+  if (c.error_low > kUnlooked * std::max(asked, stated))
+    context.warning(
+        fmt::format("held-out texels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
+                    "is stated: light "
+                    "varies more within texels than they tell; --texel makes those finer",
+                    100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
+  if (stated <= 1.25 * asked) return;
   if (report.ended_early && deadline.limited() && asked > kBestError)
     context.warning(
         fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is "
