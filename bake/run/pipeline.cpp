@@ -104,6 +104,23 @@ Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections 
   return none;
 }
 
+void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissions) {
+  omissions.emplace_back("kernels: left out by --only");
+  materials.kernels.clear();
+  for (auto& kernel : materials.kernel) kernel = -1;
+}
+
+void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
+  assemble_materials(scene, materials, pack);
+  pack.mesh = std::move(mesh.mesh);
+  pack.kernels = std::move(materials.kernels);
+  pack.fresnel_maps = std::move(materials.fresnel_maps);
+  pack.split_reflectance = std::move(materials.split);
+  pack.cameras = scene.cameras;
+  pack.paths = scene.paths;
+  pack.sky = scene.sky;
+}
+
 }  // namespace
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
@@ -180,19 +197,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   } else if (options.with_transfer) {
     result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }
-  if (!options.with_material) {
-    result.omissions.emplace_back("kernels: left out by --only");
-    materials.kernels.clear();
-    for (auto& kernel : materials.kernel) kernel = -1;
-  }
-  assemble_materials(scene, materials, pack);
-  pack.mesh = std::move(mesh.mesh);
-  pack.kernels = std::move(materials.kernels);
-  pack.fresnel_maps = std::move(materials.fresnel_maps);
-  pack.split_reflectance = std::move(materials.split);
-  pack.cameras = scene.cameras;
-  pack.paths = scene.paths;
-  pack.sky = scene.sky;
+  if (!options.with_material) leave_out_kernels(materials, result.omissions);
+  fill_pack(scene, std::move(materials), std::move(mesh), pack);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan =
       plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
