@@ -90,12 +90,11 @@ Status check_output(const std::filesystem::path& output, const std::vector<std::
 
 std::string light_line(const RadiosityReport& r) {
   std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
-  if (const Certificate& c = r.certificate; c.texels > 0) {
-    line += fmt::format("; {} of them beside unbiased paths: {:+.2g} % ± {:.2g} % brighter, ", c.texels, 100 * c.bias,
-                        100 * c.bias_interval);
-    line +=
-        c.relative_error > 0 ? fmt::format("error {:.2g} %", 100 * c.relative_error) : "error lost in the paths' noise";
-  }
+  if (const Certificate& c = r.certificate; c.texels > 0)
+    line += fmt::format(
+        "; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out texels, which are {:+.2g} % ± {:.2g} % brighter",
+        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, c.texels, 100 * c.bias, 100 * c.bias_interval);
+  if (r.refinements > 0) line += fmt::format("; refined {} times after that", r.refinements);
   return line;
 }
 

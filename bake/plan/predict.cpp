@@ -12,6 +12,7 @@ namespace {
 constexpr double kCoarser = 4;             // texels of the finer pilot: 1/16 as many, of the coarser one 1/64
 constexpr double kLeastTexels = 2000;      // of the finer one, where the scene has as many
 constexpr double kMissed = 1.5;            // the error asked for by so much: rays a texel are limited
+constexpr double kSlowPaths = 1.5;         // a ray of verification takes longer than a gathered one
 constexpr double kNominalError = 0.02;     // of pilots where time alone limits the work
 constexpr double kLeastAskedError = 1e-3;  // what a bake limited by time alone asks for
 
@@ -46,6 +47,7 @@ RadiosityOptions pilot_options(const CensusInput& in) {
   std::vector<std::string> ignored;
   options.directional = choose_directional(in.prepared.scene(), in.options.directional, ignored);
   if (in.options.time_s > 0 && options.error <= kLeastAskedError) options.error = kNominalError;
+  options.verify = 0;
   return options;
 }
 
@@ -87,8 +89,9 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   const double rays = limited
                           ? static_cast<double>(report.rays) * texels / n[1]
                           : at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
-  c.rays = static_cast<std::uint64_t>(rays);
-  c.seconds = fine.seconds * rays / std::max(1.0, static_cast<double>(report.rays));
+  const double verify = in.options.radiosity.verify;
+  c.rays = static_cast<std::uint64_t>(rays * (1 + verify));
+  c.seconds = fine.seconds * rays * (1 + kSlowPaths * verify) / std::max(1.0, static_cast<double>(report.rays));
   c.bytes = static_cast<std::uint64_t>(std::max(0.0, at_all([](const LightmapPilot& p) { return p.bytes; })));
   // Squared errors add over texels; those that miss what was asked lie on edges.
   const double squares = at_all([](const LightmapPilot& p) {

@@ -1,6 +1,8 @@
 #include "bake/radiosity/certificate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/texels/texel_paths.h"
@@ -9,94 +11,187 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kPaths = 64;      // a texel
-constexpr std::uint64_t kShare = 20;      // one ray in so many of the bake's
-constexpr std::uint64_t kRaysAPath = 10;  // about
-constexpr std::size_t kLeastTexels = 64, kMostTexels = 4096;
+constexpr std::uint32_t kPilotPaths = 32;               // of each half: they tell how many it gets
+constexpr std::uint32_t kMostPaths = 8192;              // of each half
+constexpr std::size_t kBatch = 64, kMostTexels = 4096;  // texels asked at a time and at most
+constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything
+constexpr double kWellKnown = 0.2;                      // of the squared error asked for
 
-struct Sampled {
-  std::size_t page, index;
-  DVec3 baked{0}, path{0}, variance{0};
-  bool compared = false;  // false: nearly all of its points are buried
+struct HeldOut {
+  std::size_t page = 0, index = 0;
+  DVec3 baked{0}, a{0}, b{0};  // lux
+  std::uint32_t paths = 0;     // of both halves
+  bool compared = false;       // false: nearly all of its points are buried
 };
 
-std::vector<Sampled> choose(std::span<const TexelMapPage> map, const Radiosity& radiosity, std::size_t count,
-                            std::uint64_t seed) {
-  std::vector<std::size_t> first{0};
-  for (const TexelMapPage& page : map) first.push_back(first.back() + page.texel.size());
-  std::vector<Sampled> chosen;
-  for (std::uint64_t k = 0; chosen.size() < count && k < 4 * count && first.back() > 0; ++k) {
-    const std::size_t at = mix64(seed ^ mix64(k)) % first.back();
-    const std::size_t page =
-        static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), at) - first.begin()) - 1;
-    const std::size_t index = at - first[page];
-    const std::uint32_t texel = map[page].texel[index];
-    if (radiosity.pages[page].state[texel] != TexelState::kValid) continue;
-    chosen.push_back({page, index, DVec3(radiosity.pages[page].irradiance[texel])});
+std::uint32_t reversed(std::uint32_t bits) {
+  std::uint32_t out = 0;
+  for (int i = 0; i < 32; ++i) out |= (bits >> i & 1u) << (31 - i);
+  return out;
+}
+
+// The valid texels by surface; of these `count` at equal steps, in an order whose every beginning is spread evenly.
+std::vector<HeldOut> choose(const Scene& scene, std::span<const TexelMapPage> map, const Radiosity& radiosity,
+                            std::size_t count, std::uint64_t seed) {
+  struct Place {
+    std::uint32_t surface, page, index;
+  };
+  std::vector<Place> places;
+  for (std::uint32_t p = 0; p < map.size(); ++p)
+    for (std::uint32_t i = 0; i < map[p].texel.size(); ++i)
+      if (radiosity.pages[p].state[map[p].texel[i]] == TexelState::kValid)
+        places.push_back({scene.triangle_surface[map[p].fragments[map[p].first[i]].triangle], p, i});
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.surface < b.surface; });
+  count = std::min(count, places.size());
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) { return reversed(a) < reversed(b); });
+  const double offset = static_cast<double>(mix64(seed) >> 11u) * 0x1p-53;
+  std::vector<HeldOut> chosen;
+  for (const std::uint32_t k : order) {
+    const double at = (k + offset) / static_cast<double>(count) * static_cast<double>(places.size());
+    const Place& place = places[std::min(static_cast<std::size_t>(at), places.size() - 1)];
+    chosen.push_back(
+        {place.page, place.index, DVec3(radiosity.pages[place.page].irradiance[map[place.page].texel[place.index]])});
   }
   return chosen;
 }
 
-// The ratio Σ (baked - path) / Σ path in luminance, and 1.96 standard errors of it.
-void state_bias(const std::vector<Sampled>& samples, Certificate& c) {
-  double difference = 0, path = 0, squares = 0;
-  for (const Sampled& s : samples) difference += luminance(Vec3(s.baked - s.path)), path += luminance(Vec3(s.path));
-  if (!(path > 0)) return;
-  c.bias = difference / path;
-  for (const Sampled& s : samples) {
-    const double residual = luminance(Vec3(s.baked - s.path)) - c.bias * luminance(Vec3(s.path));
-    squares += residual * residual;
+class Verifier {
+ public:
+  Verifier(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> map, const DVec3& mean,
+           double asked, std::uint64_t rays_at_most, Context& context)
+      : map_(map), floor2_(1e-4 * mean * mean), asked2_(asked * asked), rays_at_most_(rays_at_most), context_(context) {
+    paths_.reserve(seeds_.size());
+    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + 0xce27 + k);
+    for (const Context& own : seeds_) paths_.emplace_back(transport, atlas, false, own);
   }
-  c.bias_interval = 1.96 * std::sqrt(squares) / path;
+
+  // How many paths both halves together of a texel may have, so that a batch stays within the rays.
+  Status limit_paths(std::span<HeldOut> first) {
+    ORIEL_TRY_VOID(ask(first, kPilotPaths));
+    std::uint64_t paths = 0;
+    for (const HeldOut& h : first) paths += h.paths;
+    const double rays_a_path = static_cast<double>(rays_) / static_cast<double>(std::max<std::uint64_t>(paths, 1));
+    const double fit = static_cast<double>(rays_at_most_) / (rays_a_path * 2 * static_cast<double>(kBatch));
+    most_paths_ = static_cast<std::uint32_t>(std::clamp(fit, double{kPilotPaths}, double{kMostPaths}));
+    return {};
+  }
+
+  Status ask(std::span<HeldOut> batch) { return ask(batch, most_paths_); }
+  std::uint64_t rays() const { return rays_; }
+
+  // Squared relative error, mean over channels, free of the paths' noise on average: relative to what is brighter, the
+  // texel or its paths, so that no texel counts for more than its whole light.
+  double square(const HeldOut& h) const {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double brighter = std::max(h.baked[c], 0.5 * (h.a[c] + h.b[c]));
+      const double denominator = brighter * brighter + floor2_[c];
+      if (denominator > 0) sum += (h.baked[c] - h.a[c]) * (h.baked[c] - h.b[c]) / denominator;
+    }
+    return sum / 3;
+  }
+
+ private:
+  Status ask(std::span<HeldOut> batch, std::uint32_t most) {
+    return parallel_for(
+        context_, "certificate", batch.size(),
+        [&](std::size_t k) {
+          HeldOut& h = batch[k];
+          std::uint64_t traced = 0;
+          const TexelSums pilot = sums(2, h, kPilotPaths, traced);
+          const std::uint32_t wanted = paths_for(h, pilot, most);
+          const TexelSums a = sums(0, h, wanted, traced), b = sums(1, h, wanted, traced);
+          h.a = a.irradiance(), h.b = b.irradiance();
+          h.paths = a.count + b.count;
+          h.compared = a.count * 4 >= wanted && b.count * 4 >= wanted;
+          rays_ += traced;
+        },
+        &rays_);
+  }
+
+  TexelSums sums(std::size_t which, const HeldOut& h, std::uint32_t paths, std::uint64_t& traced) const {
+    TexelSums own;
+    paths_[which].add(map_[h.page], h.page, h.index, 0, paths, own, traced);
+    return own;
+  }
+
+  // The least error in the mean of all texels for a number of rays is where a texel's noise equals its error, about.
+  std::uint32_t paths_for(const HeldOut& h, const TexelSums& pilot, std::uint32_t most) const {
+    const DVec3 variance = pilot.variance() * double(pilot.count);
+    double relative = 0;
+    for (int c = 0; c < 3; ++c)
+      if (const double d = h.baked[c] * h.baked[c] + floor2_[c]; d > 0) relative += variance[c] / d / 3;
+    std::uint32_t paths = kPilotPaths;
+    while (paths * 2 <= most && paths * asked2_ < relative) paths *= 2;
+    return paths;
+  }
+
+  std::span<const TexelMapPage> map_;
+  DVec3 floor2_;
+  double asked2_;
+  std::uint64_t rays_at_most_;
+  Context& context_;
+  std::array<Context, 3> seeds_;  // of both halves and the foretelling
+  std::vector<TexelPaths> paths_;
+  std::uint32_t most_paths_ = kPilotPaths;
+  std::atomic<std::uint64_t> rays_{0};
+};
+
+// The ratio Σ (baked - path) / Σ path in luminance, and 1.96 standard errors of it.
+void state_bias(std::span<const HeldOut> samples, Certificate& c) {
+  const auto path = [](const HeldOut& h) { return double{luminance(Vec3(0.5 * (h.a + h.b)))}; };
+  const auto off = [&](const HeldOut& h) { return luminance(Vec3(h.baked)) - path(h); };
+  double difference = 0, paths = 0, squares = 0;
+  for (const HeldOut& h : samples) difference += off(h), paths += path(h);
+  if (!(paths > 0)) return;
+  c.bias = difference / paths;
+  for (const HeldOut& h : samples) squares += std::pow(off(h) - c.bias * path(h), 2);
+  c.bias_interval = 1.96 * std::sqrt(squares) / paths;
 }
 
-// Root mean square of the relative difference, without what the paths' own noise adds to it.
-void state_error(const std::vector<Sampled>& samples, const DVec3& mean, Certificate& c) {
-  double squares = 0, noise = 0;
-  for (const Sampled& s : samples)
-    for (int k = 0; k < 3; ++k) {
-      const double denominator = s.baked[k] * s.baked[k] + 1e-4 * mean[k] * mean[k];
-      if (!(denominator > 0)) continue;
-      squares += (s.baked[k] - s.path[k]) * (s.baked[k] - s.path[k]) / denominator;
-      noise += s.variance[k] / denominator;
-    }
-  c.relative_error = std::sqrt(std::max(0.0, squares - noise) / (3.0 * static_cast<double>(samples.size())));
+struct MeanSquare {
+  double mean = 0, interval = 0;  // 95 %: mean ± interval
+};
+
+MeanSquare mean_square(std::span<const HeldOut> samples, const Verifier& verifier) {
+  double sum = 0, squares = 0;
+  const auto n = static_cast<double>(samples.size());
+  for (const HeldOut& h : samples) sum += verifier.square(h);
+  const double mean = sum / n;
+  for (const HeldOut& h : samples) squares += std::pow(verifier.square(h) - mean, 2);
+  return {mean, 1.96 * std::sqrt(squares / (n * std::max(1.0, n - 1)))};
 }
 
 }  // namespace
 
 Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                            const Radiosity& radiosity, std::uint64_t rays_of_bake, Context& context) {
-  const std::size_t wanted =
-      std::clamp<std::size_t>(rays_of_bake / (kShare * kRaysAPath * kPaths), kLeastTexels, kMostTexels);
-  std::vector<Sampled> samples = choose(texel_map, radiosity, wanted, context.seed);
+                            const Radiosity& radiosity, double asked, std::uint64_t rays_at_most, Context& context) {
   Certificate c;
-  c.texels = samples.size();
-  c.paths = kPaths;
-  if (samples.empty()) return c;
-  Context own;  // other random numbers, the same threads
-  own.seed = mix64(context.seed + 0xce27);
-  const TexelPaths paths(transport, atlas, false, own);
-  std::atomic<std::uint64_t> rays{0};
-  ORIEL_TRY_VOID(parallel_for(
-      context, "certificate", samples.size(),
-      [&](std::size_t k) {
-        Sampled& s = samples[k];
-        TexelSums sums;
-        std::uint64_t traced = 0;
-        paths.add(texel_map[s.page], s.page, s.index, 0, kPaths, sums, traced);
-        s.path = sums.irradiance();
-        s.variance = sums.variance();
-        s.compared = sums.count >= kPaths / 4;
-        rays += traced;
-      },
-      &rays));
-  c.rays = rays;
-  std::erase_if(samples, [](const Sampled& s) { return !s.compared; });
-  c.texels = samples.size();
-  if (samples.empty()) return c;
-  state_bias(samples, c);
-  state_error(samples, DVec3(radiosity.report.mean), c);
+  std::vector<HeldOut> texels =
+      choose(transport.accel.scene(), texel_map, radiosity, kMostTexels, mix64(context.seed + 0xce27));
+  if (asked <= 0) asked = radiosity.report.relative_error;
+  Verifier verifier(transport, atlas, texel_map, DVec3(radiosity.report.mean), asked, rays_at_most, context);
+  std::vector<HeldOut> compared;
+  for (std::size_t first = 0; first < texels.size(); first += kBatch) {
+    const auto batch = std::span(texels).subspan(first, std::min(kBatch, texels.size() - first));
+    if (first == 0) ORIEL_TRY_VOID(verifier.limit_paths(batch));
+    ORIEL_TRY_VOID(verifier.ask(batch));
+    for (const HeldOut& h : batch) c.paths += h.paths;
+    std::copy_if(batch.begin(), batch.end(), std::back_inserter(compared), [](const HeldOut& h) { return h.compared; });
+    if (verifier.rays() >= rays_at_most) break;
+    if (compared.size() >= kLeastCompared && mean_square(compared, verifier).interval <= kWellKnown * asked * asked)
+      break;
+  }
+  c.rays = verifier.rays();
+  c.texels = compared.size();
+  if (compared.empty()) return c;
+  state_bias(compared, c);
+  const MeanSquare square = mean_square(compared, verifier);
+  c.relative_error = std::sqrt(std::max(0.0, square.mean));
+  c.error_low = std::sqrt(std::max(0.0, square.mean - square.interval));
+  c.error_high = std::sqrt(std::max(0.0, square.mean + square.interval));
   return c;
 }
 

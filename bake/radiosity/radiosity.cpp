@@ -54,7 +54,8 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
   return sum;
 }
 
-// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean.
+// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean. The
+// irradiance is the true one's mean square: of a dark texel that is not known at all the error is its light, not more.
 double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
   DVec3 mean(0);
   double count = 0, squares = 0;
@@ -67,8 +68,9 @@ double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& 
   each_valid([&](const Vec3& e, const Vec3&) { mean += DVec3(e), ++count; });
   each_valid([&](const Vec3& e, const Vec3& error) {
     for (int c = 0; c < 3; ++c) {
-      const double floor = 0.01 * mean[c] / count, denominator = double{e[c]} * e[c] + floor * floor;
-      if (denominator > 0) squares += double{error[c]} * error[c] / denominator;
+      const double floor = 0.01 * mean[c] / count, square = double{error[c]} * error[c];
+      const double denominator = double{e[c]} * e[c] + square + floor * floor;
+      if (denominator > 0) squares += square / denominator;
     }
   });
   return count > 0 ? std::sqrt(squares / (3 * count)) : 0;
@@ -77,6 +79,8 @@ double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& 
 void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
   const auto& pages = radiosity.pages;
   RadiosityReport& report = radiosity.report;
+  report.texels = report.buried = 0;
+  report.max = Vec3(0);
   DVec3 sum(0);
   for (std::size_t p = 0; p < pages.size(); ++p)
     for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
@@ -149,6 +153,22 @@ Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> tex
   }
 }
 
+bool is_dark(const Transport& transport) {
+  return transport.lights.empty() && luminance(transport.accel.scene().sky) <= 0;
+}
+
+std::vector<LightmapPage> empty_pages(std::span<const TexelMapPage> texel_map, bool directional) {
+  std::vector<LightmapPage> pages;
+  for (const TexelMapPage& map : texel_map) {
+    const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
+    LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size),
+                      std::vector<TexelState>(size)};
+    if (directional) page.direction.resize(size);
+    pages.push_back(std::move(page));
+  }
+  return pages;
+}
+
 // Without any light black is exact: only what lies inside other geometry is to be found.
 Status bake_dark(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                  Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
@@ -162,49 +182,85 @@ Status bake_dark(const Transport& transport, const Atlas& atlas, std::span<const
   return {};
 }
 
+// All that follows an estimate: what is buried and beyond charts is filled, seams are stitched, and held-out texels
+// tell the error.
+class Finisher {
+ public:
+  Finisher(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+           const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays)
+      : transport_(transport), atlas_(atlas), map_(texel_map), options_(options), context_(context), rays_(rays) {}
+
+  Status finish(Radiosity& result) {
+    if (context_.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+    if (options_.hidden != Hidden::kBlack) {
+      for (std::size_t p = 0; p < map_.size(); ++p) {
+        fill_buried(atlas_, map_[p], result.pages[p]);
+        dilate(options_.dilation, result.pages[p]);
+      }
+      if (options_.stitch && !is_dark(transport_))
+        ORIEL_TRY_VOID(stitch_lightmap(transport_, atlas_, map_, context_, rays_, result));
+    }
+    summarize(transport_.accel.scene(), atlas_, map_, result);
+    return {};
+  }
+
+  // The error to refine to, where held-out texels tell of a larger one than was asked for; else 0.
+  Result<double> finish_and_verify(Radiosity& result) {
+    ORIEL_TRY_VOID(finish(result));
+    RadiosityReport& report = result.report;
+    if (options_.verify <= 0) return 0;
+    const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
+    ORIEL_TRY(report.certificate, certify(transport_, atlas_, map_, result, options_.error, at_most, context_));
+    rays_ += report.certificate.rays;
+    const double asked = options_.error;
+    const Certificate& c = report.certificate;
+    const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
+    if (!missed || report.ended_early || report.refinements == kRefinements) return 0;
+    if (options_.enough && options_.enough()) return 0;
+    // What the noise that is stated does not explain stays, however many rays are traced.
+    const double stays = std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2);
+    const double goal2 = asked * asked - std::max(stays, 0.0);
+    if (goal2 < std::pow(kSharpest * asked, 2)) return 0;
+    ++report.refinements;
+    result.pages = empty_pages(map_, options_.directional);
+    return std::sqrt(goal2);
+  }
+
+ private:
+  static constexpr double kTolerated = 1.1;
+  static constexpr double kSharpest = 0.25;  // of the error asked for: less noise would cost more than it brings
+
+  const Transport& transport_;
+  const Atlas& atlas_;
+  std::span<const TexelMapPage> map_;
+  const RadiosityOptions& options_;
+  Context& context_;
+  std::atomic<std::uint64_t>& rays_;
+};
+
 }  // namespace
 
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context) {
   Radiosity result;
-  for (std::size_t p = 0; p < texel_map.size(); ++p) {
-    const TexelMapPage& map = texel_map[p];
-    const std::size_t size = static_cast<std::size_t>(map.width) * map.height;
-    LightmapPage page{map.width, map.height, std::vector<Vec3>(size), std::vector<Vec3>(size),
-                      std::vector<TexelState>(size)};
-    if (options.directional) page.direction.resize(size);
-    result.pages.push_back(std::move(page));
-    result.visible.emplace_back(map.texel.size());
-  }
+  result.pages = empty_pages(texel_map, options.directional);
+  for (const TexelMapPage& map : texel_map) result.visible.emplace_back(map.texel.size());
   std::atomic<std::uint64_t> rays{0};
-  const bool dark = transport.lights.empty() && luminance(transport.accel.scene().sky) <= 0;
-  if (dark) {
+  Finisher finisher(transport, atlas, texel_map, options, context, rays);
+  if (is_dark(transport)) {
     ORIEL_TRY_VOID(bake_dark(transport, atlas, texel_map, context, rays, result));
+    ORIEL_TRY_VOID(finisher.finish(result));
   } else if (options.estimator == Estimator::kCached) {
-    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result));
+    const NextError next = [&] { return finisher.finish_and_verify(result); };
+    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result, next));
   } else {
     ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,
                                   context, rays, result));
-  }
-  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-  const bool black = options.hidden == Hidden::kBlack;
-  if (!black) {
-    for (std::size_t p = 0; p < texel_map.size(); ++p) {
-      fill_buried(atlas, texel_map[p], result.pages[p]);
-      dilate(options.dilation, result.pages[p]);
-    }
-    if (options.stitch && !dark) {
-      ORIEL_TRY_VOID(stitch_lightmap(transport, atlas, texel_map, context, rays, result));
-    }
-  }
-  summarize(transport.accel.scene(), atlas, texel_map, result);
-  if (options.estimator == Estimator::kCached && options.certify && !dark) {
-    ORIEL_TRY(result.report.certificate, certify(transport, atlas, texel_map, result, rays, context));
-    rays += result.report.certificate.rays;
+    ORIEL_TRY_VOID(finisher.finish(result));
   }
   result.report.rays = rays;
-  for (std::size_t p = 0; black && p < texel_map.size(); ++p) {
+  for (std::size_t p = 0; options.hidden == Hidden::kBlack && p < texel_map.size(); ++p) {
     darken_hidden(texel_map[p], result.visible[p], result.pages[p]);
     dilate(options.dilation, result.pages[p]);
   }

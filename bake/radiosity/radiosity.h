@@ -15,6 +15,8 @@ struct FilterOptions {
   float strength = 1;  // edges of this many standard deviations are kept; 0: no filter
 };
 
+inline constexpr int kRefinements = 2;  // after verification
+
 enum class Estimator : std::uint8_t {
   kReference,  // unbiased paths from every texel
   kCached,     // bounces cached in the lightmap, one final gather, filtered
@@ -35,7 +37,10 @@ struct RadiosityOptions {
   // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
   // limit, say). Context::finishable is set while it is asked.
   std::function<bool()> enough = {};
-  bool certify = true;        // cached: state the difference to unbiased paths
+  // cached: so many rays, as a share of the bake's, measure the error of held-out texels by unbiased paths (at least
+  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise can mend it,
+  // at most kRefinements times.
+  double verify = 0.1;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
@@ -52,13 +57,14 @@ struct SeamReport {
   double energy_change = 0;            // of the power on all surfaces, relative
 };
 
-// What unbiased paths from random texels say of a bake.
+// What unbiased paths from held-out texels say of a bake.
 struct Certificate {
-  std::size_t texels = 0;     // compared
-  std::uint32_t paths = 0;    // from each
-  double bias = 0;            // Σ (baked - paths) / Σ paths, luminance
-  double bias_interval = 0;   // the truth lies within bias ± this with 95 % certainty
-  double relative_error = 0;  // rms over those texels and channels, the paths' own noise taken away
+  std::size_t texels = 0;                // compared
+  std::uint64_t paths = 0;               // from all of them
+  double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
+  double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
+  double relative_error = 0;             // rms over those texels and channels, free of the paths' own noise
+  double error_low = 0, error_high = 0;  // the rms of all texels lies between with 95 % certainty
   std::uint64_t rays = 0;
 };
 
@@ -67,14 +73,15 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
-  Vec3 mean{0};  // lux, over valid texels
-  Vec3 max{0};   // lux
-  double relative_error =
-      0;           // rms of standard error over (irradiance + 1 % of the page's mean), over texels and channels
-  int sweeps = 0;  // cached: bounces computed in the coarse lightmap
-  bool ended_early = false;  // by `enough`: the error asked for does not hold
-  double sweep_tail = 0;     // cached: bound on what further bounces would add, relative
-  double filter_drift = 0;   // cached: relative change of the gathered energy by the filter
+  Vec3 mean{0};               // lux, over valid texels
+  Vec3 max{0};                // lux
+  double relative_error = 0;  // rms of standard error, over texels and channels, relative to the true light (as the
+                              // estimate and its error tell it) and 1 % of the mean
+  int sweeps = 0;             // cached: bounces computed in the coarse lightmap
+  bool ended_early = false;   // by `enough`: the error asked for does not hold
+  int refinements = 0;        // cached: after held-out texels told of a larger error than was asked for
+  double sweep_tail = 0;      // cached: bound on what further bounces would add, relative
+  double filter_drift = 0;    // cached: relative change of the gathered energy by the filter
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };

@@ -72,6 +72,12 @@ Result<double> parse_fraction(const std::string& text) {
   return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 2% or 0.02", text);
 }
 
+Result<double> parse_verify(const std::string& text) {
+  if (text == "off") return 0.0;
+  if (const auto share = parse_fraction(text)) return *share;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected a share such as 10% or 0.1, or off", text);
+}
+
 Status parse_views(const std::string& text, BakeOptions& options) {
   const std::size_t colon = text.find(':');
   const std::string scheme = text.substr(0, colon);
@@ -164,6 +170,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"samples", o.radiosity.samples},
       {"error", o.radiosity.error},
       {"time_s", o.time_s},
+      {"verify", o.radiosity.verify},
       {"filter_passes", o.radiosity.filter.passes},
       {"filter_strength", o.radiosity.filter.strength},
       {"bounces", o.radiosity.bounces},

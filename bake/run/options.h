@@ -24,6 +24,8 @@ enum class Directional { kAuto, kOn, kOff };
 // Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
 enum class ViewScheme { kPlanned, kHemisphere };
 
+inline constexpr double kBestError = 1e-3;  // where only time limits the work
+
 struct BakeOptions {
   std::filesystem::path scene;   // .glb or .gltf
   std::filesystem::path output;  // .oriel
@@ -45,7 +47,8 @@ struct BakeOptions {
   bool with_transfer = true;  // movers move; else they stand still in the scene
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
-  double time_s = 0;  // for radiosity: stop refining after it; 0: no limit. The bytes then depend on the machine
+  double time_s =
+      0;  // wall clock of the whole bake (stages/deadline.h); 0: no limit. The bytes then depend on the machine
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
@@ -57,6 +60,8 @@ Result<std::uint64_t> parse_bytes(const std::string& text);
 Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.
 Result<double> parse_fraction(const std::string& text);
+// "10%" or "off" as a fraction, >= 0. Error kUsage.
+Result<double> parse_verify(const std::string& text);
 // "planned", "planned:8", "hemisphere" or "hemisphere:64": the number is that of maps of a reflector element, 1 to
 // 4096, and set in planned and views. Error kUsage.
 Status parse_views(const std::string& text, BakeOptions& options);

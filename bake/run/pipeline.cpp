@@ -1,11 +1,11 @@
 #include "bake/run/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 
 #include "bake/run/assemble.h"
 #include "bake/run/report.h"
+#include "bake/run/stages/deadline.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
 #include "formats/core/color.h"
@@ -13,34 +13,112 @@
 namespace oriel {
 namespace {
 
-void warn_about_error(const BakeOptions& options, const RadiosityReport& report, Context& context) {
-  const double asked = options.radiosity.error;
-  if (asked <= 0 || options.time_s > 0 || report.ended_early || report.relative_error <= 1.25 * asked) return;
+constexpr double kMostForViews = 0.2;       // of the time that is left, for choosing viewpoints
+constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins
+constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
+constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
+constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
+constexpr double kWritten_per_s = 25e6;     // bytes of maps and lightmaps that a pack takes in
+constexpr double kLate_s = 2, kLate = 0.1;  // by which --time may be missed
+
+void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const Deadline& deadline,
+                      Context& context) {
+  const double asked = options.radiosity.error, stated = report.relative_error;
+  const Certificate& c = report.certificate;
+  if (asked <= 0 || context.finish) return;
+  if (c.error_low > kUnlooked * std::max(asked, stated))
+    context.warning(
+        fmt::format("held-out texels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
+                    "is stated: light "
+                    "varies more within texels than they tell; --texel makes those finer",
+                    100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
+  if (stated <= 1.25 * asked) return;
+  if (report.ended_early && deadline.limited() && asked > kBestError)
+    context.warning(
+        fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is "
+                    "{:.3g} %, {:.2g} times too much",
+                    100 * asked, options.time_s, 100 * stated, stated / asked));
+  if (report.ended_early) return;
   context.warning(fmt::format(
       "the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays each, or lie "
       "where light changes within a texel; --texel makes those finer",
-      100 * report.relative_error, 100 * asked, options.radiosity.samples));
+      100 * stated, 100 * asked, options.radiosity.samples));
 }
 
-// Whether refinement is to end: the user asks for it, or its time is over.
-std::function<bool()> refined_enough(const BakeOptions& options, const Context& context) {
-  using Clock = std::chrono::steady_clock;
-  const bool limited = options.time_s > 0;
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(limited ? options.time_s : 0));
-  return [=, &finish = context.finish] { return finish || (limited && Clock::now() >= end); };
+void warn_about_time(const BakeOptions& options, const Deadline& deadline, const std::vector<StageTime>& times,
+                     Context& context) {
+  if (!deadline.limited() || deadline.spent() <= options.time_s + std::max(kLate_s, kLate * options.time_s)) return;
+  const auto longest = std::max_element(times.begin(), times.end(),
+                                        [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
+  context.warning(
+      fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
+                  "end earlier; a larger --texel takes less",
+                  options.time_s, deadline.spent() - options.time_s, longest->stage, longest->seconds));
 }
 
-// Reflections, left out where the user wants the bake to finish.
-Result<ReflectionReport> reflect(const BakeOptions& options, const BakedScene& baked, const MaterialMaps& materials,
-                                 const AssembledMesh& mesh, Context& context, Pack& pack) {
-  const Interruptible until(context, [&] { return context.finish.load(); });
-  auto made = bake_reflections(options, baked, materials, mesh, context, pack);
+double bytes_of(const Pack& pack, const PlannedReflections& planned) {
+  double bytes = 0;
+  for (const LightmapPage& page : pack.lightmaps) bytes += 8.0 * static_cast<double>(page.irradiance.size());
+  for (const RadianceMap& map : planned.plan.maps) bytes += double{kMapBytesPerPixel} * map.width * map.height;
+  return bytes;
+}
+
+// Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
+// `later`: seconds of these.
+std::function<bool()> refined_enough(const BakeOptions& options, const Deadline& deadline, double later,
+                                     const Context& context) {
+  const double verifying = kSlowPaths * options.radiosity.verify;
+  return [=, &deadline, &finish = context.finish, begun = deadline.spent()] {
+    return finish || deadline.left() <= later + verifying * (deadline.spent() - begun);
+  };
+}
+
+// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
+Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
+                               const Deadline& deadline, Context& context, PlannedReflections& planned) {
+  Pack dark;
+  for (const AtlasPage& page : prepared.atlas.pages) {
+    const std::size_t texels = std::size_t{page.width} * page.height;
+    dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
+  }
+  if (!planned.empty()) {
+    ORIEL_TRY_VOID(time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned));
+    shrink_maps(kMostForMaps * deadline.left(), planned);
+  }
+  const double field = prepared.movers.empty() ? 0 : kMostForField * std::max(0.0, deadline.left());
+  return kUnlooked * (planned.capture_s + bytes_of(dark, planned) / kWritten_per_s) + field;
+}
+
+// Reflections, left out where the user or the time wants the bake to finish.
+Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections planned, const BakedScene& baked,
+                                 const MaterialMaps& materials, const AssembledMesh& mesh, const Deadline& deadline,
+                                 Context& context, Pack& pack) {
+  const double writing = deadline.limited() ? bytes_of(pack, {}) / kWritten_per_s : 0;
+  const Interruptible until(context, [&] { return context.finish || deadline.left() <= writing; });
+  auto made = bake_reflections(options, std::move(planned), baked, materials, mesh, context, pack);
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
   ReflectionReport none;
-  none.omissions.emplace_back("radiance maps: left out, the user asked the bake to finish");
+  none.omissions.push_back(fmt::format("radiance maps: left out, {}",
+                                       context.finish ? "the user asked the bake to finish" : "--time was over"));
   return none;
+}
+
+void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissions) {
+  omissions.emplace_back("kernels: left out by --only");
+  materials.kernels.clear();
+  for (auto& kernel : materials.kernel) kernel = -1;
+}
+
+void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
+  assemble_materials(scene, materials, pack);
+  pack.mesh = std::move(mesh.mesh);
+  pack.kernels = std::move(materials.kernels);
+  pack.fresnel_maps = std::move(materials.fresnel_maps);
+  pack.split_reflectance = std::move(materials.split);
+  pack.cameras = scene.cameras;
+  pack.paths = scene.paths;
+  pack.sky = scene.sky;
 }
 
 }  // namespace
@@ -52,6 +130,7 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
 
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeResult result;
+  const Deadline deadline(options.time_s);
   Stopwatch timed(result.times);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
   ORIEL_TRY_VOID(lay_out_lightmap(options.atlas, timed, context, prepared));
@@ -63,8 +142,31 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   const LightSet lights(scene);
   warn_about_light(scene, lights, context);
 
+  // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
+  Pack& pack = result.pack;
+  ORIEL_TRY(MaterialMaps materials,
+            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
+  PlannedReflections planned;
+  if (options.with_radiance) {
+    ORIEL_TRY(planned, timed("views", [&](auto&) {
+                return plan_reflections(options, accel, lights, materials, kMostForViews * deadline.left(), context);
+              }));
+  }
+  std::vector<MoverReport> mover_reports;
+  if (!movers.empty()) {
+    ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
+                return bake_movers(options, movers, materials, context, pack, rays);
+              }));
+  }
+  double later = 0;
+  if (deadline.limited()) {
+    ORIEL_TRY(later, timed("timing", [&](auto&) {
+                return fit_reflections(options, prepared, lights, deadline, context, planned);
+              }));
+  }
+
   RadiosityOptions radiosity_options = options.radiosity;
-  radiosity_options.enough = refined_enough(options, context);
+  radiosity_options.enough = refined_enough(options, deadline, later, context);
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
               auto baked = bake_radiosity({accel, lights, path_options(options)}, atlas, prepared.texel_map,
@@ -74,17 +176,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
             }));
   result.radiosity = radiosity.report;
   context.finishable = true;
-  warn_about_error(options, radiosity.report, context);
-  Pack& pack = result.pack;
+  warn_about_error(options, radiosity.report, deadline, context);
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
-  ORIEL_TRY(MaterialMaps materials,
-            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   ReflectionReport reflections;
   if (options.with_radiance) {
     ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
-                auto made = reflect(options, baked, materials, mesh, context, pack);
+                auto made = reflect(options, std::move(planned), baked, materials, mesh, deadline, context, pack);
                 if (made) rays = made->rays;
                 return made;
               }));
@@ -92,33 +191,20 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   } else {
     result.omissions.emplace_back("radiance maps: left out by --only");
   }
-  std::vector<MoverReport> mover_reports;
   if (!movers.empty()) {
-    ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
-                return bake_movers(options, movers, materials, context, pack, rays);
-              }));
     ORIEL_TRY_VOID(timed(
         "probes", [&](std::uint64_t& rays) { return bake_light_field(options, baked, movers, context, pack, rays); }));
   } else if (options.with_transfer) {
     result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }
-  if (!options.with_material) {
-    result.omissions.emplace_back("kernels: left out by --only");
-    materials.kernels.clear();
-    for (auto& kernel : materials.kernel) kernel = -1;
-  }
-  assemble_materials(scene, materials, pack);
-  pack.mesh = std::move(mesh.mesh);
-  pack.kernels = std::move(materials.kernels);
-  pack.fresnel_maps = std::move(materials.fresnel_maps);
-  pack.split_reflectance = std::move(materials.split);
-  pack.cameras = scene.cameras;
-  pack.paths = scene.paths;
-  pack.sky = scene.sky;
+  if (!options.with_material) leave_out_kernels(materials, result.omissions);
+  fill_pack(scene, std::move(materials), std::move(mesh), pack);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(),
-                         reflections, mover_reports, options.radiosity.estimator == Estimator::kCached});
+  pack.plan =
+      plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
+                 mover_reports, options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
+  warn_about_time(options, deadline, result.times, context);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/run/version.h"
+#include "formats/core/half.h"
 
 namespace oriel {
 namespace {
@@ -63,7 +64,9 @@ Json reflectors_json(const BakeFacts& f) {
                    {"pixels", pixels},
                    {"seen", f.reflections.quality[i].seen},
                    {"sharp", f.reflections.quality[i].sharp},
-                   {"seen_in_residual", f.reflections.quality[i].residual}});
+                   {"seen_in_residual", f.reflections.quality[i].residual},
+                   {"relative_error", f.reflections.errors[i].relative_error},
+                   {"relative_error_of_seen", f.reflections.errors[i].seen_error}});
   }
   for (const CurvedReflector& r : f.pack.curved_reflectors)
     out.push_back({{"name", r.name},
@@ -71,6 +74,53 @@ Json reflectors_json(const BakeFacts& f) {
                    {"why", "curved, or flat in pieces too small for planar reflectors"},
                    {"triangles", r.indices.size() / 3},
                    {"map_size", f.pack.surround_maps[r.map].size}});
+  return out;
+}
+
+// Root mean square of what storing as half floats changes, relative, over baked texels.
+double storage_error(const Pack& pack) {
+  double squares = 0, count = 0;
+  for (const LightmapPage& page : pack.lightmaps)
+    for (std::size_t i = 0; i < page.irradiance.size(); ++i)
+      for (int c = 0; c < 3 && page.state[i] == TexelState::kValid; ++c) {
+        const double e = page.irradiance[i][c], off = float_from_half(half_from_float(page.irradiance[i][c])) - e;
+        squares += e > 0 ? off * off / (e * e) : 0;
+        ++count;
+      }
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+double largest_compression_error(const BakeFacts& f) {
+  double most = 0;
+  for (const MoverReport& m : f.movers) most = std::max<double>(most, m.compression_error);
+  return most;
+}
+
+// What is off by how much, part by part: asked for, stated by the estimate itself, measured on what it did not know.
+Json errors_json(const BakeFacts& f) {
+  const Certificate& c = f.radiosity.certificate;
+  Json diffuse = {{"component", "D"}, {"asked", f.asked}, {"stated", f.radiosity.relative_error}};
+  if (c.texels > 0) {
+    diffuse["measured"] = c.relative_error;
+    diffuse["measured_95_interval"] = {c.error_low, c.error_high};
+    diffuse["texels"] = c.texels;
+  }
+  double weight = 0, squares = 0, seen_squares = 0, unseen = 0;
+  for (std::size_t i = 0; i < f.reflections.errors.size(); ++i) {
+    const ReflectedError& e = f.reflections.errors[i];
+    const double w = f.pack.reflectors[i].area_m2;
+    weight += w, squares += w * e.relative_error * e.relative_error, seen_squares += w * e.seen_error * e.seen_error;
+    unseen += w * (1 - e.seen);
+  }
+  Json out = {diffuse};
+  if (weight > 0)
+    out.push_back({{"component", "S"},
+                   {"measured", std::sqrt(squares / weight)},
+                   {"of_seen", std::sqrt(seen_squares / weight)},
+                   {"holes", unseen / weight}});
+  out.push_back({{"component", "storage of D"}, {"measured", storage_error(f.pack)}});
+  if (!f.movers.empty())
+    out.push_back({{"component", "compression of transfer"}, {"measured", largest_compression_error(f)}});
   return out;
 }
 
@@ -127,7 +177,11 @@ std::string plan_json(const BakeFacts& f) {
           {"paths", f.radiosity.certificate.paths},
           {"bias", f.radiosity.certificate.bias},
           {"bias_95_interval", f.radiosity.certificate.bias_interval},
-          {"relative_error", f.radiosity.certificate.relative_error}}},
+          {"relative_error", f.radiosity.certificate.relative_error},
+          {"relative_error_95_low", f.radiosity.certificate.error_low},
+          {"relative_error_95_high", f.radiosity.certificate.error_high},
+          {"rays", f.radiosity.certificate.rays}}},
+        {"refinements", f.radiosity.refinements},
         {"seams", seams_json(f.radiosity.seams)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},
@@ -139,6 +193,7 @@ std::string plan_json(const BakeFacts& f) {
         {"surround_maps", f.pack.surround_maps.size()},
         {"walkable_m2", walkable_m2(f.pack)},
         {"rays", f.reflections.rays}}},
+      {"errors", errors_json(f)},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
       {"movers", movers_json(f.movers)},
       {"light_field", light_field_json(f.pack.light_field)},

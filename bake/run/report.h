@@ -20,6 +20,7 @@ struct BakeFacts {
   const ReflectionReport& reflections;
   std::span<const MoverReport> movers;
   bool cached = true;  // the estimator
+  double asked = 0;    // error of the lightmap; 0: none
 };
 
 std::string plan_json(const BakeFacts& facts);

@@ -34,9 +34,10 @@ class CachedBake {
         around_(t, texels, direct_light_.closed_form(), context.seed),
         direct_(texels.count(), options.directional),
         gathered_(texels.count(), options.directional),
+        target_(options.error),
         relative_(texels.count()) {}
 
-  Status run(Radiosity& result) {
+  Status run(Radiosity& result, const NextError& next) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
     ORIEL_TRY_VOID(first_direct());
     Sweeps sweeps;
@@ -51,18 +52,22 @@ class CachedBake {
     irradiance_ = direct_.value;
     for (std::size_t i = 0; i < texels_.count(); ++i)
       if (!sweeps.gathered.empty()) irradiance_[i] += sweeps.gathered[i];
-    ORIEL_TRY_VOID(gather_to_target());
-    ORIEL_TRY_VOID(refine_direct());
-    store(result);
     result.report.sweeps = sweeps.count;
     result.report.sweep_tail = sweeps.tail;
-    result.report.filter_drift = estimate_.energy_drift;
-    result.report.ended_early = ended_early_;
-    return {};
+    cached_ = cache_light(texels_, graph_, irradiance_, context_);
+    ORIEL_TRY_VOID(first_gather());
+    while (true) {
+      ORIEL_TRY_VOID(gather_to_target());
+      ORIEL_TRY_VOID(refine_direct());
+      store(result);
+      ORIEL_TRY(const double error, next());
+      if (error <= 0) return {};
+      target_ = error;
+    }
   }
 
  private:
-  double target() const { return options_.error; }
+  double target() const { return target_; }
 
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
@@ -124,7 +129,7 @@ class CachedBake {
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
       const double value = double{direct_.value[i][c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
-      const double denominator = value * value + floor * floor;
+      const double denominator = value * value + variance[c] + floor * floor;  // the truth's, on average
       if (denominator > 0) sum += variance[c] / denominator;
     }
     return sum / 3;
@@ -177,17 +182,32 @@ class CachedBake {
     return count_ > 0 ? sum / static_cast<double>(count_) : 0;
   }
 
-  Status gather_to_target() {
-    const std::uint32_t most = std::max(1u, options_.samples / kHalves);
-    const CachedLight cached = cache_light(texels_, graph_, irradiance_, context_);
-    std::uint32_t per_half = options_.error > 0 ? std::min(most, kFirstGather) : most;
-    ORIEL_TRY_VOID(gather(texels_, around_, order_, per_half, cached, context_, gathered_, rays_));
+  std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
+
+  Status first_gather() {
+    const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
+    ORIEL_TRY_VOID(gather(texels_, around_, order_, per_half, cached_, context_, gathered_, rays_));
     update_estimate();
+    return {};
+  }
+
+  // What texels that have all their samples add to the mean square, where that alone misses the goal: the others cannot
+  // make up for it and are refined to the goal among themselves.
+  double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most ? relative_[i] : 0;
+    const double mean = count_ > 0 ? sum / static_cast<double>(count_) : 0;
+    return mean > goal ? mean : 0;
+  }
+
+  Status gather_to_target() {
     if (options_.error <= 0) return {};
+    const std::uint32_t most = most_gathered();
     if (options_.enough) context_.finishable = true;
     const double goal = (1 - kDirectShare) * target() * target();
     for (;;) {
-      const double now = mean_squares(estimate_.variance);
+      double now = mean_squares(estimate_.variance);
+      now -= out_of_reach(goal, most, gathered_.samples);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
       // Each texel doubles its own count: those of one count are gathered together.
@@ -199,9 +219,9 @@ class CachedBake {
                                                 [&](std::uint32_t i) { return gathered_.samples[i] == samples; });
         const std::vector<std::uint32_t> same(list.begin(), rest);
         list.erase(list.begin(), rest);
-        per_half = std::min(most, 2 * std::max(1u, samples));
+        const std::uint32_t per_half = std::min(most, 2 * std::max(1u, samples));
         ORIEL_TRY_VOID(
-            refine([&] { return gather(texels_, around_, same, per_half, cached, context_, gathered_, rays_); }));
+            refine([&] { return gather(texels_, around_, same, per_half, cached_, context_, gathered_, rays_); }));
       }
       update_estimate();
     }
@@ -211,7 +231,9 @@ class CachedBake {
     if (options_.error <= 0) return {};
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
-      const double now = mean_squares(direct_variance()), goal = kDirectShare * target() * target();
+      const double goal = kDirectShare * target() * target();
+      double now = mean_squares(direct_variance());
+      now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
       std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
@@ -229,6 +251,8 @@ class CachedBake {
   }
 
   void store(Radiosity& result) {
+    result.report.filter_drift = estimate_.energy_drift;
+    result.report.ended_early = ended_early_;
     const std::vector<Vec3> of_direct = direct_variance();
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
@@ -255,6 +279,8 @@ class CachedBake {
   HalfSums gathered_;
   Estimate estimate_;             // of the gathered light
   std::vector<Vec3> irradiance_;  // what gather rays find at a texel
+  CachedLight cached_;            // the same, as it varies over texels
+  double target_;                 // the error to refine to
   std::vector<float> relative_;   // by texel: squared relative error of the part being refined
   DVec3 mean_{0};                 // lux, over texels that see light
   std::size_t count_ = 0;         // of them
@@ -265,10 +291,10 @@ class CachedBake {
 
 Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                    const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
-                   Radiosity& result) {
+                   Radiosity& result, const NextError& next) {
   ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays));
   CachedBake bake(t, atlas, texel_map, options, context, rays, texels);
-  return bake.run(result);
+  return bake.run(result, next);
 }
 
 }  // namespace oriel

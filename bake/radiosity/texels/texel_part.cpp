@@ -37,7 +37,7 @@ std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& a
 }  // namespace
 
 TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-                     std::uint64_t stream, std::uint64_t& rays)
+                     std::uint64_t& rays)
     : accel_(transport.accel) {
   const Scene& scene = accel_.scene();
   const auto corners = corners_of(scene, atlas, map, texel);
@@ -47,16 +47,26 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     const TexelPoint p = sample_texel(atlas, map, texel, u);
     return point_on_side(scene, p.triangle, p.barycentric);
   };
-  const Vec3 up = lift_ * point(Vec3(0.5f)).geometric_normal;
-  if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays))
+  const auto is_covered = [&](SurfacePoint p, std::uint32_t k) {
+    p.position = lifted(p);
+    return is_buried(transport, p, ~kSeed, map.texel[texel], k, rays);
+  };
+  const SurfacePoint middle = point(Vec3(0.5f));
+  const Vec3 up = lift_ * middle.geometric_normal;
+  if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
+      !is_covered(middle, kPoints))
     return;
   std::vector<Vec3> left;
+  bool any = false;
   for (std::uint32_t k = 0; k < kPoints; ++k) {
-    Sampler sampler(kSeed, stream, k);
+    Sampler sampler(kSeed, map.texel[texel], k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint p = point(Vec3(uv, sampler.next1()));
-    if (!is_buried(transport, p, kSeed, stream, k, rays)) left.push_back(lifted(p));
+    if (is_buried(transport, p, kSeed, map.texel[texel], k, rays)) continue;
+    any = true;
+    if (!is_covered(p, k)) left.push_back(lifted(p));
   }
+  covered_ = any && left.empty();
   for (std::size_t most = 0; left.size() > most;) {
     Side side = take_side(left, rays);
     if (side.points > most) anchors_ = std::move(side.anchors), most = side.points;

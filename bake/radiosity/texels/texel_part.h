@@ -10,16 +10,19 @@ namespace oriel {
 
 // A texel under a thin wall sees light on both of the wall's sides; the mean of both would leak into the dark room. It
 // gets the light of the side on which most of it lies: of those points that see one of its anchors, along segments a
-// tenth of a texel above the surface, so that thresholds and carpets are no walls. Which side that is does not depend
-// on a bake's seed.
+// tenth of a texel above the surface, so that thresholds and carpets are no walls. What lies lower still under another
+// body is no side: nobody looks in there. Which side is taken depends on the texel alone, not on seeds or estimators:
+// all of them speak of the same light.
 class TexelPart {
  public:
-  // The whole texel where nothing stands on its diagonals: two rays. texel: as TexelMapPage::texel[texel]. stream:
-  // of the points tried. Adds to rays.
+  // The whole texel where nothing stands on its diagonals nor lies on its middle: a few rays. texel: as
+  // TexelMapPage::texel[texel]. Adds to rays.
   TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-            std::uint64_t stream, std::uint64_t& rays);
+            std::uint64_t& rays);
 
   bool whole() const { return anchors_.empty(); }
+  // Other bodies lie on all of the texel that is not inside them: cracks between things, the wall behind a picture.
+  bool covered() const { return covered_; }
   // For points of the texel that are not buried.
   bool holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const;
 
@@ -36,6 +39,7 @@ class TexelPart {
   const Accel& accel_;
   float lift_ = 0;             // metres
   std::vector<Vec3> anchors_;  // lifted
+  bool covered_ = false;
 };
 
 }  // namespace oriel

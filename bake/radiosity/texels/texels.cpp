@@ -38,8 +38,11 @@ class SiteFinder {
     }
     texels.albedo[i] = albedo / static_cast<float>(kHalves * kColored);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], stream, rays), {}};
-    if (buried > 0 || !found.part.whole()) find_unburied(texels, i, stream, found, rays);
+    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], rays), {}};
+    if (found.part.covered())
+      texels.visible[i] = 0;
+    else if (buried > 0 || !found.part.whole())
+      find_unburied(texels, i, stream, found, rays);
     return found;
   }
 

@@ -1,16 +1,23 @@
 #include "bake/run/stages/reflections.h"
 
+#include <cmath>
 #include <limits>
 
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
 #include "bake/run/stages/baked_light.h"
+#include "bake/run/stages/deadline.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
+constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
+constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
+constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
+constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
+constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
 
 std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
@@ -54,13 +61,16 @@ Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::
 }
 
 Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
-             Context& context, std::vector<ViewQuality>& quality) {
+             const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
+             ReflectionReport& report) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
+    const auto own = maps.subspan(reflector.first_map, reflector.map_count);
     ORIEL_TRY(const auto samples,
               sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
-    quality.push_back(
-        judge_maps(surroundings, maps.subspan(reflector.first_map, reflector.map_count), samples, context));
+    report.quality.push_back(judge_maps(surroundings, own, samples, context));
+    ORIEL_TRY(const ReflectedError error, judge_light(surroundings, r, own, samples, outgoing, context, rays));
+    report.errors.push_back(error);
   }
   return {};
 }
@@ -113,22 +123,75 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
   return all;
 }
 
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
-                                          const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
-                                          Pack& pack) {
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
+                                            const MaterialMaps& materials, double seconds, Context& context) {
+  PlannedReflections planned;
+  ORIEL_TRY(planned.all, find_reflections(options, accel, materials.summaries, context));
+  const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
+  if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
+  if (dark) planned.all.found = {}, planned.all.curved = {};
+  if (planned.all.empty()) return planned;
+  const std::vector<FoundReflector> found = planned.all.found.reflectors;
+  BakeOptions fewer = options;
+  for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
+    const Deadline clock(0);
+    fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
+    planned.all.found.reflectors = found;
+    ORIEL_TRY(planned.plan, plan_maps(fewer, accel, planned.all.eyes, context, planned.all.found.reflectors));
+    planned.seconds = clock.spent();
+    seconds -= planned.seconds;
+    if (divisor == 1 || kFewer * planned.seconds > seconds) break;
+  }
+  return planned;
+}
+
+Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
+  std::vector<RadianceMap> maps = planned.plan.maps;
+  double pixels = 0, tried = 0;
+  for (RadianceMap& map : maps) {
+    pixels += double{1.0f * map.width} * map.height;
+    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
+    tried += double{1.0f * map.width} * map.height;
+  }
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    std::uint64_t rays = 0;
+    return baked_radiance_with_lobes(dark, seen, context.seed, rays);
+  };
+  const Surroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
+  const Deadline clock(0);
+  ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, maps, nullptr));
+  for (const SurroundMap& map : planned.all.curved.maps) pixels += double{1.0f * map.size} * map.size;
+  const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
+  planned.capture_s = pixels * a_pixel + kJudging * planned.seconds;
+  return {};
+}
+
+void shrink_maps(double seconds, PlannedReflections& planned) {
+  std::uint32_t halved = 0;
+  const double judging = kJudging * planned.seconds;
+  while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
+    for (RadianceMap& map : planned.plan.maps)
+      map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
+    for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
+    planned.capture_s = judging + (planned.capture_s - judging) / 4;
+    ++halved;
+  }
+  if (halved > 0)
+    planned.plan.omitted.push_back(
+        fmt::format("radiance maps: of 1/{} the pixels along each side, to stay within --time", 1u << halved));
+}
+
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
+                                          const BakedScene& baked, const MaterialMaps& materials,
+                                          const AssembledMesh& mesh, Context& context, Pack& pack) {
   const Accel& accel = baked.accel;
   ReflectionReport report;
-  ORIEL_TRY(FoundReflections all, find_reflections(options, accel, materials.summaries, context));
-  auto& [region, eyes, lobes, found, curved, omissions] = all;
+  auto& [region, eyes, lobes, found, curved, omissions] = planned.all;
+  ViewPlan& plan = planned.plan;
   report.omissions = std::move(omissions);
-  const bool dark = baked.lights.empty() && max_component(accel.scene().sky) <= 0;
-  if (dark && !all.empty()) report.omissions.emplace_back("radiance maps: the scene has no light");
-  if (dark || all.empty()) {
-    pack.walk_grids = std::move(region.grids);
-    return report;
-  }
+  pack.walk_grids = region.grids;
+  if (planned.empty()) return report;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
   std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     std::uint64_t lobe_rays = 0;
@@ -153,11 +216,10 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
+  const std::vector<Vec3> others = held_out_eyes(region, kHeldOutEyes, context.seed);
+  ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
   report.rays = rays;
-  ORIEL_TRY_VOID(
-      judge(surroundings, plan.maps, held_out_eyes(region, kHeldOutEyes, context.seed), context, report.quality));
   pack.radiance_maps = std::move(plan.maps);
-  pack.walk_grids = std::move(region.grids);
   keep(reflectors, mesh, pack.reflectors);
   pack.surround_maps = std::move(curved.maps);
   keep(curved.reflectors, mesh, pack.curved_reflectors);

@@ -6,6 +6,7 @@
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/baked_light.h"
+#include "bake/run/stages/judge.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -28,15 +29,37 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
 
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
+  std::vector<ReflectedError> errors;  // by reflector: and how right that is
   std::vector<std::string> omissions;  // what was not modelled, and why
-  std::uint64_t rays = 0;              // of capture
+  std::uint64_t rays = 0;              // of capture and judging
 };
 
-// Finds the eye region and the reflectors, plans and captures their maps, all into the pack, whose lightmaps are there.
-// Nothing is planned or traced where there is no reflector or no light. Error kStopped; the pack is then as it was but
-// for its emitters.
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, const BakedScene& baked,
-                                          const MaterialMaps& materials, const AssembledMesh& mesh, Context& context,
-                                          Pack& pack);
+// Reflections before there is light: what needs none of it.
+struct PlannedReflections {
+  FoundReflections all;
+  ViewPlan plan;         // of the planar reflectors; without pixels
+  double seconds = 0;    // that planning took
+  double capture_s = 0;  // that the rest is likely to take; 0 unless asked for
+  bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
+};
+
+// Finds the eye region and the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
+// `seconds`; infinite: all at once. Error kStopped.
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
+                                            const MaterialMaps& materials, double seconds, Context& context);
+
+// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
+// residual maps go by what planning took. Error kStopped.
+Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
+
+// Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
+void shrink_maps(double seconds, PlannedReflections& planned);
+
+// Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
+// then as it was but for its emitters and walk grids.
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
+                                          const BakedScene& baked, const MaterialMaps& materials,
+                                          const AssembledMesh& mesh, Context& context, Pack& pack);
 
 }  // namespace oriel

@@ -11,6 +11,7 @@
 
 #include "bake/run/pipeline.h"
 #include "bake/run/stages/prepare.h"
+#include "bake/run/stages/reflections.h"
 #include "formats/core/file.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
@@ -128,7 +129,7 @@ TEST_F(Anytime, EnoughEndsARoundAtOnce) {
     EXPECT_TRUE(lay_out_lightmap(options.atlas, timed, context, prepared));
     const LightSet lights(prepared.scene());
     RadiosityOptions radiosity{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
-    radiosity.certify = false;
+    radiosity.verify = 0;
     radiosity.enough = std::move(enough);
     auto made = bake_radiosity({*prepared.accel, lights, {}}, prepared.atlas, prepared.texel_map, radiosity, context);
     EXPECT_TRUE(made);
@@ -146,6 +147,47 @@ TEST_F(Anytime, EnoughEndsARoundAtOnce) {
   EXPECT_GT(some.rays, none.rays) << "what a round had done counts";
   EXPECT_LT(some.rays, all.rays / 2);
   EXPECT_GT(none.relative_error, all.relative_error);
+}
+
+// The time is that of the whole bake: what a limit cuts off is refinement, and with it the error asked for.
+TEST_F(Anytime, TimeEndsTheRefinementBeforeTheErrorAskedFor) {
+  const auto report_of = [&](double time_s) {
+    BakeOptions options;
+    options.scene = folder_ / "cornell.glb";
+    options.atlas.texel_m = 0.02f;
+    options.radiosity = {.estimator = Estimator::kCached, .samples = 4096, .error = 0.01, .verify = 0};
+    options.time_s = time_s;
+    Context context;
+    std::string warnings;
+    context.warn = [&](const std::string& text) { warnings += text; };
+    auto made = bake(options, context);
+    EXPECT_TRUE(made);
+    EXPECT_EQ(warnings.find("--error 1 % was not reached") != std::string::npos, made->radiosity.ended_early)
+        << warnings;
+    return made->radiosity;
+  };
+  const RadiosityReport hurried = report_of(0.01), whole = report_of(3600);
+  EXPECT_TRUE(hurried.ended_early);
+  EXPECT_FALSE(whole.ended_early) << "whichever comes first";
+  EXPECT_LE(whole.relative_error, 0.013);
+  EXPECT_GT(hurried.relative_error, whole.relative_error);
+}
+
+TEST(FittingMaps, AreHalvedUntilTheirCaptureFits) {
+  PlannedReflections planned;
+  planned.plan.maps.resize(2);
+  for (RadianceMap& map : planned.plan.maps) map.width = 256, map.height = 64;
+  planned.capture_s = 16;
+  shrink_maps(20, planned);
+  EXPECT_EQ(planned.plan.maps[0].width, 256u) << "they fit";
+  EXPECT_TRUE(planned.plan.omitted.empty());
+  shrink_maps(1, planned);
+  EXPECT_EQ(planned.plan.maps[0].width, 64u);
+  EXPECT_EQ(planned.plan.maps[1].height, 16u);
+  EXPECT_LE(planned.capture_s, 1);
+  ASSERT_EQ(planned.plan.omitted.size(), 1u) << "and that is said";
+  shrink_maps(0, planned);
+  EXPECT_GE(planned.plan.maps[0].height, 16u) << "never to nothing";
 }
 
 }  // namespace

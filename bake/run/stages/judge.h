@@ -1,0 +1,25 @@
+// What a reflector's maps show to eyes that they were not planned for, beside what is there.
+#pragma once
+
+#include "bake/radiance/capture.h"
+#include "bake/radiance/plan/samples.h"
+
+namespace oriel {
+
+// Of the light reflected by one perfect mirror at the sampled points: the maps' colour beside a traced ray's.
+struct ReflectedError {
+  std::size_t samples = 0;
+  double seen = 0;            // share of the samples' weight that some map shows
+  double relative_error = 0;  // rms over samples and channels, relative, dark ones by 1 % of the mean; holes are black
+  double seen_error = 0;      // the same of what is seen: reprojection, resolution and storage alone
+};
+
+// Compares the maps of one reflector (captured; of Reflector::first_map on) with light traced for the samples (of
+// sample_reflections), bilinear in the map that shows each sharpest. Adds to `rays`. The same for any number of
+// threads. Error kStopped.
+Result<ReflectedError> judge_light(const Surroundings& surroundings, std::uint32_t reflector,
+                                   std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
+                                   const OutgoingRadiance& outgoing, Context& context,
+                                   std::atomic<std::uint64_t>& rays);
+
+}  // namespace oriel
