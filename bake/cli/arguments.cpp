@@ -265,6 +265,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_bake_options(app, texts, shared, args);
+  add_cache_options(app, args.cache);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
@@ -276,6 +277,12 @@ Arguments parse_arguments(int argc, char** argv) {
   add_run_options(*plan, shared, args);
   plan_texts.time_option->remove_excludes(plan_texts.error_option);
   plan_texts.error_option->remove_excludes(plan_texts.time_option);
+  CLI::App* worker = add_worker(app, args.bake.scene, args.cache);
+  Texts worker_texts;
+  add_bake_options(*worker, worker_texts, shared, args);
+  add_run_options(*worker, shared, args);
+  PruneTexts prune_texts;
+  const CLI::App* cache = add_cache(app, prune_texts, args.prune);
   CLI::App* trade = add_trade(app, trade_texts, args.trade);
   add_light_options(*trade, shared, args);
   add_mover_option(*trade, args);
@@ -287,6 +294,8 @@ Arguments parse_arguments(int argc, char** argv) {
     args.render.wanted = render->parsed();
     args.plan.wanted = plan->parsed();
     args.trade.wanted = trade->parsed();
+    args.works = worker->parsed();
+    args.prune.wanted = cache->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -296,6 +305,8 @@ Arguments parse_arguments(int argc, char** argv) {
   if (resolved) resolved = resolve_material(material_texts, args.material);
   if (resolved && !args.material.wanted)
     resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
+               : args.prune.wanted  ? resolve_prune(prune_texts, args.prune)
+               : args.works         ? resolve(worker_texts, args)
                : args.render.wanted ? resolve_render(render_texts, args)
                : args.trade.wanted  ? resolve_trade(trade_texts, args.seed, args.trade)
                                     : resolve(args.plan.wanted ? plan_texts : texts, args);

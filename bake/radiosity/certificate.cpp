@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/texels/texel_paths.h"
 #include "formats/core/color.h"
 
@@ -78,19 +78,22 @@ Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std:
   own.seed = mix64(context.seed + 0xce27);
   const TexelPaths paths(transport, atlas, false, own);
   std::atomic<std::uint64_t> rays{0};
-  ORIEL_TRY_VOID(parallel_for(
-      context, "certificate", samples.size(),
-      [&](std::size_t k) {
-        Sampled& s = samples[k];
-        TexelSums sums;
-        std::uint64_t traced = 0;
-        paths.add(texel_map[s.page], s.page, s.index, 0, kPaths, sums, traced);
-        s.path = sums.irradiance();
-        s.variance = sums.variance();
-        s.compared = sums.count >= kPaths / 4;
-        rays += traced;
-      },
-      &rays));
+  UnitLoop loop{.stage = "certificate", .count = samples.size(), .rays = double{kPaths * kRaysAPath}};
+  loop.inputs = [&](std::size_t k, Archive& key) { key(samples[k].page, samples[k].index); };
+  loop.compute = [&](std::size_t k) {
+    Sampled& s = samples[k];
+    TexelSums sums;
+    std::uint64_t traced = 0;
+    paths.add(texel_map[s.page], s.page, s.index, 0, kPaths, sums, traced);
+    s.path = sums.irradiance();
+    s.variance = sums.variance();
+    s.compared = sums.count >= kPaths / 4;
+    return traced;
+  };
+  loop.results = [&](std::size_t k, Archive& archive) {
+    archive(samples[k].path, samples[k].variance, samples[k].compared);
+  };
+  ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
   c.rays = rays;
   std::erase_if(samples, [](const Sampled& s) { return !s.compared; });
   c.texels = samples.size();

@@ -6,6 +6,7 @@
 
 #include "bake/run/assemble.h"
 #include "bake/run/report.h"
+#include "bake/run/stages/inputs.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
 #include "formats/core/color.h"
@@ -67,6 +68,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   radiosity_options.enough = refined_enough(options, context);
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
+              const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, LayoutOf{atlas},
+                                       path_options(options).max_bounces);
               auto baked = bake_radiosity({accel, lights, path_options(options)}, atlas, prepared.texel_map,
                                           radiosity_options, context);
               if (baked) rays = baked->report.rays;
@@ -79,7 +82,10 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
   ORIEL_TRY(MaterialMaps materials,
-            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
+            timed("material", [&](auto&) {
+              const StageInputs inputs(context, std::string("material"));
+              return bake_materials(scene, material_options(options), context);
+            }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   ReflectionReport reflections;
   if (options.with_radiance) {
@@ -119,6 +125,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(),
                          reflections, mover_reports, options.radiosity.estimator == Estimator::kCached});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
+  if (context.units) result.units = context.units->share();
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bake/atlas/texel_map.h"
 #include "bake/trace/path.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -19,11 +20,16 @@ class TexelPart {
   TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
             std::uint64_t stream, std::uint64_t& rays);
 
+  // All of a texel, for fields() to fill.
+  explicit TexelPart(const Accel& accel) : accel_(accel) {}
+
   bool whole() const { return anchors_.empty(); }
   // For points of the texel that are not buried.
   bool holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const;
 
  private:
+  friend void fields(Archive& archive, TexelPart& part) { archive(part.lift_, part.anchors_); }
+
   struct Side {
     std::vector<Vec3> anchors;
     std::size_t points = 0;

@@ -2,10 +2,12 @@
 
 #include <limits>
 
+#include "bake/jobs/units.h"
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
 #include "bake/run/stages/baked_light.h"
+#include "bake/run/stages/inputs.h"
 
 namespace oriel {
 namespace {
@@ -46,10 +48,16 @@ Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& 
   return found;
 }
 
+// Whether there is a sky to be seen.
+bool shines(const Scene& scene) {
+  return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
+}
+
 Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::span<const Vec3> eyes, Context& context,
                            std::vector<FoundReflector>& reflectors) {
   if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
   const std::vector<FoundReflector> as_found = reflectors;
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
   return plan_views_for_eyes(Surroundings(accel, as_found, options.sight), eyes, options.planned, context, reflectors);
 }
 
@@ -57,10 +65,21 @@ Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps
              Context& context, std::vector<ViewQuality>& quality) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
-    ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
-    quality.push_back(
-        judge_maps(surroundings, maps.subspan(reflector.first_map, reflector.map_count), samples, context));
+    const auto own = maps.subspan(reflector.first_map, reflector.map_count);
+    ViewQuality q;
+    const auto inputs = [&](Archive& key) {
+      key(r, eyes);
+      for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
+    };
+    const auto compute = [&]() -> Status {
+      ORIEL_TRY(const auto samples,
+                sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
+      q = judge_maps(surroundings, own, samples, context);
+      return {};
+    };
+    ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute,
+                            [&](Archive& archive) { archive(q.seen, q.sharp, q.residual); }));
+    quality.push_back(q);
   }
   return {};
 }
@@ -71,6 +90,20 @@ std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<con
     for (std::uint32_t corner = 0; corner < 3; ++corner)
       indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
   return indices;
+}
+
+// leave_out_emitters() as a unit of work.
+Status leave_out_lamps(const Accel& accel, const std::vector<bool>& is_glossy, Context& context,
+                       std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                       std::vector<std::string>& omissions) {
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, is_glossy, reflectors);
+  std::vector<std::string> omitted;
+  ORIEL_TRY_VOID(one_unit(
+      context, "emitters", [](Archive&) {},
+      [&] { return leave_out_emitters(accel, is_glossy, {}, context, reflectors, emitters, omitted); },
+      [&](Archive& archive) { archive(reflectors, emitters, omitted); }));
+  append(omissions, omitted);
+  return {};
 }
 
 template <class Found, class Kept>
@@ -105,6 +138,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
   if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
   ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
@@ -129,12 +163,8 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   }
   std::vector<FoundReflector>& reflectors = found.reflectors;
   ORIEL_TRY(ViewPlan plan, plan_maps(options, accel, eyes, context, reflectors));
-  std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    std::uint64_t lobe_rays = 0;
-    const Vec3 radiance = baked_radiance_with_lobes(baked, seen, context.seed, lobe_rays);
-    if (lobe_rays > 0) rays += lobe_rays;
-    return radiance;
+    return baked_radiance_with_lobes(baked, seen, context.seed, *seen.rays);
   };
   // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
   const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
@@ -143,9 +173,11 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   for (const FoundReflector& r : reflectors)
     for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
-    ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
-                                      report.omissions));
+    ORIEL_TRY_VOID(leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters,
+                                   report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
+  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar);
+  std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
   if (options.view_scheme == ViewScheme::kPlanned) {
