@@ -103,7 +103,8 @@ void Leases::beat() {
 }
 
 void Leases::renew() {
-  const std::string content = fmt::format("{} {:016x} {:016x}\n", name_, reinterpret_cast<std::uintptr_t>(this), ++beats_);
+  const std::string content =
+      fmt::format("{} {:016x} {:016x}\n", name_, reinterpret_cast<std::uintptr_t>(this), ++beats_);
   [[maybe_unused]] const ssize_t written = ::pwrite(file_, content.data(), content.size(), 0);
 }
 

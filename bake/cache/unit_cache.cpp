@@ -174,9 +174,8 @@ Result<CacheContent> cache_content(const fs::path& folder) {
 
 Result<CacheContent> prune_cache(const fs::path& folder, std::uint64_t bytes) {
   ORIEL_TRY(auto files, files_of(folder));
-  std::sort(files.begin(), files.end(), [](const CacheFile& a, const CacheFile& b) {
-    return std::tie(a.used, a.path) > std::tie(b.used, b.path);
-  });
+  std::sort(files.begin(), files.end(),
+            [](const CacheFile& a, const CacheFile& b) { return std::tie(a.used, a.path) > std::tie(b.used, b.path); });
   const auto day_ago = fs::file_time_type::clock::now() - std::chrono::hours(24);
   CacheContent removed;
   std::uint64_t kept = 0;

@@ -11,8 +11,8 @@
 namespace oriel {
 
 // Files FOLDER/xx/yyy….unit, named by the hash of the unit's inputs and of this program. They appear whole (written
-// beside and renamed) and are checked when read: length, name and checksum inside. What is cut off, damaged or foreign is
-// computed again. Where the folder cannot be written, one warning says so, and the bake goes on.
+// beside and renamed) and are checked when read: length, name and checksum inside. What is cut off, damaged or foreign
+// is computed again. Where the folder cannot be written, one warning says so, and the bake goes on.
 class UnitCache : public UnitStore {
  public:
   // `program`: who computes; units of others are not found (program_identity()).

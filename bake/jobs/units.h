@@ -58,8 +58,8 @@ class StageInputs {
 // A loop whose items are computed or found.
 struct UnitLoop {
   std::string_view stage = {};  // for progress, and to name the units apart from other loops'
-  std::size_t count = 0;   // of items
-  double rays = 0;         // that an item takes, about: says how many of them make a unit
+  std::size_t count = 0;        // of items
+  double rays = 0;              // that an item takes, about: says how many of them make a unit
   // What an item is a function of, beside its stage's inputs: its number, its part of the data, the results before
   // where compute() adds to them.
   std::function<void(std::size_t, Archive&)> inputs = {};

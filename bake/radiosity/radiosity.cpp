@@ -16,7 +16,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
-constexpr std::size_t kRaysAPath = 10;    // about
+constexpr std::size_t kRaysAPath = 10;     // about
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
@@ -134,7 +134,8 @@ Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> tex
     const auto sums_of = [&](std::size_t r, Archive& archive) {
       for (std::size_t i = runs[r].first; i < runs[r].last; ++i) archive(sums[runs[r].page][i]);
     };
-    UnitLoop loop{.stage = "paths", .count = runs.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (next - done)};
+    UnitLoop loop{
+        .stage = "paths", .count = runs.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (next - done)};
     loop.inputs = [&](std::size_t r, Archive& key) {
       key(options.directional, runs[r].page, runs[r].first, runs[r].last, done, next);
       sums_of(r, key);  // paths are added to them

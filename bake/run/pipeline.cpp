@@ -81,8 +81,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   Pack& pack = result.pack;
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
-  ORIEL_TRY(MaterialMaps materials,
-            timed("material", [&](auto&) {
+  ORIEL_TRY(MaterialMaps materials, timed("material", [&](auto&) {
               const StageInputs inputs(context, std::string("material"));
               return bake_materials(scene, material_options(options), context);
             }));

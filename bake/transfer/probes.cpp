@@ -107,8 +107,8 @@ class FieldBake {
     loop.inputs = [&](std::size_t i, Archive& key) { key(first + i, field_.probes[first + i].position); };
     loop.compute = [&](std::size_t i) {
       std::uint64_t rays = 0;
-      measured[i] = measure_probe(scene_, options_, net_, field_.depth_cap_m, field_.probes[first + i].position,
-                                  first + i, rays);
+      measured[i] =
+          measure_probe(scene_, options_, net_, field_.depth_cap_m, field_.probes[first + i].position, first + i, rays);
       return rays;
     };
     loop.results = [&](std::size_t i, Archive& archive) {

@@ -1,5 +1,5 @@
-// The members of assets in order, for Archive: to keep them to the last bit while a pack is baked. A pack itself has its
-// own sections (formats/pack), which round.
+// The members of assets in order, for Archive: to keep them to the last bit while a pack is baked. A pack itself has
+// its own sections (formats/pack), which round.
 #pragma once
 
 #include "formats/assets/brdf_kernel.h"
@@ -40,9 +40,8 @@ inline void fields(Archive& archive, CompressedTransfer& t) {
   archive(t.bands, t.channels, t.clusters, t.components, t.basis, t.weight_scale, t.cluster, t.weight, t.error);
 }
 inline void fields(Archive& archive, Reflector& r) {
-  archive(r.name, r.material, r.pack_from_reflector, r.lower, r.upper, r.area_m2, r.flatness_m, r.indices,
-          r.elements_x, r.elements_y, r.first_map, r.map_count, r.emitters, r.visibility_x, r.visibility_y,
-          r.visibility);
+  archive(r.name, r.material, r.pack_from_reflector, r.lower, r.upper, r.area_m2, r.flatness_m, r.indices, r.elements_x,
+          r.elements_y, r.first_map, r.map_count, r.emitters, r.visibility_x, r.visibility_y, r.visibility);
 }
 inline void fields(Archive& archive, RadianceMap& m) {
   archive(m.reflector, m.eye, m.lower, m.upper, m.width, m.height, m.has_emission, m.residual, m.radiance, m.disparity,

@@ -34,8 +34,8 @@ class Archive {
   explicit Archive(Hasher& to) : hasher_(&to) {}
   explicit Archive(std::span<const std::byte> from) : from_(from), reading_(true) {}
 
-  // Numbers, vectors, strings, arrays, pairs, spans, std::vectors, and what has a function fields(). Constants can be written
-  // and hashed only.
+  // Numbers, vectors, strings, arrays, pairs, spans, std::vectors, and what has a function fields(). Constants can be
+  // written and hashed only.
   template <class... T>
   void operator()(T&&... things) {
     (constant(things), ...);

@@ -88,7 +88,8 @@ class SurroundCapture {
     }
     const bool back = !hit.front && !material.double_sided;
     if (coverage > 0 && !back)
-      sight.radiance += sight.throughput * coverage * usable_light(outgoing_({.hit = hit, .towards_eye = -direction, .rays = &rays_}));
+      sight.radiance += sight.throughput * coverage *
+                        usable_light(outgoing_({.hit = hit, .towards_eye = -direction, .rays = &rays_}));
     sight.throughput *= through;
     if (max_component(through) >= kSeeThrough) return;
     sight.ended = true;

@@ -229,8 +229,10 @@ Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span
     ReflectorPlan plan;
     ORIEL_TRY_VOID(one_unit(
         context, "views",
-        [&](Archive& key) { key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere,
-                                options.mirrored_eyes, options.max_elements, options.map_resolution); },
+        [&](Archive& key) {
+          key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
+              options.max_elements, options.map_resolution);
+        },
         [&]() -> Status {
           ORIEL_TRY(plan, planner.plan(r));
           return {};

@@ -229,9 +229,7 @@ DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::sp
 
 Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
                              DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
-  const auto part = [&](std::size_t g) {
-    return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup));
-  };
+  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + t_.accel.scene().lights.size())) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty()); };

@@ -113,9 +113,7 @@ Status gather(const Texels& texels, const Surroundings& around, std::span<const 
               std::atomic<std::uint64_t>& rays) {
   const ShiftedNet net(context.seed + 0x9a7e, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
-  const auto part = [&](std::size_t g) {
-    return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup));
-  };
+  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   const auto sums_of = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
       archive(sums.samples[t]);

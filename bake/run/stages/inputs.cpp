@@ -27,8 +27,8 @@ void add_material(Archive& archive, const Scene& scene, const SceneMaterial& m) 
 
 void fields(Archive& archive, const SurfacesOf& of) {
   const Scene& s = of.scene;
-  archive(s.lower, s.upper, s.positions, s.normals, s.uv0, s.uv1, s.colors, s.tangents, s.triangles,
-          s.triangle_surface, s.twin, s.face_normals);
+  archive(s.lower, s.upper, s.positions, s.normals, s.uv0, s.uv1, s.colors, s.tangents, s.triangles, s.triangle_surface,
+          s.twin, s.face_normals);
   for (const Surface& surface : s.surfaces)
     archive(surface.material, surface.first_triangle, surface.triangle_count, surface.first_vertex,
             surface.vertex_count);
@@ -44,8 +44,7 @@ void fields(Archive& archive, const LightsOf& of) {
   for (const Light& light : s.lights)
     archive(light.type, light.position, light.direction, light.right, light.color, light.intensity,
             light.inner_cone_rad, light.outer_cone_rad, light.angular_radius_rad, light.profile);
-  for (const LightProfile& profile : s.profiles)
-    archive(profile.vertical_deg, profile.horizontal_deg, profile.candela);
+  for (const LightProfile& profile : s.profiles) archive(profile.vertical_deg, profile.horizontal_deg, profile.candela);
   archive(s.sky_image.width, s.sky_image.height, s.sky_image.texels, s.sky_image.rotation_rad, s.sky);
 }
 

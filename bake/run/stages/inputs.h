@@ -1,5 +1,5 @@
-// What stages are functions of, as bytes to hash: what names their units of work (bake/jobs/units.h). Only what enters a
-// result is among them: no names, no cameras, no place in the world.
+// What stages are functions of, as bytes to hash: what names their units of work (bake/jobs/units.h). Only what enters
+// a result is among them: no names, no cameras, no place in the world.
 #pragma once
 
 #include "bake/atlas/atlas.h"

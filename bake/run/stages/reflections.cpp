@@ -77,8 +77,8 @@ Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps
       q = judge_maps(surroundings, own, samples, context);
       return {};
     };
-    ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute,
-                            [&](Archive& archive) { archive(q.seen, q.sharp, q.residual); }));
+    ORIEL_TRY_VOID(
+        one_unit(context, "quality", inputs, compute, [&](Archive& archive) { archive(q.seen, q.sharp, q.residual); }));
     quality.push_back(q);
   }
   return {};
@@ -173,8 +173,8 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, const Bake
   for (const FoundReflector& r : reflectors)
     for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
-    ORIEL_TRY_VOID(leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters,
-                                   report.omissions));
+    ORIEL_TRY_VOID(
+        leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters, report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar);
   std::atomic<std::uint64_t> rays{0};
