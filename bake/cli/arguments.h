@@ -34,6 +34,8 @@ struct Arguments {
   TradeArguments trade;              // the subcommand `trade` instead, where wanted
   CacheArguments cache;              // of the bake and of workers
   bool works = false;                // the subcommand `worker` of `bake` instead: no pack is written
+  VerifyArguments verify;            // the subcommand `verify` of `bake` instead, where wanted; bake.output is read
+  SubmitArguments submit;            // the subcommand `submit` instead, where wanted
   PruneArguments prune;              // the subcommand `cache` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;

@@ -9,12 +9,15 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
 
+#include "bake/cache/checking_store.h"
 #include "bake/cache/unit_cache.h"
 #include "bake/cli/render_arguments.h"
 #include "bake/lux/table.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
+#include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -145,6 +148,28 @@ Status run_worker(const Arguments& args, Context& context, ProgressPrinter& prin
   return {};
 }
 
+// Bakes again, mostly from the cache, and compares.
+Status run_verify(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  const std::filesystem::path& pack = args.bake.output;
+  ORIEL_TRY(const Bytes written, read_file(pack));
+  ORIEL_TRY(const Pack before, decode_pack(written));
+  std::optional<UnitCache> cache = open_cache(args, context);
+  CheckingStore checking(*cache, args.verify.sample, std::random_device()());
+  context.units = &checking;
+  ORIEL_TRY(const BakeResult again, bake(args.bake, context));
+  printer.note(fmt::format("{} of {} units were taken from {}; {} that are there were computed again: {} differ",
+                           again.units.reused - checking.checked(), again.units.units(), cache->folder().string(),
+                           checking.checked(), checking.differing()));
+  if (before.provenance != again.pack.provenance)
+    return fail(ErrorCode::kDifferent, pack.string(),
+                "was baked of other files, with other options or by another version: see oriel-inspect info");
+  ORIEL_TRY(const Bytes bytes, encode_pack(again.pack));
+  if (checking.differing() > 0 || bytes != written)
+    return fail(ErrorCode::kDifferent, pack.string(),
+                "found other bytes than a bake of {} gives now, expected the same", args.bake.scene.string());
+  return print("the same\n");
+}
+
 Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {
   const auto inputs = inputs_of(args.bake.scene, args.bake.import);
   ORIEL_TRY_VOID(check_output(args.bake.output, inputs));
@@ -186,6 +211,8 @@ Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
     }
     if (args.prune.wanted) return run_cache(args.prune);
     if (args.works) return run_worker(args, context, printer);
+    if (args.verify.wanted) return run_verify(args, context, printer);
+    if (args.submit.wanted) return run_submit(args.submit);
     if (args.trade.wanted) return run_trade(args.trade, context, [&](const std::string& text) { printer.note(text); });
     if (args.render.wanted) {
       ORIEL_TRY_VOID(check_output(args.render.output, inputs_of(args.render.scene, args.render.import)));
@@ -212,9 +239,10 @@ int main_of_bake(int argc, char** argv) {
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
   g_keeps = args.trade.wanted;
-  g_works = args.works;
+  g_works = args.works || args.verify.wanted;
   install_signal_handlers(context, args.wants_lux       ? args.lux_output
                                    : args.render.wanted ? args.render.output
+                                   : args.verify.wanted ? std::filesystem::path()
                                                         : args.bake.output);
   const Status status = run(args, context, printer);
   ::alarm(0);

@@ -80,7 +80,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   // Measures the programs from outside: it knows packs and pictures, and no stage.
   m["bake/trade"] = plus(assets, {"bake/jobs", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
   m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
-  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page"});
+  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page", "bake/cli"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});            // a subcommand that needs no scene
   m["bake/cli/farm"] = plus(m["bake/run"], {"bake/run", "bake/cache", "bake/cli"});  // what machines share
   m["bake/cli/plan"] = plus(m["bake/plan"], {"bake/plan", "bake/cli"});

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -90,6 +91,40 @@ TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
   wait(workers[0]);
   for (std::size_t i = 1; i < workers.size(); ++i) EXPECT_EQ(wait(workers[i]), 0);
   if (!fs::exists(faketime)) GTEST_SKIP() << "the wrong clock: libfaketime is not installed";
+}
+
+TEST_F(Farm, APackIsVerifiedAgainstTheSceneAndStaleOnesAreTold) {
+  const std::string options = std::string(" --only radiosity") + kOptions;
+  ASSERT_EQ(finish(bake("a.oriel", " --only radiosity")), 0);
+  const std::string verify = "oriel-bake verify a.oriel cornell.glb --sample 50%";
+  EXPECT_EQ(finish(verify + options), 0);
+  EXPECT_EQ(finish(verify + options + " --seed 2"), 5) << "other options";
+  EXPECT_EQ(finish("oriel-bake verify a.oriel missing.glb" + options), 2);
+  EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene cornell.glb"), 0);
+  Bytes scene = bytes("cornell.glb");
+  const std::string albedo = "0.6100000143051147", darker = "0.5100000143051147";
+  std::string_view text(reinterpret_cast<const char*>(scene.data()), scene.size());
+  ASSERT_NE(text.find(albedo), text.npos);
+  std::copy_n(std::as_bytes(std::span(darker)).begin(), darker.size(),
+              scene.begin() + static_cast<long>(text.find(albedo)));
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "cornell.glb", scene));
+  EXPECT_EQ(finish(verify + options), 5) << "another albedo";
+  EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene cornell.glb"), 5);
+  EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene missing.glb"), 2);
+}
+
+TEST_F(Farm, ASubmissionIsAScriptOfWorkersAndAPack) {
+  ASSERT_EQ(finish("oriel-bake submit --slurm -N 3 \"a b.glb\" -o c.oriel --cache shared --error 1% --hidden-black "
+                   "--dry-run"),
+            0);
+  const Bytes log = bytes("log");
+  const std::string text(reinterpret_cast<const char*>(log.data()), log.size());
+  for (const char* part : {"--array=0-2", "worker", "a b.glb", "--error", "1%", "--hidden-black", "c.oriel",
+                           "--dependency=afterany:\"$workers\""})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
+  EXPECT_EQ(text.find("--dry-run"), std::string::npos);
+  EXPECT_EQ(finish("oriel-bake submit cornell.glb -o c.oriel --cache shared"), 1) << "which scheduler";
+  EXPECT_EQ(finish("oriel-bake submit --slurm cornell.glb -o c.oriel"), 1) << "no folder to share";
 }
 
 TEST_F(Farm, CachesAreListedAndPruned) {

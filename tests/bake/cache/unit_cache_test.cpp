@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "bake/cache/checking_store.h"
 #include "bake/jobs/parallel.h"
 #include "formats/core/file.h"
 #include "tests/support/temporary_folder.h"
@@ -151,6 +152,27 @@ TEST_F(UnitCacheTest, TheLeaseOfADeadProcessOfThisMachineEndsAtOnce) {
   ASSERT_EQ(status, 0);
   EXPECT_TRUE(fs::exists(folder_.path() / (to_hex(kName) + ".lease")));
   EXPECT_TRUE(Leases(folder_.path()).claim(kName));
+}
+
+TEST_F(UnitCacheTest, ADoubterComputesItsShareAgainAndTellsWhatDiffers) {
+  UnitCache kept = cache();
+  for (std::uint64_t i = 0; i < 100; ++i) kept.keep({i, 0}, unit_of("light"));
+  CheckingStore half(kept, 0.5, 1), all(kept, 1, 1), none(kept, 0, 1);
+  std::size_t found = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    found += half.find({i, 0}).has_value();
+    EXPECT_FALSE(all.find({i, 0}));
+    EXPECT_TRUE(none.find({i, 0}));
+    EXPECT_TRUE(all.claim({i, 0}));
+    all.keep({i, 0}, unit_of(i == 7 ? "dark" : "light"));
+  }
+  EXPECT_GT(found, 25);
+  EXPECT_LT(found, 75);
+  EXPECT_EQ(all.checked(), 100);
+  EXPECT_EQ(all.differing(), 1);
+  all.keep({200, 0}, unit_of("new"));
+  EXPECT_TRUE(kept.find({200, 0})) << "what nobody knew is kept";
+  EXPECT_EQ(all.checked(), 100);
 }
 
 // Squares of numbers, as units.
