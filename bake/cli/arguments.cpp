@@ -228,6 +228,20 @@ Status resolve(const Texts& texts, Arguments& args) {
   return {};
 }
 
+Status resolve_verify(const Texts& texts, const std::string& sample, Arguments& args) {
+  ORIEL_TRY_VOID(resolve(texts, args));
+  ORIEL_TRY(args.verify.sample, parse_fraction(sample));
+  return {};
+}
+
+// Words of all options that the workers and the bake take.
+Status resolve_submit(const CLI::App& submit, Arguments& args) {
+  for (const CLI::Option* option : submit.get_options())
+    if (is_of_bake(*option))
+      for (std::string& word : as_typed(*option)) args.submit.forwarded.push_back(std::move(word));
+  return {};
+}
+
 // The bake's options as its subcommands take them.
 void add_bake_options(CLI::App& app, Texts& texts, SharedTexts& shared, Arguments& args) {
   add_atlas_options(app, texts, args.bake);
@@ -270,6 +284,7 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("SCENE", args.bake.scene, "The scene: .glb, or .gltf with its buffers and textures");
   app.add_option("-o,--output", args.bake.output, "The pack to write. It appears whole or not at all");
   add_bake_options(app, texts, shared, args);
+  add_cache_options(app, args.cache);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
@@ -279,6 +294,23 @@ Arguments parse_arguments(int argc, char** argv) {
   Texts plan_texts;
   add_bake_options(*plan, plan_texts, shared, args);
   add_run_options(*plan, shared, args);
+  struct {
+    Texts bake;
+    std::string sample = "1%";
+  } texts_of_verify;
+  CLI::App* worker = add_worker(app, args.bake.scene, args.cache);
+  Texts worker_texts;
+  add_bake_options(*worker, worker_texts, shared, args);
+  add_run_options(*worker, shared, args);
+  CLI::App* verify = add_verify(app, args.bake, args.cache, texts_of_verify.sample);
+  add_bake_options(*verify, texts_of_verify.bake, shared, args);
+  add_run_options(*verify, shared, args);
+  CLI::App* submit = add_submit(app, args.submit);
+  Texts submit_texts;
+  add_bake_options(*submit, submit_texts, shared, args);
+  add_run_options(*submit, shared, args);
+  PruneTexts prune_texts;
+  const CLI::App* cache = add_cache(app, prune_texts, args.prune);
   CLI::App* trade = add_trade(app, trade_texts, args.trade);
   add_light_options(*trade, shared, args);
   add_mover_option(*trade, args);
@@ -290,6 +322,10 @@ Arguments parse_arguments(int argc, char** argv) {
     args.render.wanted = render->parsed();
     args.plan.wanted = plan->parsed();
     args.trade.wanted = trade->parsed();
+    args.works = worker->parsed();
+    args.prune.wanted = cache->parsed();
+    args.verify.wanted = verify->parsed();
+    args.submit.wanted = submit->parsed();
     require_bake_arguments(app);
   } catch (const CLI::ParseError& error) {
     args.exit_code = app.exit(error) == 0 ? 0 : 1;
@@ -299,6 +335,10 @@ Arguments parse_arguments(int argc, char** argv) {
   if (resolved) resolved = resolve_material(material_texts, args.material);
   if (resolved && !args.material.wanted)
     resolved = args.wants_lux       ? resolve_lux(lux_texts, args)
+               : args.prune.wanted  ? resolve_prune(prune_texts, args.prune)
+               : args.works         ? resolve(worker_texts, args)
+               : args.submit.wanted ? resolve_submit(*submit, args)
+               : args.verify.wanted ? resolve_verify(texts_of_verify.bake, texts_of_verify.sample, args)
                : args.render.wanted ? resolve_render(render_texts, args)
                : args.trade.wanted  ? resolve_trade(trade_texts, args.seed, args.trade)
                                     : resolve(args.plan.wanted ? plan_texts : texts, args);

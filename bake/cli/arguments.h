@@ -1,6 +1,7 @@
 // The command line of oriel-bake.
 #pragma once
 
+#include "bake/cli/farm/farm_arguments.h"
 #include "bake/cli/material/material_arguments.h"
 #include "bake/cli/plan/plan_arguments.h"
 #include "bake/cli/progress.h"
@@ -31,6 +32,11 @@ struct Arguments {
   MaterialArguments material;        // the subcommand `material` instead, where wanted
   PlanArguments plan;                // the subcommand `plan` of `bake` instead, where wanted
   TradeArguments trade;              // the subcommand `trade` instead, where wanted
+  CacheArguments cache;              // of the bake and of workers
+  bool works = false;                // the subcommand `worker` of `bake` instead: no pack is written
+  VerifyArguments verify;            // the subcommand `verify` of `bake` instead, where wanted; bake.output is read
+  SubmitArguments submit;            // the subcommand `submit` instead, where wanted
+  PruneArguments prune;              // the subcommand `cache` instead, where wanted
   int threads = 0;
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;

@@ -8,11 +8,16 @@
 #include <cstring>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <random>
 
+#include "bake/cache/checking_store.h"
+#include "bake/cache/unit_cache.h"
 #include "bake/cli/render_arguments.h"
 #include "bake/lux/table.h"
 #include "bake/run/pipeline.h"
 #include "formats/core/file.h"
+#include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -21,6 +26,7 @@ namespace {
 // What the signal handlers need; set before they are installed.
 Context* g_context = nullptr;
 bool g_keeps = false;  // a stop keeps what is finished, and is waited for
+bool g_works = false;  // a worker, which has nothing to finish
 char g_temporary[4096] = "";
 
 // Stages look at the flag many times a second, but libraries' long calls do not: after a second the process ends
@@ -34,7 +40,7 @@ void on_alarm(int) {
 
 // The first time the bake ends with what is there, if that makes a pack; else, and the second time, at once.
 void on_stop(int) {
-  if (g_context->finishable && !g_context->finish.exchange(true)) {
+  if (!g_works && g_context->finishable && !g_context->finish.exchange(true)) {
     static constexpr char kText[] = "\noriel-bake: finishing with what is there; again to stop at once\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
     return;
@@ -118,6 +124,51 @@ Status run_lux(const Arguments& args, Context& context) {
   return print(csv);
 }
 
+void print_share(const UnitShare& share, const std::filesystem::path& folder, ProgressPrinter& printer) {
+  printer.note(fmt::format("reused {} of {} units ({:.0f} % of the work) of {}", share.reused, share.units(),
+                           100 * share.work(), folder.string()));
+}
+
+// The folder that finished units go to and come from; nothing where they shall not.
+std::optional<UnitCache> open_cache(const Arguments& args, Context& context) {
+  std::filesystem::path folder = args.cache.folder;
+  if (folder.empty()) folder = args.bake.output.parent_path() / kDefaultCache;
+  if (args.cache.off) return std::nullopt;
+  const std::string program = program_identity() + (args.bake.reproducible ? "" : instruction_sets());
+  return std::optional<UnitCache>(std::in_place, folder, program, context.warn);
+}
+
+// Computes what a bake would, for those who share the cache.
+Status run_worker(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  std::optional<UnitCache> cache = open_cache(args, context);
+  context.units = &*cache;
+  ORIEL_TRY_VOID(bake(args.bake, context));
+  print_share(cache->share(), args.cache.folder, printer);
+  return {};
+}
+
+// Bakes again, mostly from the cache, and compares.
+Status run_verify(const Arguments& args, Context& context, ProgressPrinter& printer) {
+  const std::filesystem::path& pack = args.bake.output;
+  ORIEL_TRY(const Bytes written, read_file(pack));
+  ORIEL_TRY(const Pack before, decode_pack(written));
+  std::optional<UnitCache> cache = open_cache(args, context);
+  CheckingStore checking(*cache, args.verify.sample, std::random_device()());
+  context.units = &checking;
+  ORIEL_TRY(const BakeResult again, bake(args.bake, context));
+  printer.note(fmt::format("{} of {} units were taken from {}; {} that are there were computed again: {} differ",
+                           again.units.reused - checking.checked(), again.units.units(), cache->folder().string(),
+                           checking.checked(), checking.differing()));
+  if (before.provenance != again.pack.provenance)
+    return fail(ErrorCode::kDifferent, pack.string(),
+                "was baked of other files, with other options or by another version: see oriel-inspect info");
+  ORIEL_TRY(const Bytes bytes, encode_pack(again.pack));
+  if (checking.differing() > 0 || bytes != written)
+    return fail(ErrorCode::kDifferent, pack.string(),
+                "found other bytes than a bake of {} gives now, expected the same", args.bake.scene.string());
+  return print("the same\n");
+}
+
 Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printer) {
   const auto inputs = inputs_of(args.bake.scene, args.bake.import);
   ORIEL_TRY_VOID(check_output(args.bake.output, inputs));
@@ -126,7 +177,10 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
     if (args.report.lexically_normal() == args.bake.output.lexically_normal())
       return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
   }
+  std::optional<UnitCache> cache = open_cache(args, context);
+  context.units = cache ? &*cache : nullptr;
   ORIEL_TRY(const BakeResult result, bake(args.bake, context));
+  if (cache) print_share(result.units, cache->folder(), printer);
   if (result.radiosity.ended_early || context.finish)
     printer.note("ended early: the pack holds what was there, with the error that is stated");
   print_omissions(result.omissions, printer);
@@ -154,6 +208,10 @@ Status run(const Arguments& args, Context& context, ProgressPrinter& printer) {
         ORIEL_TRY_VOID(check_output(args.plan.json, inputs_of(args.bake.scene, args.bake.import)));
       return run_plan(args.plan, args.bake, context);
     }
+    if (args.prune.wanted) return run_cache(args.prune);
+    if (args.works) return run_worker(args, context, printer);
+    if (args.verify.wanted) return run_verify(args, context, printer);
+    if (args.submit.wanted) return run_submit(args.submit);
     if (args.trade.wanted) return run_trade(args.trade, context, [&](const std::string& text) { printer.note(text); });
     if (args.render.wanted) {
       ORIEL_TRY_VOID(check_output(args.render.output, inputs_of(args.render.scene, args.render.import)));
@@ -180,8 +238,10 @@ int main_of_bake(int argc, char** argv) {
   context.progress = [&](const Progress& progress) { printer(progress); };
   context.warn = [&](const std::string& message) { printer.warning(message); };
   g_keeps = args.trade.wanted;
+  g_works = args.works || args.verify.wanted;
   install_signal_handlers(context, args.wants_lux       ? args.lux_output
                                    : args.render.wanted ? args.render.output
+                                   : args.verify.wanted ? std::filesystem::path()
                                                         : args.bake.output);
   const Status status = run(args, context, printer);
   ::alarm(0);

@@ -55,6 +55,15 @@ void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args) {
   app.add_flag("--json-log", texts.json_log, "Progress, warnings and errors as JSON lines on stderr")->excludes(quiet);
 }
 
+std::vector<std::string> as_typed(const CLI::Option& option) {
+  std::vector<std::string> words;
+  for (const std::string& value : option.results()) {
+    words.push_back(option.get_name());
+    if (option.get_items_expected_max() > 0) words.push_back(value);
+  }
+  return words;
+}
+
 Status resolve_shared(const SharedTexts& texts, Arguments& args) {
   ORIEL_TRY(SkyChoice sky, parse_sky(texts.sky));
   args.bake.import.sky = sky.radiance;

@@ -33,4 +33,7 @@ void add_mover_option(CLI::App& app, Arguments& args);
 void add_run_options(CLI::App& app, SharedTexts& texts, Arguments& args);
 Status resolve_shared(const SharedTexts& texts, Arguments& args);
 
+// The words that gave an option its values.
+std::vector<std::string> as_typed(const CLI::Option& option);
+
 }  // namespace oriel

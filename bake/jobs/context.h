@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/core/hash.h"
 #include "formats/core/result.h"
 
 namespace oriel {
@@ -18,6 +19,8 @@ struct Progress {
   std::uint64_t rays = 0;  // traced by this stage so far
 };
 
+class UnitStore;  // units.h
+
 // Shared by all stages of one bake. Every member function may be called from any thread.
 class Context {
  public:
@@ -25,8 +28,10 @@ class Context {
   std::uint64_t seed = 1;                         // of every random number
   std::function<void(const Progress&)> progress;  // called from one thread at a time; may be empty
   std::function<void(const std::string&)> warn;   // a finding the user should read; may be empty
-  std::atomic<bool> stop{false};        // set from outside (a signal handler may): stages return kStopped soon
-  std::atomic<bool> finish{false};      // set likewise: what can be left out is, and what is there is the result
+  UnitStore* units = nullptr;                     // where finished units of work are kept; null: nowhere
+  Hash128 inputs;                   // of all that the stage under way is a function of: what names its units (units.h)
+  std::atomic<bool> stop{false};    // set from outside (a signal handler may): stages return kStopped soon
+  std::atomic<bool> finish{false};  // set likewise: what can be left out is, and what is there is the result
   std::atomic<bool> finishable{false};  // set by the bake: what is there would make a result
 
   // Work under way shall end: it is thrown away, or within an Interruptible may stay as it is.

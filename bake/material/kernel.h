@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/assets/brdf_kernel.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -12,6 +13,9 @@ struct KernelOptions {
   float max_half_extent =
       2.0f;  // largest tangent of the half angle: beyond about 63° a plane is a poor chart of directions
 };
+inline void fields(Archive& archive, KernelOptions& o) {
+  archive(o.max_size, o.energy, o.max_half_extent);
+}
 
 // The kernel of a lobe of width alpha (roughness², clamped to [0, 1]; NaN counts as 1) seen at cos_theta (clamped to
 // [1e-4, 1]). A pixel's weight is the integral of D(h) G2(wo, wi) / (4 cosθo) over the solid angle it covers, 0 below

@@ -5,16 +5,18 @@
 #include <bit>
 #include <map>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/material/share.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
+#include "formats/assets/fields.h"
 
 namespace oriel {
 namespace {
 
 // A sphere map's texels lie 4e-3 from what it interpolates: 3e-5 more halves its bytes in a pack.
 constexpr float kSphereSteps = 16384;
+constexpr double kRaysAMap = 1 << 16;     // that would take as long as a map or a kernel, about
 constexpr std::uint32_t kSamples = 1024;  // per textured material
 
 bool is_textured(const Scene& scene, const SceneMaterial& m) {
@@ -206,16 +208,29 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
   const Groups widths = group_widths(needs.alphas, options.error);
   maps.kernels.resize(widths.values.size());
   std::vector<FresnelMap> fresnel_maps(needs.fresnel_owner.size());
-  ORIEL_TRY_VOID(parallel_for(context, "material", maps.kernels.size() + fresnel_maps.size(), [&](std::size_t i) {
-    if (i < maps.kernels.size()) {
-      maps.kernels[i] = make_kernel(widths.values[i], options.model, 1, options.kernel);
-      add_slices(maps.kernels[i], options.slices);
-    } else {
-      const MaterialSummary& s = maps.summaries[needs.fresnel_owner[i - maps.kernels.size()]];
-      FresnelMap& map = fresnel_maps[i - maps.kernels.size()] = make_fresnel_map(layers_of(s), options.fresnel);
-      for (Vec3& texel : map.sphere) texel = glm::round(texel * kSphereSteps) / kSphereSteps;
-    }
-  }));
+  UnitLoop kernels{.stage = "kernels", .count = maps.kernels.size(), .rays = kRaysAMap};
+  kernels.inputs = [&](std::size_t i, Archive& key) {
+    key(widths.values[i], options.model, options.kernel, options.slices);
+  };
+  kernels.compute = [&](std::size_t i) {
+    maps.kernels[i] = make_kernel(widths.values[i], options.model, 1, options.kernel);
+    add_slices(maps.kernels[i], options.slices);
+    return 0;
+  };
+  kernels.results = [&](std::size_t i, Archive& archive) { archive(maps.kernels[i]); };
+  ORIEL_TRY_VOID(parallel_units(context, kernels));
+  UnitLoop fresnel{.stage = "fresnel", .count = fresnel_maps.size(), .rays = kRaysAMap};
+  fresnel.inputs = [&](std::size_t i, Archive& key) {
+    key(fresnel_key(maps.summaries[needs.fresnel_owner[i]]), options.fresnel);
+  };
+  fresnel.compute = [&](std::size_t i) {
+    const MaterialSummary& s = maps.summaries[needs.fresnel_owner[i]];
+    fresnel_maps[i] = make_fresnel_map(layers_of(s), options.fresnel);
+    for (Vec3& texel : fresnel_maps[i].sphere) texel = glm::round(texel * kSphereSteps) / kSphereSteps;
+    return 0;
+  };
+  fresnel.results = [&](std::size_t i, Archive& archive) { archive(fresnel_maps[i]); };
+  ORIEL_TRY_VOID(parallel_units(context, fresnel));
   for (std::int32_t& kernel : maps.kernel)
     if (kernel >= 0) kernel = static_cast<std::int32_t>(widths.of[static_cast<std::size_t>(kernel)]);
   keep_shared(std::move(fresnel_maps), options.error, maps);

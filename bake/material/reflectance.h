@@ -3,6 +3,7 @@
 
 #include "bake/trace/brdf/specular.h"
 #include "formats/assets/fresnel_map.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -13,6 +14,9 @@ struct FresnelMapOptions {
   std::uint32_t sphere_size = 64;     // 0: no sphere map
   std::uint32_t factor_entries = 65;  // at least 2; a mirror has none
 };
+inline void fields(Archive& archive, FresnelMapOptions& o) {
+  archive(o.error, o.min_entries, o.max_entries, o.sphere_size, o.factor_entries);
+}
 
 // Both maps of R. Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is
 // Fresnel's factor itself.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/material/lobe.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -11,6 +12,9 @@ struct SliceOptions {
   std::uint32_t radial = 32;  // entries of the radial share, at least 2
   float energy = 0.99f;       // share of the lobe that a texture shall hold, (0, 1)
 };
+inline void fields(Archive& archive, SliceOptions& o) {
+  archive(o.count, o.size, o.radial, o.energy);
+}
 
 // Lobes at grazing incidence have a limit, but their formulas divide by the cosine.
 inline constexpr float kGrazingCosine = 1e-3f;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
 #include "bake/scene/light/sky.h"
 #include "formats/core/check.h"
@@ -18,7 +18,9 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
               const Vec3& from, const Vec3& direction) {
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
+  std::uint64_t lobe_rays = 0;
   const auto add = [&](SeenSurface surface) {
+    surface.rays = &lobe_rays;
     // The closed form shows the lamp itself; its images in other mirrors are here alone.
     surface.emission =
         surface.mirrors_passed > 0 || !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
@@ -26,12 +28,39 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
     return true;
   };
   seen.sight = surroundings.look(reflector, from, direction, add);
+  seen.rays = seen.sight.rays + lobe_rays;
   if (seen.sight.sky_direction != Vec3(0))
     seen.radiance +=
         seen.sight.sky_throughput * usable_light(sky_radiance(surroundings.accel().scene(), seen.sight.sky_direction));
   seen.radiance = seen.sight.state == Sight::kNothing ? Vec3(0) : usable_light(seen.radiance);
   return seen;
 }
+
+namespace {
+
+constexpr double kRaysARow = 4096;  // about: many pixels see by way of lobes
+
+std::uint64_t capture_row(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t y,
+                          RadianceMap& map) {
+  const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
+  const Mat3 to_pack(reflector.pack_from_reflector);
+  std::uint64_t rays = 0;
+  for (std::uint32_t x = 0; x < map.width; ++x) {
+    const Vec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
+    const Vec3 direction = glm::normalize(to_pack * glm::normalize(q - map.eye));
+    const SeenLight seen = see(surroundings, outgoing, map.reflector, pack_from_reflector(reflector, q), direction);
+    const std::size_t at = std::size_t{y} * map.width + x;
+    map.radiance[at] = seen.radiance;
+    map.valid[at] = seen.sight.state;
+    map.disparity[at] = seen.sight.state == Sight::kSurface || seen.sight.back
+                            ? disparity_of(map, std::max(0.0f, glm::dot(seen.sight.offset, to_pack[2])))
+                            : 0;
+    rays += seen.rays;
+  }
+  return rays;
+}
+
+}  // namespace
 
 Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
@@ -46,30 +75,16 @@ Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& ou
     map.valid.resize(pixels);
     for (std::uint32_t y = 0; y < map.height; ++y) rows.emplace_back(i, y);
   }
-  return parallel_for(
-      context, "radiance", rows.size(),
-      [&](std::size_t i) {
-        RadianceMap& map = maps[rows[i].x];
-        const std::uint32_t y = rows[i].y;
-        const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
-        const Mat3 to_pack(reflector.pack_from_reflector);
-        std::uint64_t row_rays = 0;
-        for (std::uint32_t x = 0; x < map.width; ++x) {
-          const Vec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
-          const Vec3 direction = glm::normalize(to_pack * glm::normalize(q - map.eye));
-          const SeenLight seen =
-              see(surroundings, outgoing, map.reflector, pack_from_reflector(reflector, q), direction);
-          const std::size_t at = std::size_t{y} * map.width + x;
-          map.radiance[at] = seen.radiance;
-          map.valid[at] = seen.sight.state;
-          map.disparity[at] = seen.sight.state == Sight::kSurface || seen.sight.back
-                                  ? disparity_of(map, std::max(0.0f, glm::dot(seen.sight.offset, to_pack[2])))
-                                  : 0;
-          row_rays += seen.sight.rays;
-        }
-        if (rays) *rays += row_rays;
-      },
-      rays);
+  UnitLoop loop{.stage = "radiance", .count = rows.size(), .rays = kRaysARow};
+  loop.inputs = [&](std::size_t i, Archive& key) { key(frame_of(maps[rows[i].x]), rows[i].y); };
+  loop.compute = [&](std::size_t i) { return capture_row(surroundings, outgoing, rows[i].y, maps[rows[i].x]); };
+  loop.results = [&](std::size_t i, Archive& archive) {
+    RadianceMap& map = maps[rows[i].x];
+    const std::size_t first = std::size_t{rows[i].y} * map.width;
+    archive(std::span(map.radiance).subspan(first, map.width), std::span(map.disparity).subspan(first, map.width),
+            std::span(map.valid).subspan(first, map.width));
+  };
+  return parallel_units(context, loop, rays);
 }
 
 }  // namespace oriel

@@ -19,6 +19,7 @@ Vec3 usable_light(const Vec3& c);
 struct SeenLight {
   Sight sight;
   Vec3 radiance{0};  // cd/m²
+  std::uint64_t rays = 0;
 };
 SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction);

@@ -8,6 +8,7 @@
 
 #include "bake/scene/optics/fresnel.h"
 #include "bake/trace/accel.h"
+#include "formats/assets/fields.h"
 #include "formats/assets/radiance_map.h"
 
 namespace oriel {
@@ -19,6 +20,9 @@ struct ReflectorMaterial {
   float f90 = 1;
   FresnelCurve curve = {};
 };
+inline void fields(Archive& archive, ReflectorMaterial& o) {
+  archive(o.roughness, o.f0, o.f90, o.curve.ior, o.curve.schlick, o.curve.metal);
+}
 
 // R at 60 degrees, largest channel.
 float reflectance_at_60_deg(const ReflectorMaterial& material);
@@ -33,6 +37,10 @@ struct ReflectorOptions {
                                 // reflector's own size
   float min_open_share = 0.1f;  // of directions into which it sees something further away than a tenth of its size
 };
+inline void fields(Archive& archive, ReflectorOptions& o) {
+  archive(o.max_roughness, o.min_reflectance, o.min_area_m2, o.max_reflectors, o.max_angle_deg, o.flatness,
+          o.min_open_share);
+}
 
 struct FoundReflector {
   Reflector reflector;                   // indices, elements and maps are left empty
@@ -41,6 +49,10 @@ struct FoundReflector {
   float roughness = 0;
   std::vector<std::uint32_t> emitters;  // triangles whose own light its maps leave out, ascending
 };
+
+inline void fields(Archive& archive, FoundReflector& f) {
+  archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.emitters);
+}
 
 struct FoundReflectors {
   std::vector<FoundReflector> reflectors;  // most important first

@@ -14,6 +14,9 @@ struct SightOptions {
   float max_chain_roughness = 0.1f;     // of mirrors after the first: wider lobes are not followed
   float min_chain_reflectance = 0.02f;  // below it a reflection is not followed
 };
+inline void fields(Archive& archive, SightOptions& o) {
+  archive(o.orders, o.max_chain_roughness, o.min_chain_reflectance);
+}
 
 // A surface on the way of a ray.
 struct SeenSurface {
@@ -24,6 +27,7 @@ struct SeenSurface {
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
   bool glossy = false;  // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
+  std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 
 struct Sight {

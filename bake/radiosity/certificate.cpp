@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/texels/texel_paths.h"
 #include "formats/core/color.h"
 
@@ -12,6 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kPilotPaths = 32;               // of each half: they tell how many it gets
+constexpr double kRaysAPath = 8;                       // about, with those to lights
 constexpr std::uint32_t kMostPaths = 8192;              // of each half
 constexpr std::size_t kBatch = 64, kMostTexels = 4096;  // texels asked at a time and at most
 constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything
@@ -95,20 +96,25 @@ class Verifier {
 
  private:
   Status ask(std::span<HeldOut> batch, std::uint32_t most) {
-    return parallel_for(
-        context_, "certificate", batch.size(),
-        [&](std::size_t k) {
-          HeldOut& h = batch[k];
-          std::uint64_t traced = 0;
-          const TexelSums pilot = sums(2, h, kPilotPaths, traced);
-          const std::uint32_t wanted = paths_for(h, pilot, most);
-          const TexelSums a = sums(0, h, wanted, traced), b = sums(1, h, wanted, traced);
-          h.a = a.irradiance(), h.b = b.irradiance();
-          h.paths = a.count + b.count;
-          h.compared = a.count * 4 >= wanted && b.count * 4 >= wanted;
-          rays_ += traced;
-        },
-        &rays_);
+    UnitLoop loop{.stage = "certificate", .count = batch.size(), .rays = kRaysAPath * kPilotPaths};
+    loop.inputs = [&](std::size_t k, Archive& key) {
+      key(batch[k].page, batch[k].index, batch[k].baked, floor2_, asked2_, most);
+    };
+    loop.compute = [&](std::size_t k) {
+      HeldOut& h = batch[k];
+      std::uint64_t traced = 0;
+      const TexelSums pilot = sums(2, h, kPilotPaths, traced);
+      const std::uint32_t wanted = paths_for(h, pilot, most);
+      const TexelSums a = sums(0, h, wanted, traced), b = sums(1, h, wanted, traced);
+      h.a = a.irradiance(), h.b = b.irradiance();
+      h.paths = a.count + b.count;
+      h.compared = a.count * 4 >= wanted && b.count * 4 >= wanted;
+      return traced;
+    };
+    loop.results = [&](std::size_t k, Archive& archive) {
+      archive(batch[k].a, batch[k].b, batch[k].paths, batch[k].compared);
+    };
+    return parallel_units(context_, loop, &rays_);
   }
 
   TexelSums sums(std::size_t which, const HeldOut& h, std::uint32_t paths, std::uint64_t& traced) const {

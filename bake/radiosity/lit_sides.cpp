@@ -4,7 +4,7 @@
 #include <bit>
 #include <numeric>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 
@@ -14,6 +14,7 @@ namespace {
 constexpr double kLit = 0.01;  // of the other side's mean
 // Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
 // where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
+constexpr std::size_t kRaysAPoint = 10;  // on both sides, about
 constexpr std::size_t kPoints = 256, kFewPoints = 8, kAllPoints = std::size_t{1} << 19;
 
 // The double-sided triangles, part by part.
@@ -105,14 +106,15 @@ Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) 
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
   std::vector<LitSides> of_part(parts.count());
   std::atomic<std::uint64_t> rays{0};
-  ORIEL_TRY_VOID(parallel_for(
-      context, "sides", parts.count(),
-      [&](std::size_t i) {
-        std::uint64_t traced = 0;
-        of_part[i] = lit_sides(transport, parts.of(i), points, context.seed, traced);
-        rays += traced;
-      },
-      &rays));
+  UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
+  loop.inputs = [](std::size_t i, Archive& key) { key(i); };
+  loop.compute = [&](std::size_t i) {
+    std::uint64_t traced = 0;
+    of_part[i] = lit_sides(transport, parts.of(i), points, context.seed, traced);
+    return traced;
+  };
+  loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };
+  ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
   FoundSides found;
   found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);
   for (std::size_t i = 0; i < parts.count(); ++i) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
@@ -16,6 +16,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
+constexpr std::size_t kRaysAPath = 10;     // about
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
@@ -134,18 +135,28 @@ Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> tex
   std::uint32_t done = 0,
                 next = options.error > 0 || options.enough ? std::min(options.samples, kFirstPaths) : options.samples;
   for (;; done = next, next = std::min(options.samples, 2 * done)) {
-    const auto body = [&](std::size_t r) {
-      const Run& run = runs[r];
-      std::uint64_t traced = 0;
-      for (std::size_t i = run.first; i < run.last && !context.stopped(); ++i) {
-        TexelSums& own = sums[run.page][i];
-        paths.add(texel_map[run.page], run.page, i, done, next, own, traced);
-        result.visible[run.page][i] = static_cast<float>(own.count) / static_cast<float>(next);
-        store(own, next, result.pages[run.page], texel_map[run.page].texel[i]);
-      }
-      rays += traced;
+    const auto sums_of = [&](std::size_t r, Archive& archive) {
+      for (std::size_t i = runs[r].first; i < runs[r].last; ++i) archive(sums[runs[r].page][i]);
     };
-    ORIEL_TRY_VOID(parallel_for(context, "paths", runs.size(), body, &rays));
+    UnitLoop loop{
+        .stage = "paths", .count = runs.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (next - done)};
+    loop.inputs = [&](std::size_t r, Archive& key) {
+      key(options.directional, runs[r].page, runs[r].first, runs[r].last, done, next);
+      sums_of(r, key);  // paths are added to them
+    };
+    loop.compute = [&](std::size_t r) {
+      std::uint64_t traced = 0;
+      for (std::size_t i = runs[r].first; i < runs[r].last && !context.stopped(); ++i)
+        paths.add(texel_map[runs[r].page], runs[r].page, i, done, next, sums[runs[r].page][i], traced);
+      return traced;
+    };
+    loop.results = sums_of;
+    ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+    for (std::size_t p = 0; p < texel_map.size(); ++p)
+      for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
+        result.visible[p][i] = static_cast<float>(sums[p][i].count) / static_cast<float>(next);
+        store(sums[p][i], next, result.pages[p], texel_map[p].texel[i]);
+      }
     if (next == options.samples || context.stopped()) return {};
     if (options.error > 0 && relative_error(texel_map, result) <= options.error) return {};
     if (options.enough) context.finishable = true;

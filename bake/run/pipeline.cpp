@@ -6,6 +6,7 @@
 #include "bake/run/assemble.h"
 #include "bake/run/report.h"
 #include "bake/run/stages/deadline.h"
+#include "bake/run/stages/inputs.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
 #include "formats/core/color.h"
@@ -144,8 +145,10 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
 
   // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
   Pack& pack = result.pack;
-  ORIEL_TRY(MaterialMaps materials,
-            timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
+  ORIEL_TRY(MaterialMaps materials, timed("material", [&](auto&) {
+              const StageInputs inputs(context, std::string("material"));
+              return bake_materials(scene, material_options(options), context);
+            }));
   PlannedReflections planned;
   if (options.with_radiance) {
     ORIEL_TRY(planned, timed("views", [&](auto&) {
@@ -169,6 +172,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   radiosity_options.enough = refined_enough(options, deadline, later, context);
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
+              const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, LayoutOf{atlas},
+                                       path_options(options).max_bounces);
               auto baked = bake_radiosity({accel, lights, path_options(options)}, atlas, prepared.texel_map,
                                           radiosity_options, context);
               if (baked) rays = baked->report.rays;
@@ -205,6 +210,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
                  mover_reports, options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
+  if (context.units) result.units = context.units->share();
   return result;
 }
 

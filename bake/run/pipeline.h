@@ -1,6 +1,7 @@
 // The composition root: the only place that wires stages together.
 #pragma once
 
+#include "bake/jobs/units.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/stopwatch.h"
 #include "formats/pack/pack.h"
@@ -11,6 +12,7 @@ struct BakeResult {
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;
+  UnitShare units;                     // not in the pack either: empty without a store of units
   std::vector<std::string> omissions;  // what was not modelled, and why
 };
 

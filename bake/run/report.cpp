@@ -220,8 +220,14 @@ std::string report_json(const BakeResult& result) {
                      {"seconds", t.seconds},
                      {"rays", t.rays},
                      {"rays_per_s", t.seconds > 0 ? static_cast<double>(t.rays) / t.seconds : 0}});
-  const Json json = {
-      {"provenance", Json::parse(result.pack.provenance)}, {"plan", Json::parse(result.pack.plan)}, {"stages", times}};
+  const Json json = {{"provenance", Json::parse(result.pack.provenance)},
+                     {"plan", Json::parse(result.pack.plan)},
+                     {"stages", times},
+                     {"units",
+                      {{"reused", result.units.reused},
+                       {"computed", result.units.computed},
+                       {"reused_cpu_s", result.units.reused_s},
+                       {"computed_cpu_s", result.units.computed_s}}}};
   return text_of(json) + "\n";
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/trace/sampler.h"
 #include "formats/core/color.h"
 
@@ -81,8 +81,15 @@ Status BrightLights::choose(std::span<const Vec3> points, int strongest, Context
   std::vector<double> lux(candidates_.size());
   if (strongest > 0 && !candidates_.empty()) {
     std::vector<std::vector<Shine>> ranked(points.size());
-    ORIEL_TRY_VOID(
-        parallel_for(context, "bright lights", points.size(), [&](std::size_t i) { ranked[i] = rank(points[i], i); }));
+    UnitLoop loop{.stage = "bright lights", .count = points.size()};
+    loop.rays = static_cast<double>(kShadowRays * candidates_.size());
+    loop.inputs = [&](std::size_t i, Archive& key) { key(i, points[i]); };
+    loop.compute = [&](std::size_t i) {
+      ranked[i] = rank(points[i], i);
+      return 0;
+    };
+    loop.results = [&](std::size_t i, Archive& archive) { archive(ranked[i]); };
+    ORIEL_TRY_VOID(parallel_units(context, loop));
     for (std::vector<Shine>& shines : ranked)
       for (std::size_t i = 0; i < std::min(shines.size(), static_cast<std::size_t>(strongest)); ++i)
         if (shines[i].lux > kLeastShare * shines[0].lux) lux[shines[i].candidate] += shines[i].lux;

@@ -5,6 +5,7 @@
 #include "bake/jobs/context.h"
 #include "bake/trace/lights.h"
 #include "formats/assets/light_field.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -45,6 +46,7 @@ class BrightLights {
     float lux;    // luminance of the irradiance on a facing plane
     bool hidden;  // no shadow ray got through
   };
+  friend void fields(Archive& archive, Shine& s) { archive(s.candidate, s.lux, s.hidden); }
 
   float unshadowed(const Candidate& candidate, const Vec3& p) const;
   float visibility(const Candidate& candidate, const Vec3& p, std::uint64_t stream) const;

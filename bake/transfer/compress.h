@@ -14,6 +14,9 @@ struct CompressOptions {
   float max_error = 0.02f;  // relative, root mean square over all vertices and coefficients
   int max_bytes = 48;       // a vertex
 };
+inline void fields(Archive& archive, CompressOptions& o) {
+  archive(o.clusters, o.components, o.max_error, o.max_bytes);
+}
 
 // Clusters by k-means, then by which cluster's components fit best, until no vertex moves or 12 rounds; components by
 // the eigenvectors of each cluster's covariance; weights as 16-bit fractions of the largest. Fills `error` with that of

@@ -5,6 +5,8 @@
 #include <map>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "formats/assets/fields.h"
 #include "formats/sh/sh.h"
 
 namespace oriel {
@@ -101,15 +103,18 @@ class FieldBake {
   Status measure(std::size_t first) {
     std::vector<MeasuredProbe> measured(field_.probes.size() - first);
     if (measured.empty()) return {};
-    ORIEL_TRY_VOID(parallel_for(
-        context_, "probes", measured.size(),
-        [&](std::size_t i) {
-          std::uint64_t rays = 0;
-          measured[i] = measure_probe(scene_, options_, net_, field_.depth_cap_m, field_.probes[first + i].position,
-                                      first + i, rays);
-          if (rays_) *rays_ += rays;
-        },
-        rays_));
+    UnitLoop loop{.stage = "probes", .count = measured.size(), .rays = static_cast<double>(options_.samples)};
+    loop.inputs = [&](std::size_t i, Archive& key) { key(first + i, field_.probes[first + i].position); };
+    loop.compute = [&](std::size_t i) {
+      std::uint64_t rays = 0;
+      measured[i] =
+          measure_probe(scene_, options_, net_, field_.depth_cap_m, field_.probes[first + i].position, first + i, rays);
+      return rays;
+    };
+    loop.results = [&](std::size_t i, Archive& archive) {
+      archive(measured[i].probe, measured[i].squared_difference, measured[i].squared_sum);
+    };
+    ORIEL_TRY_VOID(parallel_units(context_, loop, rays_));
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (measured[i].probe.valid) {
         squared_difference_ += measured[i].squared_difference;

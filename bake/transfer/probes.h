@@ -16,6 +16,9 @@ struct ProbeOptions {
   float max_difference = 0.3f;    // between neighbours, relative, beyond which a cell is refined
   int bright_lights = 4;          // the strongest, of a probe, that its harmonics leave out
 };
+inline void fields(Archive& archive, ProbeOptions& o) {
+  archive(o.bands, o.spacing_m, o.samples, o.depth_side, o.max_probes, o.levels, o.max_difference, o.bright_lights);
+}
 
 struct FieldBox {
   Vec3 lower{0}, upper{0};  // scene space

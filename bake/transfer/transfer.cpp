@@ -3,7 +3,7 @@
 #include <bit>
 #include <optional>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
 #include "bake/trace/sampler.h"
@@ -136,15 +136,20 @@ class TransferBake {
     const ShiftedNet net(mix64(context_.seed + static_cast<std::uint64_t>(bounce)), samples);
     const std::size_t vertices = scene_.positions.size(), blocks = (vertices + kBlock - 1) / kBlock;
     std::vector<DVec2> errors(blocks);  // Σ squared differences of the halves, Σ squares
-    ORIEL_TRY_VOID(parallel_for(
-        context_, stage, blocks,
-        [&](std::size_t block) {
-          std::uint64_t rays = 0;
-          for (std::size_t v = block * kBlock; v < std::min(vertices, (block + 1) * kBlock); ++v)
-            errors[block] += vertex(static_cast<std::uint32_t>(v), net, samples, last, rays);
-          if (rays_) *rays_ += rays;
-        },
-        rays_));
+    const auto end = [&](std::size_t block) { return std::min(vertices, (block + 1) * kBlock); };
+    UnitLoop loop{.stage = stage, .count = blocks, .rays = static_cast<double>(kBlock) * samples};
+    loop.inputs = [&](std::size_t block, Archive& key) { key(bounce, block); };
+    loop.compute = [&](std::size_t block) {
+      std::uint64_t rays = 0;
+      for (std::size_t v = block * kBlock; v < end(block); ++v)
+        errors[block] += vertex(static_cast<std::uint32_t>(v), net, samples, last, rays);
+      return rays;
+    };
+    loop.results = [&](std::size_t block, Archive& archive) {
+      const std::size_t first = block * kBlock * out_.stride(), count = (end(block) - block * kBlock) * out_.stride();
+      archive(errors[block], std::span(out_.coefficients).subspan(first, count));
+    };
+    ORIEL_TRY_VOID(parallel_units(context_, loop, rays_));
     DVec2 sum(0);
     for (const DVec2& e : errors) sum += e;
     if (!last) out_.standard_error = sum.y > 0 ? static_cast<float>(0.5 * std::sqrt(sum.x / sum.y)) : 0;

@@ -7,6 +7,7 @@
 
 #include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -16,6 +17,9 @@ struct TransferOptions {
   int bounces = 2;               // of light between its own parts; 0 where not shadowed
   std::uint32_t samples = 1024;  // rays a vertex, and a quarter for each bounce; rounded down to a power of two, >= 16
 };
+inline void fields(Archive& archive, TransferOptions& o) {
+  archive(o.bands, o.shadowed, o.bounces, o.samples);
+}
 
 // T with B = albedo · Σ T_i L_i: radiance that a diffuse vertex sends out under distant radiance Σ L_i Y_i. Unoccluded,
 // T = 1/π ∫ max(n·ω, 0) Y_i(ω) dω. Axes: the object's scene space.

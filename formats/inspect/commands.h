@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "formats/core/result.h"
 #include "formats/pack/pack.h"
@@ -19,8 +20,12 @@ inline constexpr int kJsonSchema = 1;
 // What is inside: sections with sizes, maps with resolutions and statistics, options. All checksums are checked.
 int info(const std::filesystem::path& path, bool json);
 
-// All checksums, and every issue with its number.
-int validate(const std::filesystem::path& path, bool json);
+// All checksums, and every issue with its number. With a scene file: also whether the pack was baked of it as it is now
+// (exit code 5 where not), by the hashes that its provenance holds.
+int validate(const std::filesystem::path& path, const std::filesystem::path& scene, bool json);
+
+// What a bake read and has changed since: a line for each file, with what was found and expected.
+Result<std::vector<std::string>> changed_inputs(const Pack& pack, const std::filesystem::path& scene);
 
 struct ExtractOptions {
   std::string kind = "all";

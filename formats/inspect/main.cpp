@@ -15,7 +15,7 @@ Exit codes:
   2  a file cannot be read or written
   3  the pack is damaged or invalid
   4  failed at run time: memory
-  5  for diff: the light changed by more than the tolerance
+  5  for diff: the light changed by more than the tolerance; for validate --scene: the scene changed
 
 Examples:
   oriel-inspect info house.oriel               what is inside, for people
@@ -45,6 +45,9 @@ int run(int argc, char** argv) {
   auto* validate_command = app.add_subcommand("validate", "Check all checksums and the meaning of every number");
   validate_command->add_option("PACK", pack, "The .oriel file")->required();
   validate_command->add_flag("--json", json, "Print the issues as JSON");
+  std::string scene;
+  validate_command->add_option("--scene", scene,
+                               "The scene file: tell which files changed since it was baked; then exit code 5");
 
   auto* diff_command =
       app.add_subcommand("diff", "Tell two packs of one building apart: light by surface, sections, options");
@@ -75,7 +78,7 @@ int run(int argc, char** argv) {
   }
   if (info_command->parsed()) return info(pack, json);
   if (diff_command->parsed()) return diff(pack, after, diff_options);
-  if (validate_command->parsed()) return validate(pack, json);
+  if (validate_command->parsed()) return validate(pack, scene, json);
   return extract(pack, options);
 }
 

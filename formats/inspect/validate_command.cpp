@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
@@ -37,7 +38,8 @@ void print_text(const std::vector<Issue>& issues, std::size_t errors) {
     fmt::print("invalid ({} errors, {} warnings)\n", errors, issues.size() - errors);
 }
 
-void print_json(const std::filesystem::path& path, const std::vector<Issue>& issues, std::size_t errors) {
+void print_json(const std::filesystem::path& path, const std::vector<Issue>& issues,
+                const std::optional<std::vector<std::string>>& changed, std::size_t errors) {
   nlohmann::ordered_json out;
   out["schema"] = kJsonSchema;
   out["file"] = path.string();
@@ -48,30 +50,43 @@ void print_json(const std::filesystem::path& path, const std::vector<Issue>& iss
                              {"severity", issue.severity == Severity::kError ? "error" : "warning"},
                              {"section", issue.section},
                              {"message", issue.message}});
+  if (changed) out["changed_inputs"] = *changed;
   fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 }  // namespace
 
-int validate(const std::filesystem::path& path, bool json) {
+int validate(const std::filesystem::path& path, const std::filesystem::path& scene, bool json) {
   const auto file = read_file(path);
   if (!file) return report(file.error());
   auto issues = damage(*file);
+  std::optional<std::vector<std::string>> changed;
   if (issues.empty()) {
     const auto pack = decode_pack(*file);
     if (!pack && pack.error().code != ErrorCode::kInvalid) return report(pack.error());
-    if (pack)
+    if (pack) {
       issues = oriel::validate(*pack);
-    else
+      if (!scene.empty()) {
+        auto found = changed_inputs(*pack, scene);
+        if (!found) return report(found.error());
+        changed = std::move(*found);
+      }
+    } else {
       issues.push_back({1, Severity::kError, pack.error().where, pack.error().message});
+    }
   }
   std::size_t errors = 0;
   for (const auto& issue : issues) errors += issue.severity == Severity::kError ? 1 : 0;
   if (json)
-    print_json(path, issues, errors);
+    print_json(path, issues, changed, errors);
   else
     print_text(issues, errors);
-  return errors == 0 ? 0 : static_cast<int>(ErrorCode::kInvalid);
+  if (changed && !json) {
+    for (const std::string& line : *changed) fmt::print("changed: {}\n", line);
+    if (changed->empty()) fmt::print("belongs to {}\n", scene.string());
+  }
+  if (errors > 0) return static_cast<int>(ErrorCode::kInvalid);
+  return changed && !changed->empty() ? static_cast<int>(ErrorCode::kDifferent) : 0;
 }
 
 }  // namespace oriel::inspect

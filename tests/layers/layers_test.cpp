@@ -38,6 +38,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/diff"] = plus(assets, {"formats/pack"});  // two packs beside each other
   m["formats/inspect"] = plus(assets, {"formats/diff", "formats/pack", "formats/image"});
   m["bake/jobs"] = core;
+  m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
   m["bake/scene/optics"] = core;  // physics of surfaces: no scene
   m["bake/scene/gltf"] =
@@ -79,11 +80,12 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   // Measures the programs from outside: it knows packs and pictures, and no stage.
   m["bake/trade"] = plus(assets, {"bake/jobs", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
   m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
-  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page"});
-  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});  // a subcommand that needs no scene
+  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page", "bake/cli"});
+  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});            // a subcommand that needs no scene
+  m["bake/cli/farm"] = plus(m["bake/run"], {"bake/run", "bake/cache", "bake/cli"});  // what machines share
   m["bake/cli/plan"] = plus(m["bake/plan"], {"bake/plan", "bake/cli"});
-  m["bake/cli"] = plus(m["bake/cli/plan"],
-                       {"bake/cli/plan", "bake/cli/material", "bake/cli/trade", "bake/reference", "formats/camera"});
+  m["bake/cli"] = plus(m["bake/cli/plan"], {"bake/cache", "bake/cli/farm", "bake/cli/plan", "bake/cli/material",
+                                            "bake/cli/trade", "bake/reference", "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bake/cli/option_groups.h"
 #include "bake/run/options.h"
 #include "bake/trade/page/html.h"
 #include "bake/trade/page/table.h"
@@ -22,15 +23,6 @@ Writes trade.html to look at, trade.csv and trade.json. What is finished stays i
 bool is_forwarded(const CLI::Option& option) {
   static const std::array<std::string, 4> kOwn = {"--seed", "--quiet", "--json-log", "--help"};
   return option.count() > 0 && std::find(kOwn.begin(), kOwn.end(), option.get_name()) == kOwn.end();
-}
-
-std::vector<std::string> as_typed(const CLI::Option& option) {
-  std::vector<std::string> words;
-  for (const std::string& value : option.results()) {
-    words.push_back(option.get_name());
-    if (option.get_items_expected_max() > 0) words.push_back(value);
-  }
-  return words;
 }
 
 Status write_text(const std::filesystem::path& file, const std::string& text) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/scene/light/sky.h"
 #include "bake/trace/albedo.h"
 #include "formats/core/octahedral.h"
@@ -22,6 +22,8 @@ struct SurroundSight {
   std::uint8_t valid = 2;
   bool ended = false;
 };
+
+constexpr double kRaysARow = 2048;  // about
 
 class SurroundCapture {
  public:
@@ -75,7 +77,7 @@ class SurroundCapture {
   }
 
   // Adds what a surface shows; the ray ends there unless it lets light pass.
-  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) const {
+  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) {
     const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
     Vec3 through(0);
     float coverage = 1;
@@ -86,7 +88,8 @@ class SurroundCapture {
     }
     const bool back = !hit.front && !material.double_sided;
     if (coverage > 0 && !back)
-      sight.radiance += sight.throughput * coverage * usable_light(outgoing_({hit, -direction}));
+      sight.radiance += sight.throughput * coverage *
+                        usable_light(outgoing_({.hit = hit, .towards_eye = -direction, .rays = &rays_}));
     sight.throughput *= through;
     if (max_component(through) >= kSeeThrough) return;
     sight.ended = true;
@@ -116,24 +119,33 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
     map.valid.resize(texels);
     for (std::uint32_t y = 0; y < map.size; ++y) rows.emplace_back(i, y);
   }
-  return parallel_for(
-      context, "surroundings", rows.size(),
-      [&](std::size_t row) {
-        SurroundMap& map = found.maps[rows[row].x];
-        const CurvedObject& object = found.objects[found.reflectors[rows[row].x].object];
-        SurroundCapture capture(accel, object, outgoing, map.centre);
-        const std::uint32_t y = rows[row].y;
-        for (std::uint32_t x = 0; x < map.size; ++x) {
-          const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
-          const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
-          const std::size_t texel = std::size_t{y} * map.size + x;
-          map.radiance[texel] = usable_light(sight.radiance);
-          map.inverse_distance[texel] = sight.inverse_distance;
-          map.valid[texel] = sight.valid;
-        }
-        if (rays) *rays += capture.rays();
-      },
-      rays);
+  UnitLoop loop{.stage = "surroundings", .count = rows.size(), .rays = kRaysARow};
+  loop.inputs = [&](std::size_t row, Archive& key) {
+    const SurroundMap& map = found.maps[rows[row].x];
+    key(map.centre, map.size, rows[row].y, found.objects[found.reflectors[rows[row].x].object].triangles);
+  };
+  loop.compute = [&](std::size_t row) {
+    SurroundMap& map = found.maps[rows[row].x];
+    const CurvedObject& object = found.objects[found.reflectors[rows[row].x].object];
+    SurroundCapture capture(accel, object, outgoing, map.centre);
+    const std::uint32_t y = rows[row].y;
+    for (std::uint32_t x = 0; x < map.size; ++x) {
+      const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
+      const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
+      const std::size_t texel = std::size_t{y} * map.size + x;
+      map.radiance[texel] = usable_light(sight.radiance);
+      map.inverse_distance[texel] = sight.inverse_distance;
+      map.valid[texel] = sight.valid;
+    }
+    return capture.rays();
+  };
+  loop.results = [&](std::size_t row, Archive& archive) {
+    SurroundMap& map = found.maps[rows[row].x];
+    const std::size_t first = std::size_t{rows[row].y} * map.size;
+    archive(std::span(map.radiance).subspan(first, map.size), std::span(map.inverse_distance).subspan(first, map.size),
+            std::span(map.valid).subspan(first, map.size));
+  };
+  return parallel_units(context, loop, rays);
 }
 
 }  // namespace oriel

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "formats/core/vec.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -14,6 +14,10 @@ struct ChoiceOptions {
   // Where both are reached no more is added: a little over what is promised, for eyes that planning has not met.
   double seen = 0.9995, sharp = 0.985;
 };
+
+inline void fields(Archive& archive, ChoiceOptions& o) {
+  archive(o.max_maps, o.resolutions, o.seen, o.sharp);
+}
 
 // What each candidate would need to show each sample sharp: pixels of the longer side, infinite where it does not see
 // it.
@@ -32,6 +36,13 @@ struct Choice {
   std::vector<Pick> picks;
   double seen = 0, sharp = 0;  // shares of the samples' weight
 };
+
+inline void fields(Archive& archive, Pick& pick) {
+  archive(pick.candidate, pick.gain);
+}
+inline void fields(Archive& archive, Choice& c) {
+  archive(c.resolution, c.picks, c.seen, c.sharp);
+}
 
 // Picks one candidate after the other, each time that with the largest weight of samples newly seen (counted eight
 // times) and newly sharp; ties go to the lower number. Greedy choice reaches at least 1 - 1/e of the best one's

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
 
 namespace oriel {
@@ -20,6 +21,10 @@ struct ElementPlan {
   double weight = 0;  // of its samples
 };
 
+void fields(Archive& archive, ElementPlan& e) {
+  archive(e.window.lower, e.window.upper, e.candidates, e.choice, e.weight);
+}
+
 struct ReflectorPlan {
   ElementGrid grid;
   std::vector<ElementPlan> elements;
@@ -33,6 +38,10 @@ struct ReflectorPlan {
     return total > 0 ? sharp / total : 1;
   }
 };
+
+void fields(Archive& archive, ReflectorPlan& plan) {
+  archive(plan.grid.x, plan.grid.y, plan.elements);
+}
 
 std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
                                  std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
@@ -217,7 +226,18 @@ Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span
   Planner planner(surroundings, eyes, options, context);
   std::vector<ReflectorPlan> plans;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
-    ORIEL_TRY(ReflectorPlan plan, planner.plan(r));
+    ReflectorPlan plan;
+    ORIEL_TRY_VOID(one_unit(
+        context, "views",
+        [&](Archive& key) {
+          key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
+              options.max_elements, options.map_resolution);
+        },
+        [&]() -> Status {
+          ORIEL_TRY(plan, planner.plan(r));
+          return {};
+        },
+        [&](Archive& archive) { archive(plan); }));
     plans.push_back(std::move(plan));
     context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
   }

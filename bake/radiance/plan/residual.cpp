@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
 
 namespace oriel {
@@ -78,7 +79,7 @@ class ResidualCapture {
     float passed = 0;
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
-      if (rays_) *rays_ += seen.sight.rays;
+      if (rays_) *rays_ += seen.rays;
       const float step = glm::length(seen.sight.offset);
       if (!(step > 0)) return;
       passed += step;
@@ -186,14 +187,45 @@ class ResidualMaker {
 };
 
 // The reflector's maps with the residual behind those of its element.
-void append_with_residual(std::span<RadianceMap> maps, std::optional<RadianceMap> residual,
+void append_with_residual(std::span<RadianceMap> maps, std::vector<RadianceMap> residual,
                           std::vector<RadianceMap>& all) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const bool ends_element = i + 1 == maps.size() || !same_element(maps[i], maps[i + 1]);
-    const bool is_next = residual && ends_element && same_element(maps[i], *residual);
+    const bool is_next = !residual.empty() && ends_element && same_element(maps[i], residual[0]);
     all.push_back(std::move(maps[i]));
-    if (is_next) all.push_back(std::move(*residual)), residual.reset();
+    if (is_next) all.push_back(std::move(residual[0])), residual.clear();
   }
+}
+
+struct Residual {
+  std::vector<RadianceMap> map;  // one or none
+  std::uint32_t reduced = 0;     // whether it had to be smaller or left out
+  std::uint64_t rays = 0;
+};
+
+// Of one reflector, as a unit of work.
+Result<Residual> residual_of(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+                             std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                             std::uint32_t reflector, std::span<const RadianceMap> maps, std::uint64_t bytes) {
+  Residual made;
+  const auto inputs = [&](Archive& key) {
+    // More memory than the largest map takes changes nothing.
+    key(reflector, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
+        options.spread, options.max_resolution, options.least_missing);
+    for (const RadianceMap& map : maps) key(frame_of(map));
+  };
+  const auto compute = [&]() -> Status {
+    std::atomic<std::uint64_t> rays{0};
+    ResidualMaker maker(surroundings, outgoing, eyes, options, context, &rays);
+    ORIEL_TRY(auto map, maker.make(reflector, maps, bytes));
+    if (map) made.map.push_back(std::move(*map));
+    made.reduced = maker.reduced;
+    made.rays = rays;
+    return {};
+  };
+  ORIEL_TRY_VOID(one_unit(context, "residual", inputs, compute,
+                          [&](Archive& archive) { archive(made.map, made.reduced, made.rays); }));
+  return made;
 }
 
 }  // namespace
@@ -201,27 +233,29 @@ void append_with_residual(std::span<RadianceMap> maps, std::optional<RadianceMap
 Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
                      const ResidualOptions& options, Context& context, std::vector<FoundReflector>& reflectors,
                      ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
-  ResidualMaker maker(surroundings, outgoing, eyes, options, context, rays);
   std::uint64_t used = 0;
+  std::uint32_t reduced = 0;
   for (const RadianceMap& map : plan.maps) used += map_bytes(map.width, map.height);
-  std::vector<std::optional<RadianceMap>> residuals;
+  std::vector<Residual> residuals;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
     const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
-    ORIEL_TRY(auto residual, maker.make(r, own, left));
-    if (residual) used += map_bytes(residual->width, residual->height);
-    residuals.push_back(std::move(residual));
+    ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
+    for (const RadianceMap& map : made.map) used += map_bytes(map.width, map.height);
+    reduced += made.reduced;
+    if (rays) *rays += made.rays;
+    residuals.push_back(std::move(made));
   }
-  if (maker.reduced > 0)
+  if (reduced > 0)
     plan.omitted.push_back(fmt::format("radiance maps: {} residuals are smaller or left out to stay within {:.1f} MiB",
-                                       maker.reduced, static_cast<double>(options.memory_bytes) / (1 << 20)));
+                                       reduced, static_cast<double>(options.memory_bytes) / (1 << 20)));
   std::vector<RadianceMap> all;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span(plan.maps).subspan(reflector.first_map, reflector.map_count);
     reflector.first_map = static_cast<std::uint32_t>(all.size());
-    append_with_residual(own, std::move(residuals[r]), all);
+    append_with_residual(own, std::move(residuals[r].map), all);
     reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
   }
   plan.maps = std::move(all);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
@@ -104,13 +105,10 @@ std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::ui
   return s;
 }
 
-}  // namespace
-
-Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
-                                                        std::span<const Vec3> eyes, std::uint32_t count,
-                                                        std::uint64_t seed, Context& context) {
-  const FoundReflector& found = surroundings.reflectors()[reflector];
-  const SurfacePoints points(surroundings.accel().scene(), found);
+Result<std::vector<ReflectedSample>> draw_samples(const Surroundings& surroundings, std::uint32_t reflector,
+                                                  std::span<const Vec3> eyes, std::uint32_t count, std::uint64_t seed,
+                                                  Context& context) {
+  const SurfacePoints points(surroundings.accel().scene(), surroundings.reflectors()[reflector]);
   std::vector<ReflectedSample> samples;
   std::vector<std::optional<ReflectedSample>> tried(eyes.empty() ? 0 : count);
   std::uint32_t tries = 0;
@@ -127,6 +125,23 @@ Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surr
     }
   }
   for (ReflectedSample& s : samples) s.weight *= static_cast<float>(points.area()) / static_cast<float>(tries);
+  return samples;
+}
+
+}  // namespace
+
+Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
+                                                        std::span<const Vec3> eyes, std::uint32_t count,
+                                                        std::uint64_t seed, Context& context) {
+  const FoundReflector& found = surroundings.reflectors()[reflector];
+  std::vector<ReflectedSample> samples;
+  ORIEL_TRY_VOID(one_unit(
+      context, "reflected samples", [&](Archive& key) { key(reflector, eyes, count, seed, found); },
+      [&]() -> Status {
+        ORIEL_TRY(samples, draw_samples(surroundings, reflector, eyes, count, seed, context));
+        return {};
+      },
+      [&](Archive& archive) { archive(samples); }));
   return samples;
 }
 

@@ -20,6 +20,10 @@ struct ReflectedSample {
   float weight = 0;   // solid angle that it stands for, on average over the eyes
 };
 
+inline void fields(Archive& archive, ReflectedSample& s) {
+  archive(s.on_plane, s.eye, s.image, s.normal, s.spacing, s.weight);
+}
+
 // Pairs of an eye (scene space, those of `eyes` in turn) and a point of the reflector that see each other: `count` of
 // them, or fewer where eyes seldom see it, or none. What shows the back of a surface or a black sky is left out. The
 // same for the same seed.

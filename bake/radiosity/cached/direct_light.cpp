@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
@@ -229,15 +229,22 @@ DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::sp
 
 Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
                              DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
-  return parallel_for(
-      context, "direct light", (list.size() + kGroup - 1) / kGroup,
-      [&](std::size_t g) {
-        const std::size_t first = g * kGroup;
-        DirectGroup group(*this, list.subspan(first, std::min(kGroup, list.size() - first)), per_half);
-        group.run(sums);
-        rays += group.rays();
-      },
-      &rays);
+  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
+  UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
+  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + t_.accel.scene().lights.size())) * per_half;
+  loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty()); };
+  loop.compute = [&](std::size_t g) {
+    DirectGroup group(*this, part(g), per_half);
+    group.run(sums);
+    return group.rays();
+  };
+  loop.results = [&](std::size_t g, Archive& archive) {
+    for (const std::uint32_t t : part(g)) {
+      archive(sums.value[t], sums.variance[t], sums.sampled[t], sums.uneven[t], sums.per_half[t]);
+      if (!sums.moments.empty()) archive(sums.moments[t]);
+    }
+  };
+  return parallel_units(context, loop, &rays);
 }
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 
 namespace oriel {
 namespace {
@@ -15,6 +16,9 @@ struct PatchLink {
   std::uint32_t patch;
   Vec3 weight;
 };
+void fields(Archive& archive, PatchLink& link) {
+  archive(link.patch, link.weight);
+}
 
 struct Patch {
   std::vector<std::uint32_t> texels;  // those that see light
@@ -77,11 +81,21 @@ class Solver {
   }
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
-    return parallel_for(context, "bounces", (patches_.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
-      const std::size_t first = g * kGroup, end = std::min(patches_.size(), first + kGroup);
-      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k) rays += trace_sample(first, end, k, seed);
-      for (std::size_t p = first; p < end; ++p) join_links(patches_[p].links);
-    });
+    const Hash128 direct = context.units ? hash_of(direct_) : Hash128();
+    UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
+    loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
+    loop.inputs = [&](std::size_t g, Archive& key) { key(direct, options_.side, options_.rays_per_patch, g); };
+    loop.compute = [&](std::size_t g) {
+      std::uint64_t traced = 0;
+      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k)
+        traced += trace_sample(g * kGroup, group_end(g), k, seed);
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p) join_links(patches_[p].links);
+      return traced;
+    };
+    loop.results = [&](std::size_t g, Archive& archive) {
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p) archive(patches_[p].source, patches_[p].links);
+    };
+    return parallel_units(context, loop, &rays);
   }
 
   Status solve(Context& context, Sweeps& result);
@@ -89,6 +103,7 @@ class Solver {
   void interpolate(Context& context, Sweeps& result);
 
  private:
+  std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
   // Texels take turns in proportion to the surface that they show.
   std::uint32_t texel_for(const Patch& patch, std::uint32_t turn) const {
     const double target = (turn + 0.5) / (options_.rays_per_patch / kSites) * patch.area_m2;

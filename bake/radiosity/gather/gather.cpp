@@ -1,6 +1,6 @@
 #include "bake/radiosity/gather/gather.h"
 
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
@@ -112,14 +112,28 @@ Status gather(const Texels& texels, const Surroundings& around, std::span<const 
               std::uint32_t per_half, const CachedLight& cached, Context& context, HalfSums& sums,
               std::atomic<std::uint64_t>& rays) {
   const ShiftedNet net(context.seed + 0x9a7e, per_half);
-  const auto body = [&](std::size_t g) {
-    const std::size_t first = g * kGroup;
-    GroupGather group(texels, around, list.subspan(first, std::min(kGroup, list.size() - first)), cached, net,
-                      !sums.moments.empty());
-    group.run(per_half, sums);
-    rays += group.rays();
+  const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
+  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
+  const auto sums_of = [&](std::size_t g, Archive& archive) {
+    for (const std::uint32_t t : part(g)) {
+      archive(sums.samples[t]);
+      for (int h = 0; h < kHalves; ++h) archive(sums.sum[h][t], sums.slope[h][t]);
+      if (!sums.moments.empty()) archive(sums.moments[t]);
+    }
   };
-  return parallel_for(context, "gather", (list.size() + kGroup - 1) / kGroup, body, &rays);
+  UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
+  loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
+  loop.inputs = [&](std::size_t g, Archive& key) {
+    key(light, part(g), per_half);
+    sums_of(g, key);  // samples are added to them
+  };
+  loop.compute = [&](std::size_t g) {
+    GroupGather group(texels, around, part(g), cached, net, !sums.moments.empty());
+    group.run(per_half, sums);
+    return group.rays();
+  };
+  loop.results = sums_of;
+  return parallel_units(context, loop, &rays);
 }
 
 }  // namespace oriel

@@ -5,6 +5,7 @@
 
 #include "bake/atlas/texel_map.h"
 #include "bake/trace/path.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -20,6 +21,9 @@ class TexelPart {
   TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
             std::uint64_t& rays);
 
+  // All of a texel, for fields() to fill.
+  explicit TexelPart(const Accel& accel) : accel_(accel) {}
+
   bool whole() const { return anchors_.empty(); }
   // Other bodies lie on all of the texel that is not inside them: cracks between things, the wall behind a picture.
   bool covered() const { return covered_; }
@@ -27,6 +31,8 @@ class TexelPart {
   bool holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const;
 
  private:
+  friend void fields(Archive& archive, TexelPart& part) { archive(part.lift_, part.anchors_); }
+
   struct Side {
     std::vector<Vec3> anchors;
     std::size_t points = 0;

@@ -4,6 +4,7 @@
 #include "bake/atlas/texel_map.h"
 #include "bake/jobs/context.h"
 #include "bake/trace/path.h"
+#include "formats/core/archive.h"
 
 namespace oriel {
 
@@ -23,6 +24,10 @@ struct TexelSums {
     return glm::max(DVec3(0), squares / double(count) - m * m) / double(count - 1);
   }
 };
+
+inline void fields(Archive& archive, TexelSums& s) {
+  archive(s.sum, s.squares, s.vector, s.mean, s.count);
+}
 
 class TexelPaths {
  public:

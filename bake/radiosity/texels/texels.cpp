@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/direct/buried.h"
-#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
 
@@ -11,6 +11,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kRun = 256;      // texels a task
+constexpr double kRaysATexel = 32;     // about
 constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averaged
 // Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
@@ -181,7 +182,9 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   const SiteFinder finder(t, atlas, texel_map, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
-  ORIEL_TRY_VOID(parallel_for(context, "texel points", hidden.size(), [&](std::size_t run) {
+  UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
+  loop.inputs = [](std::size_t run, Archive& key) { key(run); };
+  loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
       SiteFinder::Found found = finder.find(texels, i, traced);
@@ -189,8 +192,18 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
       texels.area_m2[i] =
           static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
     }
-    rays += traced;
-  }));
+    return traced;
+  };
+  loop.results = [&](std::size_t run, Archive& archive) {
+    for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i)
+      archive(texels.site[i], texels.visible[i], texels.area_m2[i], texels.albedo[i]);
+    std::uint64_t count = hidden[run].size();
+    archive(count);
+    while (hidden[run].size() < std::min<std::uint64_t>(count, kRun))
+      hidden[run].push_back({0, {TexelPart(t.accel), {}}});
+    for (auto& [i, found] : hidden[run]) archive(i, found.part, found.many);
+  };
+  ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
   for (auto& run : hidden)
     for (auto& [i, found] : run) {
       if (!found.part.whole()) {

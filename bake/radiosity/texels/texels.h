@@ -22,6 +22,10 @@ struct TexelSite {
   Receiver receiver() const { return {origin, normal, geometric_normal}; }
 };
 
+inline void fields(Archive& archive, TexelSite& site) {
+  archive(site.origin, site.normal, site.geometric_normal);
+}
+
 // Two halves of every texel's estimate share nothing, neither points nor directions: their difference tells the error.
 inline constexpr int kHalves = 2;
 inline constexpr int kSitesPerHalf = 4;

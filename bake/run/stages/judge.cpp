@@ -67,7 +67,7 @@ Result<ReflectedError> judge_light(const Surroundings& surroundings, std::uint32
     const Vec3 along = glm::normalize(s.on_plane - Vec3(s.eye.x, s.eye.y, -s.eye.z));
     const SeenLight seen = see(surroundings, outgoing, reflector, pack_from_reflector(r, s.on_plane),
                                glm::normalize(Mat3(r.pack_from_reflector) * along));
-    rays += seen.sight.rays;
+    rays += seen.rays;
     judged[i] = {seen.radiance, shown(surroundings, maps, s)};
   }));
   ReflectedError e;

@@ -1,6 +1,8 @@
 #include "bake/run/stages/movers.h"
 
+#include "bake/jobs/units.h"
 #include "bake/run/stages/baked_light.h"
+#include "bake/run/stages/inputs.h"
 #include "formats/motion/mover_pose.h"
 
 namespace oriel {
@@ -88,12 +90,19 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
   std::atomic<std::uint64_t> counted{0};
   for (const TakenMover& t : taken) {
     ORIEL_TRY(const Accel accel, Accel::build(t.scene, {options.reproducible, context.threads}));
+    const StageInputs inputs(context, SurfacesOf{t.scene}, options.transfer);
     ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options.transfer, context, &counted));
     Mover mover;
     mover.name = t.mover.name;
     mover.rest = t.mover.rest;
     mover.keys = t.mover.keys;
-    ORIEL_TRY(mover.transfer, compress_transfer(transfer, options.compress, context));
+    ORIEL_TRY_VOID(one_unit(
+        context, "compression", [&](Archive& key) { key(transfer.coefficients, options.compress); },
+        [&]() -> Status {
+          ORIEL_TRY(mover.transfer, compress_transfer(transfer, options.compress, context));
+          return {};
+        },
+        [&](Archive& archive) { archive(mover.transfer); }));
     Atlas none;
     none.page.assign(t.scene.triangles.size(), -1);
     AssembledMesh mesh = assemble_mesh(t.scene, none);
@@ -118,9 +127,10 @@ Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std
   };
   ProbeOptions probes = options.probes;
   probes.bands = options.transfer.bands;
+  const FieldBox box = field_box(scene, pack.walk_grids, taken);
+  const StageInputs inputs(context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY(pack.light_field, bake_probes(baked.accel, baked.lights, field_box(scene, pack.walk_grids, taken), radiance,
-                                          probes, context, &counted));
+  ORIEL_TRY(pack.light_field, bake_probes(baked.accel, baked.lights, box, radiance, probes, context, &counted));
   rays += counted;
   return {};
 }

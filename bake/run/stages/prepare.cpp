@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/run/stages/inputs.h"
 
 namespace oriel {
 namespace {
@@ -14,6 +16,7 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   ORIEL_TRY(prepared.accel, timed("accelerator", build));
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
+              const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
               auto sides = find_lit_sides({*prepared.accel, lights, path_options(options)}, context);
               if (sides) rays = sides->report.rays;
               return sides;

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/jobs/units.h"
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
 #include "bake/run/stages/baked_light.h"
 #include "bake/run/stages/deadline.h"
+#include "bake/run/stages/inputs.h"
 
 namespace oriel {
 namespace {
@@ -53,10 +55,16 @@ Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& 
   return found;
 }
 
+// Whether there is a sky to be seen.
+bool shines(const Scene& scene) {
+  return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
+}
+
 Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::span<const Vec3> eyes, Context& context,
                            std::vector<FoundReflector>& reflectors) {
   if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
   const std::vector<FoundReflector> as_found = reflectors;
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
   return plan_views_for_eyes(Surroundings(accel, as_found, options.sight), eyes, options.planned, context, reflectors);
 }
 
@@ -66,11 +74,28 @@ Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
-    ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
-    report.quality.push_back(judge_maps(surroundings, own, samples, context));
-    ORIEL_TRY(const ReflectedError error, judge_light(surroundings, r, own, samples, outgoing, context, rays));
-    report.errors.push_back(error);
+    ViewQuality q;
+    ReflectedError e;
+    std::uint64_t traced = 0;
+    const auto inputs = [&](Archive& key) {
+      key(r, eyes);
+      for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
+    };
+    const auto compute = [&]() -> Status {
+      ORIEL_TRY(const auto samples,
+                sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
+      q = judge_maps(surroundings, own, samples, context);
+      std::atomic<std::uint64_t> judging{0};
+      ORIEL_TRY(e, judge_light(surroundings, r, own, samples, outgoing, context, judging));
+      traced = judging;
+      return {};
+    };
+    ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
+      archive(q.seen, q.sharp, q.residual, e.samples, e.seen, e.relative_error, e.seen_error, traced);
+    }));
+    rays += traced;
+    report.quality.push_back(q);
+    report.errors.push_back(e);
   }
   return {};
 }
@@ -81,6 +106,20 @@ std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<con
     for (std::uint32_t corner = 0; corner < 3; ++corner)
       indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
   return indices;
+}
+
+// leave_out_emitters() as a unit of work.
+Status leave_out_lamps(const Accel& accel, const std::vector<bool>& is_glossy, Context& context,
+                       std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                       std::vector<std::string>& omissions) {
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, is_glossy, reflectors);
+  std::vector<std::string> omitted;
+  ORIEL_TRY_VOID(one_unit(
+      context, "emitters", [](Archive&) {},
+      [&] { return leave_out_emitters(accel, is_glossy, {}, context, reflectors, emitters, omitted); },
+      [&](Archive& archive) { archive(reflectors, emitters, omitted); }));
+  append(omissions, omitted);
+  return {};
 }
 
 template <class Found, class Kept>
@@ -115,6 +154,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
   if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
   ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
@@ -154,8 +194,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
     tried += double{1.0f * map.width} * map.height;
   }
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    std::uint64_t rays = 0;
-    return baked_radiance_with_lobes(dark, seen, context.seed, rays);
+    return baked_radiance_with_lobes(dark, seen, context.seed, *seen.rays);
   };
   const Surroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
   const Deadline clock(0);
@@ -192,12 +231,8 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   pack.walk_grids = region.grids;
   if (planned.empty()) return report;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    std::uint64_t lobe_rays = 0;
-    const Vec3 radiance = baked_radiance_with_lobes(baked, seen, context.seed, lobe_rays);
-    if (lobe_rays > 0) rays += lobe_rays;
-    return radiance;
+    return baked_radiance_with_lobes(baked, seen, context.seed, *seen.rays);
   };
   // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
   const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
@@ -206,9 +241,11 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   for (const FoundReflector& r : reflectors)
     for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
-    ORIEL_TRY_VOID(leave_out_emitters(accel, glossy_materials(materials), {}, context, reflectors, pack.emitters,
-                                      report.omissions));
+    ORIEL_TRY_VOID(
+        leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters, report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
+  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar);
+  std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
   if (options.view_scheme == ViewScheme::kPlanned) {

@@ -1,0 +1,162 @@
+#include "bake/jobs/units.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "bake/jobs/parallel.h"
+
+namespace oriel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kRaysAUnit = 1 << 17;  // a tenth of a second of one CPU: a thousand times what storing them takes
+constexpr auto kPatience = std::chrono::milliseconds(20);  // between looks at what others are computing
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Fills what `write` writes from bytes that it wrote once. Where they are not those, all stays as it was.
+bool restore(const Bytes& from, const std::function<void(Archive&)>& write) {
+  Bytes before;
+  Archive saved(before);
+  write(saved);
+  Archive archive{std::span<const std::byte>(from)};
+  write(archive);
+  if (archive.complete()) return true;
+  Archive undo{std::span<const std::byte>(before)};
+  write(undo);
+  return false;
+}
+
+Bytes written(const std::function<void(Archive&)>& write) {
+  Bytes bytes;
+  Archive archive(bytes);
+  write(archive);
+  return bytes;
+}
+
+// The units of a loop: runs of its items.
+class Units {
+ public:
+  Units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays)
+      : context_(context), loop_(loop), rays_(rays) {
+    side_ = static_cast<std::size_t>(std::clamp(kRaysAUnit / std::max(loop.rays, 1.0), 1.0, 1e9));
+  }
+
+  std::size_t count() const { return (loop_.count + side_ - 1) / side_; }
+
+  // False: someone else is computing it.
+  bool finish(std::size_t unit) {
+    const Hash128 name = name_of(unit);
+    if (take(unit, name)) return true;
+    if (!context_.units->claim(name)) return false;
+    if (take(unit, name)) {  // it was finished in between
+      context_.units->leave(name);
+      return true;
+    }
+    const auto start = Clock::now();
+    std::uint64_t traced = 0;
+    for (std::size_t i = first(unit); i < last(unit) && !context_.stopped(); ++i) traced += loop_.compute(i);
+    add(traced);
+    if (context_.stopped())
+      context_.units->leave(name);  // it may be a part only
+    else
+      context_.units->keep(name, {written([&](Archive& a) { results(unit, traced, a); }), seconds_since(start)});
+    return true;
+  }
+
+ private:
+  std::size_t first(std::size_t unit) const { return unit * side_; }
+  std::size_t last(std::size_t unit) const { return std::min(loop_.count, (unit + 1) * side_); }
+
+  Hash128 name_of(std::size_t unit) const {
+    Hasher hasher;
+    Archive archive(hasher);
+    archive(context_.inputs, std::string(loop_.stage), last(unit) - first(unit));
+    for (std::size_t i = first(unit); i < last(unit); ++i) loop_.inputs(i, archive);
+    return hasher.result();
+  }
+
+  void results(std::size_t unit, std::uint64_t& traced, Archive& archive) const {
+    archive(traced);
+    for (std::size_t i = first(unit); i < last(unit); ++i) loop_.results(i, archive);
+  }
+
+  bool take(std::size_t unit, const Hash128& name) {
+    const std::optional<KeptUnit> kept = context_.units->find(name);
+    std::uint64_t traced = 0;
+    if (!kept || !restore(kept->results, [&](Archive& a) { results(unit, traced, a); })) return false;
+    add(traced);
+    return true;
+  }
+
+  void add(std::uint64_t traced) {
+    if (rays_) *rays_ += traced;
+  }
+
+  Context& context_;
+  const UnitLoop& loop_;
+  std::atomic<std::uint64_t>* rays_;
+  std::size_t side_;  // items of a unit
+};
+
+}  // namespace
+
+Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays) {
+  if (!context.units) {
+    const auto body = [&](std::size_t i) {
+      const std::uint64_t traced = loop.compute(i);
+      if (rays) *rays += traced;
+    };
+    return parallel_for(context, loop.stage, loop.count, body, rays);
+  }
+  Units units(context, loop, rays);
+  std::vector<std::uint8_t> finished(units.count());
+  ORIEL_TRY_VOID(parallel_for(
+      context, loop.stage, units.count(), [&](std::size_t u) { finished[u] = units.finish(u); }, rays));
+  for (;;) {
+    if (context.stopped()) return fail(ErrorCode::kStopped, std::string(loop.stage), "stopped");
+    std::vector<std::size_t> left;
+    for (std::size_t u = 0; u < finished.size(); ++u)
+      if (!finished[u]) left.push_back(u);
+    if (left.empty()) return {};
+    std::this_thread::sleep_for(kPatience);
+    ORIEL_TRY_VOID(
+        parallel_for(context, "", left.size(), [&](std::size_t i) { finished[left[i]] = units.finish(left[i]); }));
+  }
+}
+
+Status one_unit(Context& context, std::string_view stage, const std::function<void(Archive&)>& inputs,
+                const std::function<Status()>& compute, const std::function<void(Archive&)>& results) {
+  if (!context.units) return compute();
+  Hasher hasher;
+  Archive archive(hasher);
+  archive(context.inputs, std::string(stage));
+  inputs(archive);
+  const Hash128 name = hasher.result();
+  const auto take = [&] {
+    const auto kept = context.units->find(name);
+    return kept && restore(kept->results, results);
+  };
+  for (;; std::this_thread::sleep_for(kPatience)) {
+    if (take()) return {};
+    if (context.stopped()) return fail(ErrorCode::kStopped, std::string(stage), "stopped");
+    if (context.units->claim(name)) break;
+  }
+  if (take()) {  // it was finished in between
+    context.units->leave(name);
+    return {};
+  }
+  const auto start = Clock::now();
+  const Status status = compute();
+  if (status && !context.stopped())
+    context.units->keep(name, {written(results), seconds_since(start)});
+  else
+    context.units->leave(name);
+  return status;
+}
+
+}  // namespace oriel
