@@ -79,12 +79,12 @@ Result<double> stored_bytes(const CensusInput& in, const BakedScene& coarse, Ref
 
 // Parts of one map, captured and stored.
 Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, const Surroundings& surroundings,
-                           const RadianceMap& whole, Context& context) {
+                           const RadianceMap& whole, std::uint32_t paths, Context& context) {
   std::vector<RadianceMap> strips = strips_of(whole);
   std::atomic<std::uint64_t> rays{0};
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     std::uint64_t lobe_rays = 0;
-    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, context.seed, lobe_rays);
+    const Vec3 radiance = baked_radiance_with_lobes(coarse, seen, paths, context.seed, lobe_rays);
     rays += lobe_rays;
     return radiance;
   };
@@ -118,18 +118,19 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
   Component c{.name = "radiance"};
   c.seconds = planned ? kFewer * fewer.seconds : fewer.seconds;
   const Surroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
+  double surround = 0;
+  for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
+  const std::uint32_t paths = lobe_paths(more * fewer.pixels + surround);
   double rays = 0, bytes = 0, seconds = 0, all = 0;
   for (const FoundReflector& found : fewer.reflectors) {
     const Reflector& r = found.reflector;
     if (r.map_count == 0) continue;
-    ORIEL_TRY(const Rate rate, capture_parts(in, coarse, surroundings, fewer.maps[r.first_map], context));
+    ORIEL_TRY(const Rate rate, capture_parts(in, coarse, surroundings, fewer.maps[r.first_map], paths, context));
     double own = 0;
     for (std::uint32_t m = 0; m < r.map_count; ++m) own += more * pixels(fewer.maps[r.first_map + m]);
     seconds += own * rate.seconds, rays += own * rate.rays, bytes += own * rate.bytes, all += own;
   }
   // Texels of surround maps see the same light by one ray each.
-  double surround = 0;
-  for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
   const double scale = all > 0 ? 1 + surround / all : 1;
   c.seconds += scale * seconds;
   c.rays = static_cast<std::uint64_t>(scale * rays);

@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "bake/trace/albedo.h"
+#include "bake/trace/brdf/specular.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kLobeSamples = 32;
+constexpr std::uint32_t kFewerForMirrors = 8;  // whose rays only scatter where they arrive
 
 // One of a page's arrays at a point, bilinear.
 Vec3 sample_page(const LightmapPage& page, const std::vector<Vec3>& texels, const Atlas& atlas, std::uint32_t triangle,
@@ -39,8 +40,8 @@ Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const Surface
 }
 
 // What the specular lobes send towards the eye.
-Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint64_t seed,
-                std::uint64_t& rays) {
+Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint32_t paths,
+                std::uint64_t seed, std::uint64_t& rays) {
   const Transport transport{baked.accel, baked.lights, {}};
   const UVec2 place = glm::floatBitsToUint(surface.barycentric);
   const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
@@ -50,11 +51,11 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
     const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
     sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, v.triangle, v.barycentric, normal, normal);
   };
-  for (std::uint32_t i = 0; i < kLobeSamples; ++i) {
+  for (std::uint32_t i = 0; i < paths; ++i) {
     Sampler sampler(seed, stream, i);
     sum += specular_light(transport, surface, towards_eye, sampler, rays, add);
   }
-  return sum / float{kLobeSamples};
+  return sum / static_cast<float>(paths);
 }
 
 }  // namespace
@@ -73,11 +74,17 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
   return shown_light(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye), !seen.mirror);
 }
 
-Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint64_t seed,
-                               std::uint64_t& rays) {
+std::uint32_t lobe_paths(double pixels) {
+  constexpr double kFewest = 4, kMost = 32, kAll = 64e6;
+  return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
+}
+
+Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
+                               std::uint64_t seed, std::uint64_t& rays) {
   if (!seen.glossy) return baked_radiance(baked, seen);
   const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye);
-  return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, seed, rays);
+  if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
+  return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, paths, seed, rays);
 }
 
 }  // namespace oriel

@@ -29,9 +29,13 @@ struct BakedScene {
 // that counts; backs reflect nothing. Constant cost: no further ray.
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
 
-// The same, but glossy reflectors show what their lobe does: its light is traced until it meets diffuse surfaces, on
-// average over 32 paths. So a mirror shows the highlights in a polished floor. Adds to `rays`.
-Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint64_t seed,
-                               std::uint64_t& rays);
+// The same, but glossy reflectors show what their lobe does: its light is traced until it meets diffuse surfaces, the
+// mean of so many paths, of fewer from mirrors. So a mirror shows the highlights in a polished floor. Adds to `rays`.
+Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
+                               std::uint64_t seed, std::uint64_t& rays);
+
+// So many paths for each of `pixels`: 32, or fewer, down to 4, where there are so many that all maps together would
+// take longer than the lightmap. Neighbours then average what a pixel does not.
+std::uint32_t lobe_paths(double pixels);
 
 }  // namespace oriel

@@ -185,23 +185,29 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
   return planned;
 }
 
+double PlannedReflections::pixels() const {
+  double sum = 0;
+  for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
+  for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
+  return sum;
+}
+
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
   std::vector<RadianceMap> maps = planned.plan.maps;
-  double pixels = 0, tried = 0;
+  double tried = 0;
   for (RadianceMap& map : maps) {
-    pixels += double{1.0f * map.width} * map.height;
     map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
     tried += double{1.0f * map.width} * map.height;
   }
+  const std::uint32_t paths = lobe_paths(planned.pixels());
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(dark, seen, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
   };
   const Surroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
   const Deadline clock(0);
   ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, maps, nullptr));
-  for (const SurroundMap& map : planned.all.curved.maps) pixels += double{1.0f * map.size} * map.size;
   const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
-  planned.capture_s = pixels * a_pixel + kJudging * planned.seconds;
+  planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
   return {};
 }
 
@@ -231,8 +237,9 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   pack.walk_grids = region.grids;
   if (planned.empty()) return report;
   std::vector<FoundReflector>& reflectors = found.reflectors;
+  const std::uint32_t paths = lobe_paths(planned.pixels());
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(baked, seen, context.seed, *seen.rays);
+    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
   };
   // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
   const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
@@ -244,7 +251,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
     ORIEL_TRY_VOID(
         leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters, report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
-  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar);
+  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));

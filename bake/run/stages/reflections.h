@@ -37,9 +37,10 @@ struct ReflectionReport {
 // Reflections before there is light: what needs none of it.
 struct PlannedReflections {
   FoundReflections all;
-  ViewPlan plan;         // of the planar reflectors; without pixels
-  double seconds = 0;    // that planning took
-  double capture_s = 0;  // that the rest is likely to take; 0 unless asked for
+  ViewPlan plan;          // of the planar reflectors; without pixels
+  double seconds = 0;     // that planning took
+  double capture_s = 0;   // that the rest is likely to take; 0 unless asked for
+  double pixels() const;  // of all maps
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
 };
 
