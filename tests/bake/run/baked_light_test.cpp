@@ -44,7 +44,7 @@ TEST(BakedLight, LobesShowTheirReflectanceInAnEvenRoom) {
         ASSERT_TRUE(hit);
         SeenSurface seen{hit, towards_eye};
         seen.glossy = true;
-        sum += baked_radiance_with_lobes(baked, seen, 7, rays).g;
+        sum += baked_radiance_with_lobes(baked, seen, 32, 7, rays).g;
       }
       const Vec3 r = reflectance(shade_point(room.scene, room.scene.triangles.size() - 1, Vec2(0.3f)), cosine);
       EXPECT_NEAR(sum / kPoints, 3.5 * r.g, 0.01 * 3.5) << roughness << " " << cosine;
@@ -64,9 +64,9 @@ TEST(BakedLight, MirrorsAndWideLobesTraceNothing) {
   ASSERT_TRUE(hit);
   std::uint64_t rays = 0;
   SeenSurface seen{hit, Vec3(0, 0, 1)};
-  EXPECT_NEAR(baked_radiance_with_lobes(baked, seen, 7, rays).g, 0.9f, 0.01f);
+  EXPECT_NEAR(baked_radiance_with_lobes(baked, seen, 32, 7, rays).g, 0.9f, 0.01f);
   seen.mirror = true;
-  EXPECT_EQ(baked_radiance_with_lobes(baked, seen, 7, rays), Vec3(0));
+  EXPECT_EQ(baked_radiance_with_lobes(baked, seen, 32, 7, rays), Vec3(0));
   EXPECT_EQ(rays, 0u);
 }
 
