@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -16,13 +17,32 @@ namespace oriel {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31304e5545524fULL;  // "OREUN01"
+constexpr std::uint64_t kMagic = 0x32304e5545524fULL;  // "OREUN02"
 
-// The whole file of a unit: magic, checksum of the rest, name, seconds, results.
+constexpr int kLevel = 1;                                // of zstd: writing is to cost next to nothing
+constexpr unsigned long long kMostResults = 1ull << 34;  // bytes
+
+Bytes compressed(const Bytes& bytes) {
+  Bytes out(ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
+  out.resize(ZSTD_isError(size) ? 0 : size);
+  return out;
+}
+
+std::optional<Bytes> expanded(const Bytes& bytes) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size > kMostResults) return std::nullopt;  // errors are large numbers too
+  Bytes out(size);
+  if (ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size()) != size) return std::nullopt;
+  return out;
+}
+
+// The whole file of a unit: magic, checksum of the rest, name, seconds, results (zstd).
 Bytes file_of(const Hash128& name, const KeptUnit& unit) {
   Bytes rest, file;
   Archive body(rest), head(file);
-  body(name, unit.seconds, unit.results);
+  Bytes results = compressed(unit.results);
+  body(name, unit.seconds, results);
   head(kMagic, hash64(rest));
   file.insert(file.end(), rest.begin(), rest.end());
   return file;
@@ -39,8 +59,12 @@ std::optional<KeptUnit> unit_in(std::span<const std::byte> file, const Hash128& 
   KeptUnit unit;
   Hash128 found;
   Archive archive(rest);
-  archive(found, unit.seconds, unit.results);
+  Bytes results;
+  archive(found, unit.seconds, results);
   if (!archive.complete() || found != name) return std::nullopt;
+  auto bytes = expanded(results);
+  if (!bytes) return std::nullopt;
+  unit.results = std::move(*bytes);
   return unit;
 }
 
