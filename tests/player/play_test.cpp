@@ -173,7 +173,8 @@ class PlayWindow : public Play {
   Outcome in_display(const std::string& script) {
     std::ofstream(folder() / "script.sh") << "PLAY='" << (fs::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n"
                                           << script;
-    return shell("xvfb-run -a -s '-screen 0 640x480x24' bash script.sh");
+    // Without -noreset the server signals xvfb-run anew when the last window closes, while that cleans up.
+    return shell("xvfb-run -a -s '-screen 0 640x480x24 -noreset' bash script.sh");
   }
 };
 
