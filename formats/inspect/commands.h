@@ -48,6 +48,9 @@ struct DiffOptions {
 // changed by more than the tolerance, was added or has gone.
 int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options);
 
+// The pack as one HTML page to look at (formats/report).
+int page(const std::filesystem::path& path, const std::filesystem::path& output);
+
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.
 int report(const Error& error);
 

@@ -6,7 +6,7 @@
 
 #include "formats/inspect/commands.h"
 #include "formats/inspect/extraction.h"
-#include "formats/inspect/mesh_obj.h"
+#include "formats/export/mesh_obj.h"
 #include "formats/pack/reader.h"
 
 namespace oriel::inspect {

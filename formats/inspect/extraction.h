@@ -12,18 +12,6 @@
 
 namespace oriel::inspect {
 
-inline Bytes bytes_of(const std::string& text) {
-  const auto* p = reinterpret_cast<const std::byte*>(text.data());
-  return Bytes(p, p + text.size());
-}
-
-inline FloatImage rgb_image(std::uint32_t width, std::uint32_t height, std::span<const Vec3> values) {
-  FloatImage image{width, height, 3, {}};
-  image.pixels.reserve(values.size() * 3);
-  for (const Vec3& v : values) image.pixels.insert(image.pixels.end(), {v.r, v.g, v.b});
-  return image;
-}
-
 // One file after another into the folder; index.json lists those that were written.
 class Extraction {
  public:

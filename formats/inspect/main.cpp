@@ -70,6 +70,11 @@ int run(int argc, char** argv) {
   extract_command->add_option("-o,--output", options.folder, "The folder to write to; it is made where it is missing")
       ->required();
 
+  std::filesystem::path page_file;
+  auto* report_command = app.add_subcommand("report", "Write one HTML page: maps, surfaces, errors, sizes, options");
+  report_command->add_option("PACK", pack, "The .oriel file")->required();
+  report_command->add_option("-o,--output", page_file, "The page to write")->required();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -79,6 +84,7 @@ int run(int argc, char** argv) {
   if (info_command->parsed()) return info(pack, json);
   if (diff_command->parsed()) return diff(pack, after, diff_options);
   if (validate_command->parsed()) return validate(pack, scene, json);
+  if (report_command->parsed()) return page(pack, page_file);
   return extract(pack, options);
 }
 
