@@ -15,6 +15,10 @@ std::string shown_text(const std::string& text) {
   return escaped(text.substr(0, end)) + "…";
 }
 
+std::string number_text(double value) {
+  return std::abs(value) >= 1000 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
 Table::Table(const std::vector<std::string>& heads) : html_("<div class=\"wide\"><table><thead><tr>") {
   for (const std::string& head : heads) html_ += "<th>" + shown_text(head) + "</th>";
   html_ += "</tr></thead><tbody>\n";
@@ -52,8 +56,8 @@ std::string legend_svg(const HeatScale& scale) {
                        kLeft + i * kWidth / kSteps, kWidth / kSteps + 1, c.r, c.g, c.b);
   }
   for (double value = scale.lowest; value < 1.001 * double{scale.highest}; value *= 10)
-    svg += fmt::format("\n<text x=\"{:.1f}\" y=\"29\" text-anchor=\"middle\">{:.4g}</text>",
-                       kLeft + kWidth * double{share_of(scale, static_cast<float>(value))}, value);
+    svg += fmt::format("\n<text x=\"{:.1f}\" y=\"29\" text-anchor=\"middle\">{}</text>",
+                       kLeft + kWidth * double{share_of(scale, static_cast<float>(value))}, number_text(value));
   return svg + fmt::format("\n<text x=\"{}\" y=\"12\">{}</text></svg>\n", kLeft + kWidth + 8, escaped(scale.unit));
 }
 

@@ -15,6 +15,9 @@ namespace oriel::report {
 inline constexpr std::size_t kLongestText = 120;
 std::string shown_text(const std::string& text);
 
+// Four digits, without an exponent where that is shorter.
+std::string number_text(double value);
+
 // A table whose cells are texts of any kind.
 class Table {
  public:

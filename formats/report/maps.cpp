@@ -101,7 +101,7 @@ std::string lightmaps_html(const Pack& pack, const Limits& limits) {
     const LightmapSummary s = summarise(page);
     html += fmt::format(
         "<h3>Page {}</h3>\n<p class=\"quiet\">{} × {}, {} baked texels, {:.4g} to {:.4g} lux, mean {:.4g}, standard "
-        "error {:.2g} %{}.</p>\n<div class=\"figures\">\n",
+        "error {:.2g} %{}.</p>\n<div class=\"figures pages\">\n",
         i, page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
         page.direction.empty() ? "" : ", directional");
     html += figure(toned_img(rasters[i], white, "irradiance"), "irradiance");
@@ -126,10 +126,9 @@ std::string surfaces_html(const Pack& pack, const Limits& limits) {
   const std::size_t shown = std::min(limits.surfaces, surfaces.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [part, light] = surfaces[i];
-    table.row({part->name, pack.materials[part->material].name, fmt::format("{:.3g}", light.area_m2),
-               fmt::format("{:.4g}", light.lowest), fmt::format("{:.4g}", light.mean),
-               fmt::format("{:.4g}", light.highest), fmt::format("{:.2g}", std::sqrt(light.variance)),
-               fmt::format("{:.4g}", light.mean * light.area_m2)});
+    table.row({part->name, pack.materials[part->material].name, number_text(light.area_m2), number_text(light.lowest),
+               number_text(light.mean), number_text(light.highest), number_text(std::sqrt(light.variance)),
+               number_text(light.mean * light.area_m2)});
   }
   return "<h2>Surfaces</h2>\n<p class=\"quiet\">Those first that receive most light.</p>\n" + table.html() +
          left_out(surfaces.size(), shown, "surfaces");
@@ -141,7 +140,7 @@ std::string reflections_html(const Pack& pack, const Limits& limits) {
   const std::size_t shown = std::min(limits.lines, pack.reflectors.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const Reflector& r = pack.reflectors[i];
-    table.row({r.name, pack.materials[r.material].name, fmt::format("{:.3g}", r.area_m2),
+    table.row({r.name, pack.materials[r.material].name, number_text(r.area_m2),
                fmt::format("{} × {}", r.elements_x, r.elements_y), fmt::format("{}", r.map_count),
                fmt::format("{}", r.emitters.size())});
   }

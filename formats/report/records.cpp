@@ -72,11 +72,8 @@ std::string ledger_html(const Json& plan) {
              incident = lumens(at(plan, {"radiosity", "incident_lm"}));
   if (!emitted && !incident) return {};
   Table table({"light", "lm"});
-  if (emitted) table.row({"emitted by surfaces and lamps", fmt::format("{:.4g}", *emitted)});
-  if (incident) table.row({"received by surfaces, over all bounces", fmt::format("{:.4g}", *incident)});
-  for (const char* entry : {"absorbed", "escaped", "balance"})
-    if (const auto value = lumens(at(plan, {"scene", (std::string(entry) + "_lm").c_str()})))
-      table.row({entry, fmt::format("{:.4g}", *value)});
+  if (emitted) table.row({"emitted by surfaces and lamps", number_text(*emitted)});
+  if (incident) table.row({"received by surfaces, over all bounces", number_text(*incident)});
   return "<h2>Light</h2>\n" + table.html();
 }
 

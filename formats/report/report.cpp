@@ -23,6 +23,7 @@ td {{ font-variant-numeric: tabular-nums; overflow-wrap: anywhere }} td:first-ch
 .bars {{ display: grid; grid-template-columns: max-content 1fr max-content; gap: .15rem .7rem; font-size: .85rem;
 align-items: center }} .bars i {{ background: #3f7cac; height: .8em; min-width: 1px; border-radius: 2px }}
 .figures {{ display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start }} figure {{ margin: 0; max-width: 100% }}
+.pages figure {{ flex: 1 1 30%; max-width: 32% }}
 img {{ max-width: 100%; height: auto; image-rendering: pixelated; border: 1px solid #e3e3e3 }}
 svg text {{ font: 11px system-ui, sans-serif; fill: #444 }} svg .frame {{ fill: none; stroke: #ccc }} svg {{ max-width: 100% }}
 details {{ margin: .6rem 0 }} summary {{ cursor: pointer }}
