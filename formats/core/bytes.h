@@ -16,7 +16,7 @@ namespace oriel {
 
 using Bytes = std::vector<std::byte>;
 
-inline Bytes bytes_of(std::string_view text) {
+inline Bytes bytes_of_text(std::string_view text) {
   const auto* p = reinterpret_cast<const std::byte*>(text.data());
   return Bytes(p, p + text.size());
 }

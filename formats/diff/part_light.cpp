@@ -1,32 +1,21 @@
 #include "formats/diff/part_light.h"
 
+#include "formats/assets/bilinear.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
 // Bilinear; texels that were not baked have light but no error.
-TexelLight light_at(const Pack& pack, const MeshPart& part, const Vec2& uv) {
-  const LightmapPage& page = pack.lightmaps[static_cast<std::size_t>(part.lightmap_page)];
-  const auto clamped = [](float at, std::uint32_t size) {
-    return std::clamp(at * static_cast<float>(size) - 0.5f, 0.0f, static_cast<float>(size - 1));
-  };
-  const float x = clamped(uv.x, page.width), y = clamped(uv.y, page.height);
-  const auto x0 = static_cast<std::size_t>(x), y0 = static_cast<std::size_t>(y);
-  const std::size_t x1 = std::min<std::size_t>(x0 + 1, page.width - 1),
-                    y1 = std::min<std::size_t>(y0 + 1, page.height - 1);
-  const double tx = x - static_cast<float>(x0), ty = y - static_cast<float>(y0);
+TexelLight light_at(const LightmapPage& page, const Vec2& uv) {
+  const TexelsAround around = texels_around(uv, page.width, page.height);
   TexelLight light;
-  const auto add = [&](std::size_t column, std::size_t row, double weight) {
-    const std::size_t at = row * page.width + column;
-    light.lux += weight * luminance(page.irradiance[at]);
-    const double error = luminance(page.standard_error[at]);
-    light.variance += weight * error * error;  // texels beside each other share their noise: no gain from blending
-  };
-  add(x0, y0, (1 - tx) * (1 - ty));
-  add(x1, y0, tx * (1 - ty));
-  add(x0, y1, (1 - tx) * ty);
-  add(x1, y1, tx * ty);
+  for (std::size_t i = 0; i < 4; ++i) {
+    light.lux += double{around.weight[i]} * luminance(page.irradiance[around.texel[i]]);
+    const double error = luminance(page.standard_error[around.texel[i]]);
+    // Texels beside each other share their noise: no gain from blending.
+    light.variance += double{around.weight[i]} * error * error;
+  }
   return light;
 }
 
@@ -35,7 +24,7 @@ TexelLight light_at(const Pack& pack, const MeshPart& part, const Vec2& uv) {
 TexelLight PartSampler::at(std::size_t t, const Vec3& barycentric) const {
   Vec2 uv(0);
   for (std::size_t c = 0; c < 3; ++c) uv += barycentric[static_cast<int>(c)] * pack_.mesh.lightmap_uvs[vertex(t, c)];
-  return light_at(pack_, part_, uv);
+  return light_at(pack_.lightmaps[static_cast<std::size_t>(part_.lightmap_page)], uv);
 }
 
 Vec3 point_of(std::size_t i) {

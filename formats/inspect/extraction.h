@@ -41,7 +41,7 @@ class Extraction {
   }
   Status csv(Json& entry, const char* role, const std::string& name, const std::string& text) {
     entry["files"][role] = name;
-    return write_file_atomically(folder_ / name, bytes_of(text));
+    return write_file_atomically(folder_ / name, bytes_of_text(text));
   }
   Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
   Status kernel_slices(const BrdfKernel& kernel, const std::string& name, Json& entry);

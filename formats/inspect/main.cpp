@@ -25,6 +25,10 @@ Examples:
                                                which rooms changed, as Markdown; exit code 5 beyond 2 %
   oriel-inspect extract house.oriel --kind lightmap -o maps
                                                maps/lightmap_000.exr holds irradiance in lux
+  oriel-inspect report house.oriel -o house.html
+                                               maps, surfaces, errors and sizes as one page
+  oriel-inspect export house.oriel -o house.glb
+                                               the lit scene for any glTF viewer
 
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
 
@@ -70,10 +74,20 @@ int run(int argc, char** argv) {
   extract_command->add_option("-o,--output", options.folder, "The folder to write to; it is made where it is missing")
       ->required();
 
-  std::filesystem::path page_file;
+  std::filesystem::path output;
   auto* report_command = app.add_subcommand("report", "Write one HTML page: maps, surfaces, errors, sizes, options");
   report_command->add_option("PACK", pack, "The .oriel file")->required();
-  report_command->add_option("-o,--output", page_file, "The page to write")->required();
+  report_command->add_option("-o,--output", output, "The page to write")->required();
+
+  std::string light = "emissive";
+  auto* export_command = app.add_subcommand("export", "Write the scene as .glb with its light, for other programs");
+  export_command->add_option("PACK", pack, "The .oriel file")->required();
+  export_command->add_option("-o,--output", output, "The .glb file to write")->required();
+  export_command
+      ->add_option("--as", light,
+                   "emissive: any viewer shows the light as it is; lightmap: EXR files in lux beside the scene")
+      ->check(CLI::IsMember({"emissive", "lightmap"}))
+      ->capture_default_str();
 
   try {
     app.parse(argc, argv);
@@ -84,7 +98,8 @@ int run(int argc, char** argv) {
   if (info_command->parsed()) return info(pack, json);
   if (diff_command->parsed()) return diff(pack, after, diff_options);
   if (validate_command->parsed()) return validate(pack, scene, json);
-  if (report_command->parsed()) return page(pack, page_file);
+  if (report_command->parsed()) return page(pack, output);
+  if (export_command->parsed()) return export_scene(pack, output, light == "lightmap");
   return extract(pack, options);
 }
 

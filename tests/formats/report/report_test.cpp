@@ -166,7 +166,7 @@ TEST(Report, OpensInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "chromium is not installed";
   const oriel::testing::TemporaryFolder folder;
   const auto console = [&](const std::string& html) {
-    EXPECT_TRUE(write_file_atomically(folder.path() / "page.html", bytes_of(html)));
+    EXPECT_TRUE(write_file_atomically(folder.path() / "page.html", bytes_of_text(html)));
     const std::string command =
         "timeout 60 chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr --v=0 "
         "--user-data-dir=" +
