@@ -52,18 +52,20 @@ std::optional<double> lumens(const Json& value) {
 }
 
 std::string components_html(const Json& plan) {
-  Table table({"component", "asked", "stated by the estimate", "measured", "95 % interval"});
+  Table table(
+      {"component", "asked", "stated by the estimate", "measured", "95 % interval", "of what is seen", "holes"});
   const Json errors = at(plan, {"errors"});
   for (const Json& e : errors.is_array() ? errors : Json::array()) {
     const Json component = at(e, {"component"});
     table.row({component.is_string() ? component.get<std::string>() : dump(component), percent(at(e, {"asked"})),
-               percent(at(e, {"stated"})), percent(at(e, {"measured"})), interval(at(e, {"measured_95_interval"}))});
+               percent(at(e, {"stated"})), percent(at(e, {"measured"})), interval(at(e, {"measured_95_interval"})),
+               percent(at(e, {"of_seen"})), percent(at(e, {"holes"}))});
   }
   const Json stated = at(plan, {"radiosity", "relative_standard_error"});
-  if (table.empty() && stated.is_number()) table.row({"D", "", percent(stated), "", ""});
+  if (table.empty() && stated.is_number()) table.row({"D", "", percent(stated), "", "", "", ""});
   if (table.empty()) return {};
   return "<h2>Errors</h2>\n<p class=\"quiet\">Relative, by component: D what diffuse surfaces show, S what reflectors "
-         "do.</p>\n" +
+         "do, and how much of it no map saw.</p>\n" +
          table.html();
 }
 
