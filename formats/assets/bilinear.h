@@ -21,8 +21,9 @@ struct TexelsAlong {
   float share = 0;
 };
 
-// at: finite, in widths of the map; size >= 1.
+// at: in widths of the map, 0 where it is not finite; size >= 1.
 inline TexelsAlong texels_along(float at, std::uint32_t size, Wrap wrap) {
+  if (!std::isfinite(at)) at = 0;
   const double period = wrap == Wrap::kMirror ? 2 : 1, n = size;
   const double within = wrap == Wrap::kClamp ? std::clamp(double{at}, 0.0, 1.0) : at - period * std::floor(at / period);
   const double texel = within * n - 0.5, low = std::floor(texel);

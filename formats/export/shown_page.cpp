@@ -88,7 +88,7 @@ class PageRaster {
         const DVec2 at(x, y);
         const Vec3 b(cross(p[1] - at, p[2] - at) / area, cross(p[2] - at, p[0] - at) / area,
                      cross(p[0] - at, p[1] - at) / area);
-        if (std::min({b.x, b.y, b.z}) < kInside) continue;
+        if (!(std::min({b.x, b.y, b.z}) >= kInside && std::max({b.x, b.y, b.z}) <= 1 - kInside)) continue;
         const std::size_t to = std::size_t{y} * width_ + x;
         light_[to] = radiance(pack_.materials[material], v, b);
         covered_[to] = 1;

@@ -189,7 +189,7 @@ TEST(Bilinear, WrapsAsTheTextureSays) {
   for (const Wrap wrap : {Wrap::kRepeat, Wrap::kClamp, Wrap::kMirror}) {
     EXPECT_FLOAT_EQ(blend(0.125f, wrap), 0);
     EXPECT_FLOAT_EQ(blend(0.5f, wrap), 1.5f);
-    for (const float far : {1e30f, -1e30f, 1e7f + 0.5f}) {
+    for (const float far : {1e30f, -1e30f, 1e7f + 0.5f, std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
       const TexelsAlong t = texels_along(far, 4, wrap);
       EXPECT_LT(std::max(t.first, t.second), 4u) << far;
       EXPECT_TRUE(std::isfinite(t.share));
