@@ -16,6 +16,11 @@ namespace oriel {
 
 using Bytes = std::vector<std::byte>;
 
+inline Bytes bytes_of_text(std::string_view text) {
+  const auto* p = reinterpret_cast<const std::byte*>(text.data());
+  return Bytes(p, p + text.size());
+}
+
 class ByteWriter {
  public:
   template <class T>

@@ -3,103 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "formats/core/color.h"
+#include "formats/diff/leaves.h"
+#include "formats/diff/part_light.h"
 
 namespace oriel {
 namespace {
 
 constexpr double kDark = 0.01;  // of the scene's mean: darker surfaces are measured by it
 using PartKey = std::tuple<std::string, std::string, std::size_t>;  // name, material, how many of these came before
-
-struct Light {
-  double lux = 0, variance = 0;
-};
-
-// Bilinear; texels that were not baked have light but no error.
-Light light_at(const Pack& pack, const MeshPart& part, const Vec2& uv) {
-  const LightmapPage& page = pack.lightmaps[static_cast<std::size_t>(part.lightmap_page)];
-  const auto clamped = [](float at, std::uint32_t size) {
-    return std::clamp(at * static_cast<float>(size) - 0.5f, 0.0f, static_cast<float>(size - 1));
-  };
-  const float x = clamped(uv.x, page.width), y = clamped(uv.y, page.height);
-  const auto x0 = static_cast<std::size_t>(x), y0 = static_cast<std::size_t>(y);
-  const std::size_t x1 = std::min<std::size_t>(x0 + 1, page.width - 1),
-                    y1 = std::min<std::size_t>(y0 + 1, page.height - 1);
-  const double tx = x - static_cast<float>(x0), ty = y - static_cast<float>(y0);
-  Light light;
-  const auto add = [&](std::size_t column, std::size_t row, double weight) {
-    const std::size_t at = row * page.width + column;
-    light.lux += weight * luminance(page.irradiance[at]);
-    const double error = luminance(page.standard_error[at]);
-    light.variance += weight * error * error;  // texels beside each other share their noise: no gain from blending
-  };
-  add(x0, y0, (1 - tx) * (1 - ty));
-  add(x1, y0, tx * (1 - ty));
-  add(x0, y1, (1 - tx) * ty);
-  add(x1, y1, tx * ty);
-  return light;
-}
-
-struct Sums {
-  double weight = 0, lux = 0, variance = 0;
-};
-
-class PartSampler {
- public:
-  PartSampler(const Pack& pack, const MeshPart& part) : pack_(pack), part_(part) {}
-
-  std::size_t triangles() const { return part_.index_count / 3; }
-  Vec3 corner(std::size_t t, std::size_t c) const { return pack_.mesh.positions[vertex(t, c)]; }
-  double area(std::size_t t) const {
-    return 0.5 * glm::length(glm::cross(DVec3(corner(t, 1) - corner(t, 0)), DVec3(corner(t, 2) - corner(t, 0))));
-  }
-  double area() const {
-    double sum = 0;
-    for (std::size_t t = 0; t < triangles(); ++t) sum += area(t);
-    return sum;
-  }
-  Light at(std::size_t t, const Vec3& barycentric) const {
-    Vec2 uv(0);
-    for (std::size_t c = 0; c < 3; ++c) uv += barycentric[static_cast<int>(c)] * pack_.mesh.lightmap_uvs[vertex(t, c)];
-    return light_at(pack_, part_, uv);
-  }
-
- private:
-  std::uint32_t vertex(std::size_t t, std::size_t c) const { return pack_.mesh.indices[part_.first_index + 3 * t + c]; }
-  const Pack& pack_;
-  const MeshPart& part_;
-};
-
-// Point i of a triangle, by the golden ratio in two dimensions (Roberts 2018), folded into the triangle.
-Vec3 point_of(std::size_t i) {
-  const double g = 1.32471795724474602596, n = static_cast<double>(i) + 1;
-  double u = std::fmod(0.5 + n / g, 1.0), v = std::fmod(0.5 + n / (g * g), 1.0);
-  if (u + v > 1) u = 1 - u, v = 1 - v;
-  return {static_cast<float>(1 - u - v), static_cast<float>(u), static_cast<float>(v)};
-}
-
-template <class F>
-void for_points(const PartSampler& part, std::size_t points, F&& visit) {
-  const double area = part.area();
-  for (std::size_t t = 0; t < part.triangles(); ++t) {
-    const double share = area > 0 ? part.area(t) / area : 0;
-    const auto n = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(share * static_cast<double>(points))));
-    for (std::size_t i = 0; i < n; ++i) visit(t, point_of(i), share / static_cast<double>(n));
-  }
-}
-
-Sums mean_light(const PartSampler& part, std::size_t points) {
-  Sums sums;
-  for_points(part, points, [&](std::size_t t, const Vec3& at, double weight) {
-    const Light light = part.at(t, at);
-    sums.weight += weight;
-    sums.lux += weight * light.lux;
-    sums.variance += weight * light.variance;
-  });
-  return sums;
-}
 
 bool same_shape(const PartSampler& a, const PartSampler& b, const DVec3& offset) {
   if (a.triangles() != b.triangles()) return false;
@@ -123,21 +35,21 @@ std::map<PartKey, const MeshPart*> parts_of(const Pack& pack) {
 
 SurfaceChange compare(const Pack& before, const MeshPart& a, const Pack& after, const MeshPart& b, std::size_t points) {
   const PartSampler first(before, a), second(after, b);
-  const Sums was = mean_light(first, points), is = mean_light(second, points);
+  const PartLight was = light_of(first, points), is = light_of(second, points);
   SurfaceChange change;
   change.same_shape = same_shape(first, second, before.mesh.origin - after.mesh.origin);
-  change.area_m2 = first.area();
-  change.before_lux = was.lux;
-  change.after_lux = is.lux;
+  change.area_m2 = was.area_m2;
+  change.before_lux = was.mean;
+  change.after_lux = is.mean;
   change.before_error_lux = std::sqrt(was.variance);
   change.after_error_lux = std::sqrt(is.variance);
   if (!change.same_shape) {
-    change.rms_lux = std::abs(is.lux - was.lux);
+    change.rms_lux = std::abs(is.mean - was.mean);
     return change;
   }
   double squares = 0, noise = 0;
   for_points(first, points, [&](std::size_t t, const Vec3& at, double weight) {
-    const Light x = first.at(t, at), y = second.at(t, at);
+    const TexelLight x = first.at(t, at), y = second.at(t, at);
     squares += weight * (x.lux - y.lux) * (x.lux - y.lux);
     noise += weight * (x.variance + y.variance);
   });
@@ -148,30 +60,14 @@ SurfaceChange compare(const Pack& before, const MeshPart& a, const Pack& after, 
 
 SurfaceChange only(const Pack& pack, const MeshPart& part, SurfaceState state, std::size_t points) {
   const PartSampler sampler(pack, part);
-  const Sums light = mean_light(sampler, points);
+  const PartLight light = light_of(sampler, points);
   SurfaceChange change;
   change.state = state;
-  change.area_m2 = sampler.area();
-  (state == SurfaceState::kOnlyInFirst ? change.before_lux : change.after_lux) = light.lux;
+  change.area_m2 = light.area_m2;
+  (state == SurfaceState::kOnlyInFirst ? change.before_lux : change.after_lux) = light.mean;
   (state == SurfaceState::kOnlyInFirst ? change.before_error_lux : change.after_error_lux) = std::sqrt(light.variance);
-  change.rms_lux = light.lux;
+  change.rms_lux = light.mean;
   return change;
-}
-
-// Leaves of a JSON object by their path.
-void flatten(const nlohmann::json& json, const std::string& path, std::map<std::string, std::string>& leaves) {
-  if (!json.is_object()) {
-    leaves[path] = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return;
-  }
-  for (const auto& [key, value] : json.items()) flatten(value, path.empty() ? key : path + "." + key, leaves);
-}
-
-std::map<std::string, std::string> leaves_of(const std::string& text) {
-  std::map<std::string, std::string> leaves;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_discarded()) flatten(json, "", leaves);
-  return leaves;
 }
 
 std::vector<OptionChange> diff_options(const std::string& before, const std::string& after) {

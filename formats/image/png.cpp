@@ -23,15 +23,15 @@
 
 namespace oriel {
 
-Status write_png(const std::filesystem::path& path, const ByteImage& image) {
+Result<Bytes> encode_png(const ByteImage& image) {
   if (image.channels != 1 && image.channels != 3 && image.channels != 4)
-    return invalid(path.string(), "found {} channels, expected 1, 3 or 4", image.channels);
+    return invalid("", "found {} channels, expected 1, 3 or 4", image.channels);
   if (image.width == 0 || image.height == 0 || image.width > STBI_MAX_DIMENSIONS || image.height > STBI_MAX_DIMENSIONS)
-    return invalid(path.string(), "found {} x {} pixels, expected 1 to {} a side", image.width, image.height,
+    return invalid("", "found {} x {} pixels, expected 1 to {} a side", image.width, image.height,
                    STBI_MAX_DIMENSIONS);
   const std::uint64_t expected = std::uint64_t{image.width} * image.height * image.channels;
   if (image.pixels.size() != expected || expected > 0x7fff0000)
-    return invalid(path.string(), "found {} values, expected {} and less than 2^31", image.pixels.size(), expected);
+    return invalid("", "found {} values, expected {} and less than 2^31", image.pixels.size(), expected);
   Bytes bytes;
   const auto append = [](void* to, void* data, int size) {
     const auto* p = static_cast<const std::byte*>(data);
@@ -40,8 +40,17 @@ Status write_png(const std::filesystem::path& path, const ByteImage& image) {
   const int stride = static_cast<int>(image.width * image.channels);
   if (!stbi_write_png_to_func(append, &bytes, static_cast<int>(image.width), static_cast<int>(image.height),
                               static_cast<int>(image.channels), image.pixels.data(), stride))
-    return fail(ErrorCode::kRuntime, path.string(), "cannot be encoded as PNG");
-  return write_file_atomically(path, bytes);
+    return fail(ErrorCode::kRuntime, "", "cannot be encoded as PNG");
+  return bytes;
+}
+
+Status write_png(const std::filesystem::path& path, const ByteImage& image) {
+  auto bytes = encode_png(image);
+  if (!bytes) {
+    bytes.error().where = path.string();
+    return tl::unexpected<Error>(bytes.error());
+  }
+  return write_file_atomically(path, *bytes);
 }
 
 Result<ByteImage> read_png(const std::filesystem::path& path) {

@@ -48,6 +48,13 @@ struct DiffOptions {
 // changed by more than the tolerance, was added or has gone.
 int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options);
 
+// The pack as one HTML page to look at (formats/report).
+int page(const std::filesystem::path& path, const std::filesystem::path& output);
+
+// The scene as binary glTF with its light as emissive textures or, as_lightmap, with EXR files beside it
+// (formats/export).
+int export_scene(const std::filesystem::path& path, const std::filesystem::path& output, bool as_lightmap);
+
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.
 int report(const Error& error);
 

@@ -6,7 +6,7 @@
 
 #include "formats/inspect/commands.h"
 #include "formats/inspect/extraction.h"
-#include "formats/inspect/mesh_obj.h"
+#include "formats/export/mesh_obj.h"
 #include "formats/pack/reader.h"
 
 namespace oriel::inspect {
@@ -100,7 +100,7 @@ Status Extraction::mesh() {
              {"triangles", pack_.mesh.indices.size() / 3},
              {"origin", {pack_.mesh.origin.x, pack_.mesh.origin.y, pack_.mesh.origin.z}}};
   entry["files"] = {{"geometry", "mesh.obj"}};
-  ORIEL_TRY_VOID(write_file_atomically(folder_ / "mesh.obj", bytes_of(obj_text(pack_.mesh))));
+  ORIEL_TRY_VOID(write_file_atomically(folder_ / "mesh.obj", bytes_of_text(obj_text(pack_.mesh))));
   index_.push_back(std::move(entry));
   return {};
 }
@@ -108,7 +108,7 @@ Status Extraction::mesh() {
 Status Extraction::finish(const std::filesystem::path& source) {
   const Json out{{"schema", kJsonSchema}, {"source", source.filename().string()}, {"entries", index_}};
   ORIEL_TRY_VOID(write_file_atomically(folder_ / "index.json",
-                                       bytes_of(out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")));
+                                       bytes_of_text(out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")));
   fmt::print("{}\n", (folder_ / "index.json").string());
   return {};
 }

@@ -12,18 +12,6 @@
 
 namespace oriel::inspect {
 
-inline Bytes bytes_of(const std::string& text) {
-  const auto* p = reinterpret_cast<const std::byte*>(text.data());
-  return Bytes(p, p + text.size());
-}
-
-inline FloatImage rgb_image(std::uint32_t width, std::uint32_t height, std::span<const Vec3> values) {
-  FloatImage image{width, height, 3, {}};
-  image.pixels.reserve(values.size() * 3);
-  for (const Vec3& v : values) image.pixels.insert(image.pixels.end(), {v.r, v.g, v.b});
-  return image;
-}
-
 // One file after another into the folder; index.json lists those that were written.
 class Extraction {
  public:
@@ -53,7 +41,7 @@ class Extraction {
   }
   Status csv(Json& entry, const char* role, const std::string& name, const std::string& text) {
     entry["files"][role] = name;
-    return write_file_atomically(folder_ / name, bytes_of(text));
+    return write_file_atomically(folder_ / name, bytes_of_text(text));
   }
   Status images(const char* kind, const char* role, const std::vector<Texture>& textures);
   Status kernel_slices(const BrdfKernel& kernel, const std::string& name, Json& entry);

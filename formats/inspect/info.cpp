@@ -7,7 +7,7 @@
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/info_reflections.h"
-#include "formats/inspect/summary.h"
+#include "formats/report/summary.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "formats/inspect/summary.h"
+#include "formats/report/summary.h"
 
 namespace oriel::inspect {
 namespace {

@@ -1,6 +1,7 @@
 // oriel-inspect: what a pack holds, and whether it can be trusted. docs/oriel-inspect.md is its page.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <functional>
 #include <system_error>
 
 #include "formats/inspect/commands.h"
@@ -25,61 +26,97 @@ Examples:
                                                which rooms changed, as Markdown; exit code 5 beyond 2 %
   oriel-inspect extract house.oriel --kind lightmap -o maps
                                                maps/lightmap_000.exr holds irradiance in lux
+  oriel-inspect report house.oriel -o house.html
+                                               maps, surfaces, errors and sizes as one page
+  oriel-inspect export house.oriel -o house.glb
+                                               the lit scene for any glTF viewer
 
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
+
+struct Arguments {
+  std::string pack, after, scene, light = "emissive";
+  std::filesystem::path output;
+  bool json = false;
+  ExtractOptions extract;
+  DiffOptions diff;
+  std::function<int()> run;  // the command that was named
+};
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* description, Arguments& a,
+                      std::function<int()> run) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->callback([&a, run = std::move(run)] { a.run = run; });
+  return command;
+}
+
+void add_checks(CLI::App& app, Arguments& a) {
+  auto* info_command = add_command(app, "info", "Show sections, sizes, maps, statistics and the options of the bake", a,
+                                   [&a] { return info(a.pack, a.json); });
+  info_command->add_option("PACK", a.pack, "The .oriel file")->required();
+  info_command->add_flag("--json", a.json, "Print JSON: stable names, one object, for programs to read");
+
+  auto* validate_command = add_command(app, "validate", "Check all checksums and the meaning of every number", a,
+                                       [&a] { return validate(a.pack, a.scene, a.json); });
+  validate_command->add_option("PACK", a.pack, "The .oriel file")->required();
+  validate_command->add_flag("--json", a.json, "Print the issues as JSON");
+  validate_command->add_option("--scene", a.scene,
+                               "The scene file: tell which files changed since it was baked; then exit code 5");
+}
+
+void add_diff(CLI::App& app, Arguments& a) {
+  auto* command = add_command(app, "diff", "Tell two packs of one building apart: light by surface, sections, options",
+                              a, [&a] { return diff(a.pack, a.after, a.diff); });
+  command->add_option("BEFORE", a.pack, "An .oriel file")->required();
+  command->add_option("AFTER", a.after, "The one to compare with it")->required();
+  command->add_flag("--json", a.diff.json, "Print JSON: all surfaces");
+  command
+      ->add_option("--tolerance", a.diff.tolerance,
+                   "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5")
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--surfaces", a.diff.surfaces, "How many surfaces to list, those that changed most first")
+      ->capture_default_str();
+}
+
+void add_writers(CLI::App& app, Arguments& a) {
+  auto* extract_command = add_command(app, "extract", "Write the maps as EXR and PNG files, and index.json", a,
+                                      [&a] { return extract(a.pack, a.extract); });
+  extract_command->add_option("PACK", a.pack, "The .oriel file")->required();
+  extract_command->add_option("--kind", a.extract.kind, "What to write: " + extract_kinds())->capture_default_str();
+  extract_command->add_option("-o,--output", a.extract.folder, "The folder to write to; it is made where it is missing")
+      ->required();
+
+  auto* report_command = add_command(app, "report", "Write one HTML page: maps, surfaces, errors, sizes, options", a,
+                                     [&a] { return page(a.pack, a.output); });
+  report_command->add_option("PACK", a.pack, "The .oriel file")->required();
+  report_command->add_option("-o,--output", a.output, "The page to write")->required();
+
+  auto* export_command = add_command(app, "export", "Write the scene as .glb with its light, for other programs", a,
+                                     [&a] { return export_scene(a.pack, a.output, a.light == "lightmap"); });
+  export_command->add_option("PACK", a.pack, "The .oriel file")->required();
+  export_command->add_option("-o,--output", a.output, "The .glb file to write")->required();
+  export_command
+      ->add_option("--as", a.light,
+                   "emissive: any viewer shows the light as it is; lightmap: EXR files in lux beside the scene")
+      ->check(CLI::IsMember({"emissive", "lightmap"}))
+      ->capture_default_str();
+}
 
 int run(int argc, char** argv) {
   CLI::App app("oriel-inspect: tells what an .oriel pack holds and whether it can be trusted.", "oriel-inspect");
   app.set_version_flag("--version", std::string("oriel-inspect ") + kVersion);
   app.footer(kFooter);
   app.require_subcommand(1);
-
-  std::string pack;
-  bool json = false;
-  ExtractOptions options;
-
-  auto* info_command = app.add_subcommand("info", "Show sections, sizes, maps, statistics and the options of the bake");
-  info_command->add_option("PACK", pack, "The .oriel file")->required();
-  info_command->add_flag("--json", json, "Print JSON: stable names, one object, for programs to read");
-
-  auto* validate_command = app.add_subcommand("validate", "Check all checksums and the meaning of every number");
-  validate_command->add_option("PACK", pack, "The .oriel file")->required();
-  validate_command->add_flag("--json", json, "Print the issues as JSON");
-  std::string scene;
-  validate_command->add_option("--scene", scene,
-                               "The scene file: tell which files changed since it was baked; then exit code 5");
-
-  auto* diff_command =
-      app.add_subcommand("diff", "Tell two packs of one building apart: light by surface, sections, options");
-  std::string after;
-  DiffOptions diff_options;
-  diff_command->add_option("BEFORE", pack, "An .oriel file")->required();
-  diff_command->add_option("AFTER", after, "The one to compare with it")->required();
-  diff_command->add_flag("--json", diff_options.json, "Print JSON: all surfaces");
-  diff_command
-      ->add_option("--tolerance", diff_options.tolerance,
-                   "Share of a surface's light that may change beyond noise, for instance 0.02: more is exit code 5")
-      ->check(CLI::Range(0.0, 1e6));
-  diff_command
-      ->add_option("--surfaces", diff_options.surfaces, "How many surfaces to list, those that changed most first")
-      ->capture_default_str();
-
-  auto* extract_command = app.add_subcommand("extract", "Write the maps as EXR and PNG files, and index.json");
-  extract_command->add_option("PACK", pack, "The .oriel file")->required();
-  extract_command->add_option("--kind", options.kind, "What to write: " + extract_kinds())->capture_default_str();
-  extract_command->add_option("-o,--output", options.folder, "The folder to write to; it is made where it is missing")
-      ->required();
-
+  Arguments arguments;
+  add_checks(app, arguments);
+  add_diff(app, arguments);
+  add_writers(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     const int code = app.exit(e);
     return code == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
   }
-  if (info_command->parsed()) return info(pack, json);
-  if (diff_command->parsed()) return diff(pack, after, diff_options);
-  if (validate_command->parsed()) return validate(pack, scene, json);
-  return extract(pack, options);
+  return arguments.run();
 }
 
 }  // namespace

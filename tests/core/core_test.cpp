@@ -12,6 +12,7 @@
 #include "formats/core/hash.h"
 #include "formats/core/octahedral.h"
 #include "formats/core/result.h"
+#include "formats/core/text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oriel {
@@ -224,6 +225,21 @@ TEST(Vectors, FramesAreOrthonormal) {
     EXPECT_NEAR(glm::length(frame[0]), 1, 1e-6);
     EXPECT_NEAR(glm::determinant(frame), 1, 1e-5);
   }
+}
+
+TEST(Base64, IsThatOfTheStandard) {
+  const auto of = [](const std::string& text) { return base64(std::as_bytes(std::span(text))); };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foo"), "Zm9v");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(of("\xff\xfe"), "//4=");
+}
+
+TEST(Escaped, MarksUpNothing) {
+  EXPECT_EQ(escaped("<a href=\"x\">'&amp;'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;amp;&#39;&lt;/a&gt;");
+  EXPECT_EQ(escaped(""), "");
 }
 
 }  // namespace

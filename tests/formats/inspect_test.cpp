@@ -212,6 +212,28 @@ TEST_F(Inspect, ExtractsOneKind) {
   EXPECT_EQ(nlohmann::json::parse(slurp(to / "index.json"))["entries"].size(), 1u);
 }
 
+TEST_F(Inspect, ReportsAndExports) {
+  const auto html = folder_.path() / "page.html", glb = folder_.path() / "tiny.glb";
+  const Outcome page = run("report " + pack_.string() + " -o " + html.string());
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_NE(slurp(html).find("<h1>tiny.oriel</h1>"), std::string::npos);
+  const Outcome shown = run("export " + pack_.string() + " -o " + glb.string());
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find("white: "), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("left out: 1 movers"), std::string::npos) << shown.out;
+  EXPECT_EQ(slurp(glb).substr(0, 4), "glTF");
+  ASSERT_EQ(run("export --as lightmap " + pack_.string() + " -o " + glb.string()).code, 0);
+  const auto exr = read_exr(folder_.path() / "tiny_lightmap_000.exr");
+  ASSERT_TRUE(exr) << exr.error().text();
+  EXPECT_EQ(exr->pixels[9], read_pack(pack_)->lightmaps[0].irradiance[3].r);
+  EXPECT_EQ(run("export --as photo " + pack_.string() + " -o " + glb.string()).code, 1);
+  EXPECT_EQ(run("report " + pack_.string()).code, 1);
+  EXPECT_EQ(run("report -o " + (pack_ / "below-a-file").string() + " " + pack_.string()).code, 2);
+  damage(kMeshSection);
+  for (const char* command : {"report", "export"})
+    EXPECT_EQ(run(std::string(command) + " -o x.out " + pack_.string()).code, 3) << command;
+}
+
 TEST_F(Inspect, FullDiskIsAnIoError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const std::string command =

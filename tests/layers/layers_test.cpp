@@ -36,7 +36,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/pack/sections"] = plus(assets, {"formats/pack", "formats/pack/encoding"});  // what lies inside each
   m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
   m["formats/diff"] = plus(assets, {"formats/pack"});  // two packs beside each other
-  m["formats/inspect"] = plus(assets, {"formats/diff", "formats/pack", "formats/image"});
+  m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
+  m["formats/export"] = plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/metrics"});
+  m["formats/inspect"] =
+      plus(assets, {"formats/diff", "formats/export", "formats/pack", "formats/image", "formats/report"});
   m["bake/jobs"] = core;
   m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
@@ -95,7 +98,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
-  m["player/survey"] = plus(m["player/scene"], {"player/scene"});
+  m["player/survey"] = plus(m["player/scene"], {"formats/image", "player/scene"});
   m["player/passes"] = plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera"});

@@ -7,6 +7,7 @@
 #include "bake/trade/page/plot.h"
 #include "bake/trade/page/table.h"
 #include "bake/trade/page/thumbnails.h"
+#include "formats/core/text.h"
 
 namespace oriel::trade {
 namespace {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/core/text.h"
+
 namespace oriel::trade {
 namespace {
 
@@ -129,32 +131,6 @@ const std::vector<std::string>& plot_colours() {
   static const std::vector<std::string> kColours = {"#1a1a1a", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                                     "#56b4e9", "#7a5195", "#8c6d31", "#b2182b", "#5e7d1e", "#6b7280"};
   return kColours;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 }  // namespace oriel::trade

@@ -25,7 +25,4 @@ std::string plot_svg(const Plot& plot);
 // Of groups, as CSS colours.
 const std::vector<std::string>& plot_colours();
 
-// Text of HTML and of attributes: & < > " and ' escaped.
-std::string escaped(const std::string& text);
-
 }  // namespace oriel::trade

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "formats/core/result.h"
@@ -18,8 +17,5 @@ struct Thumbnails {
 // Of a picture of three side by side; wider ones than `widest` are averaged over whole blocks of pixels. Errors: kIo;
 // kInvalid for a picture whose width 3 does not divide.
 Result<Thumbnails> thumbnails(const std::filesystem::path& side_by_side, std::uint32_t widest);
-
-// RFC 4648.
-std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace oriel::trade

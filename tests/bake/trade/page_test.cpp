@@ -111,16 +111,6 @@ TEST(Plot, DrawsEveryDotWithinTheFrame) {
   EXPECT_THAT(plot_svg(Plot{}), Not(HasSubstr("nan")));
 }
 
-TEST(Base64, IsThatOfTheStandard) {
-  const auto of = [](const std::string& text) { return base64(std::as_bytes(std::span(text))); };
-  EXPECT_EQ(of(""), "");
-  EXPECT_EQ(of("f"), "Zg==");
-  EXPECT_EQ(of("fo"), "Zm8=");
-  EXPECT_EQ(of("foo"), "Zm9v");
-  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(of("\xff\xfe"), "//4=");
-}
-
 TEST(Thumbnails, AreThirdsOfThePicture) {
   const oriel::testing::TemporaryFolder folder;
   ByteImage image{12, 4, 3, {}};

@@ -1,4 +1,4 @@
-// Numbers about a pack that both forms of `info` print.
+// Numbers about a pack that tables print.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "formats/pack/pack.h"
 
-namespace oriel::inspect {
+namespace oriel {
 
 // Of the texels whose state is kValid.
 struct LightmapSummary {
@@ -30,4 +30,4 @@ struct Bounds {
 };
 Bounds bounds_of(const Mesh& mesh);
 
-}  // namespace oriel::inspect
+}  // namespace oriel

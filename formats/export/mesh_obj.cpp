@@ -1,10 +1,10 @@
-#include "formats/inspect/mesh_obj.h"
+#include "formats/export/mesh_obj.h"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-namespace oriel::inspect {
+namespace oriel {
 namespace {
 
 // Line ends and spaces would break the line.
@@ -38,4 +38,4 @@ std::string obj_text(const Mesh& mesh) {
   return text;
 }
 
-}  // namespace oriel::inspect
+}  // namespace oriel

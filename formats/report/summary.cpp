@@ -1,10 +1,10 @@
-#include "formats/inspect/summary.h"
+#include "formats/report/summary.h"
 
 #include <algorithm>
 
 #include "formats/core/color.h"
 
-namespace oriel::inspect {
+namespace oriel {
 
 LightmapSummary summarise(const LightmapPage& page) {
   LightmapSummary summary;
@@ -67,4 +67,4 @@ Bounds bounds_of(const Mesh& mesh) {
   return bounds;
 }
 
-}  // namespace oriel::inspect
+}  // namespace oriel

@@ -1,0 +1,139 @@
+#include "formats/export/shown_page.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "formats/assets/bilinear.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFinest = 4;  // times the page
+constexpr std::uint32_t kGutter = 2;  // texels of the page that are filled around surfaces
+constexpr float kInside = -1e-4f;     // least barycentric coordinate: a centre on an edge belongs to both sides
+
+Vec3 texture_color(const Texture& texture, const Vec2& uv) {
+  const TexelsAround around = texels_around(uv, texture.width, texture.height, texture.wrap_s, texture.wrap_t);
+  Vec3 color(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint8_t* texel = &texture.texels[4 * around.texel[i]];
+    color +=
+        around.weight[i] * Vec3(linear_from_srgb8(texel[0]), linear_from_srgb8(texel[1]), linear_from_srgb8(texel[2]));
+  }
+  return color;
+}
+
+Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
+  const TexelsAround around = texels_around(uv, page.width, page.height);
+  Vec3 light(0);
+  for (std::size_t i = 0; i < 4; ++i) light += around.weight[i] * page.irradiance[around.texel[i]];
+  return light;
+}
+
+Vec3 vertex_color(const Mesh& mesh, std::uint32_t vertex) {
+  if (mesh.colors.empty()) return Vec3(1);
+  const std::uint32_t c = mesh.colors[vertex];
+  return Vec3(c & 255, c >> 8 & 255, c >> 16 & 255) / 255.0f;
+}
+
+class PageRaster {
+ public:
+  PageRaster(const Pack& pack, std::size_t page, std::uint32_t scale)
+      : pack_(pack), page_(pack.lightmaps[page]), width_(page_.width * scale), height_(page_.height * scale) {
+    light_.resize(std::size_t{width_} * height_);
+    covered_.resize(light_.size());
+  }
+
+  void draw(const MeshPart& part) {
+    for (std::uint32_t t = 0; t + 2 < part.index_count; t += 3)
+      draw_triangle(part.material, &pack_.mesh.indices[part.first_index + t]);
+  }
+
+  // A ring of texels further out: the mean of the neighbours that have light.
+  void widen() {
+    const std::vector<std::uint8_t> before = covered_;
+    for (std::uint32_t y = 0; y < height_; ++y)
+      for (std::uint32_t x = 0; x < width_; ++x) {
+        const std::size_t at = std::size_t{y} * width_ + x;
+        if (before[at] != 0) continue;
+        Vec3 sum(0);
+        float count = 0;
+        for (std::uint32_t j = y - (y > 0); j <= std::min(y + 1, height_ - 1); ++j)
+          for (std::uint32_t i = x - (x > 0); i <= std::min(x + 1, width_ - 1); ++i)
+            if (before[std::size_t{j} * width_ + i] != 0) sum += light_[std::size_t{j} * width_ + i], ++count;
+        if (count > 0) light_[at] = sum / count, covered_[at] = 1;
+      }
+  }
+
+  FloatImage image() const { return rgb_image(width_, height_, light_); }
+
+ private:
+  void draw_triangle(std::uint32_t material, const std::uint32_t* v) {
+    std::array<DVec2, 3> p;
+    for (std::size_t c = 0; c < 3; ++c) p[c] = DVec2(pack_.mesh.lightmap_uvs[v[c]]) * DVec2(width_, height_) - 0.5;
+    const auto cross = [](const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; };
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    if (area == 0) return;
+    const auto range = [](double a, double b, double c, std::uint32_t size) {
+      const double low = std::max(std::ceil(std::min({a, b, c})), 0.0);
+      return std::pair(static_cast<std::uint32_t>(low),
+                       static_cast<std::uint32_t>(std::clamp(std::floor(std::max({a, b, c})) + 1, 0.0, double(size))));
+    };
+    const auto [x0, x1] = range(p[0].x, p[1].x, p[2].x, width_);
+    const auto [y0, y1] = range(p[0].y, p[1].y, p[2].y, height_);
+    for (std::uint32_t y = y0; y < y1; ++y)
+      for (std::uint32_t x = x0; x < x1; ++x) {
+        const DVec2 at(x, y);
+        const Vec3 b(cross(p[1] - at, p[2] - at) / area, cross(p[2] - at, p[0] - at) / area,
+                     cross(p[0] - at, p[1] - at) / area);
+        if (!(std::min({b.x, b.y, b.z}) >= kInside && std::max({b.x, b.y, b.z}) <= 1 - kInside)) continue;
+        const std::size_t to = std::size_t{y} * width_ + x;
+        light_[to] = radiance(pack_.materials[material], v, b);
+        covered_[to] = 1;
+      }
+  }
+
+  Vec3 radiance(const Material& material, const std::uint32_t* v, const Vec3& b) const {
+    const Mesh& mesh = pack_.mesh;
+    Vec2 uv(0), page_uv(0);
+    Vec3 color(0);
+    for (int c = 0; c < 3; ++c) {
+      uv += b[c] * mesh.uvs[v[c]];
+      page_uv += b[c] * mesh.lightmap_uvs[v[c]];
+      color += b[c] * vertex_color(mesh, v[c]);
+    }
+    Vec3 albedo = glm::clamp(material.base_color, Vec3(0), Vec3(1)) * color * (1 - material.metallic);
+    if (material.base_color_texture >= 0)
+      albedo *= texture_color(pack_.textures[static_cast<std::size_t>(material.base_color_texture)], uv);
+    return albedo * irradiance_at(page_, page_uv) / kPi + material.emission;
+  }
+
+  const Pack& pack_;
+  const LightmapPage& page_;
+  std::uint32_t width_, height_;
+  std::vector<Vec3> light_;
+  std::vector<std::uint8_t> covered_;
+};
+
+}  // namespace
+
+FloatImage shown_page(const Pack& pack, std::size_t page, std::uint32_t scale) {
+  PageRaster raster(pack, page, scale);
+  for (const MeshPart& part : pack.mesh.parts)
+    if (part.lightmap_page == static_cast<std::int32_t>(page)) raster.draw(part);
+  for (std::uint32_t ring = 0; ring < kGutter * scale; ++ring) raster.widen();
+  return raster.image();
+}
+
+std::uint32_t fitting_scale(const Pack& pack, std::size_t page, std::uint32_t longest) {
+  const LightmapPage& p = pack.lightmaps[page];
+  const bool textured = std::any_of(pack.mesh.parts.begin(), pack.mesh.parts.end(), [&](const MeshPart& part) {
+    return part.lightmap_page == static_cast<std::int32_t>(page) &&
+           pack.materials[part.material].base_color_texture >= 0;
+  });
+  return textured ? std::clamp(longest / std::max(p.width, p.height), 1u, kFinest) : 1;
+}
+
+}  // namespace oriel

@@ -1,0 +1,48 @@
+// `report` and `export`: packs for people and programs that read none.
+#include <fmt/format.h>
+
+#include "formats/core/file.h"
+#include "formats/export/scene_glb.h"
+#include "formats/image/exr.h"
+#include "formats/inspect/commands.h"
+#include "formats/pack/reader.h"
+#include "formats/report/report.h"
+
+namespace oriel::inspect {
+
+int page(const std::filesystem::path& path, const std::filesystem::path& output) {
+  const auto pack = read_pack(path);
+  if (!pack) return report(pack.error());
+  const auto file = read_file(path);
+  if (!file) return report(file.error());
+  const auto index = read_index(*file);
+  if (!index) return report(index.error());
+  const std::string html = report::page_html(*pack, *index, path.filename().string());
+  if (const auto written = write_file_atomically(output, bytes_of_text(html)); !written) return report(written.error());
+  fmt::print("{}\n", output.string());
+  return 0;
+}
+
+int export_scene(const std::filesystem::path& path, const std::filesystem::path& output, bool as_lightmap) {
+  const auto pack = read_pack(path);
+  if (!pack) return report(pack.error());
+  GlbOptions options;
+  options.light = as_lightmap ? LightAs::kLightmap : LightAs::kEmissive;
+  options.lightmap_stem = output.stem().string() + "_lightmap";
+  const auto scene = scene_glb(*pack, options);
+  if (!scene) return report(scene.error());
+  for (std::size_t i = 0; as_lightmap && i < pack->lightmaps.size(); ++i) {
+    const LightmapPage& page = pack->lightmaps[i];
+    const auto exr = output.parent_path() / lightmap_file(options.lightmap_stem, i);
+    const auto written = write_exr(exr, rgb_image(page.width, page.height, page.irradiance), {{"oriel:unit", "lux"}});
+    if (!written) return report(written.error());
+    fmt::print("{}\n", exr.string());
+  }
+  if (const auto written = write_file_atomically(output, scene->file); !written) return report(written.error());
+  fmt::print("{}\n", output.string());
+  if (!as_lightmap) fmt::print("white: {:.4g} cd/m2\n", scene->white_cd_m2);
+  for (const std::string& what : scene->left_out) fmt::print("left out: {}\n", what);
+  return 0;
+}
+
+}  // namespace oriel::inspect
