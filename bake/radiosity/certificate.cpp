@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kPilotPaths = 32;               // of each half: they tell how many it gets
-constexpr double kRaysAPath = 8;                       // about, with those to lights
+constexpr double kRaysAPath = 8;                        // about, with those to lights
 constexpr std::uint32_t kMostPaths = 8192;              // of each half
 constexpr std::size_t kBatch = 64, kMostTexels = 4096;  // texels asked at a time and at most
 constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything

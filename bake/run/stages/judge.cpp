@@ -79,8 +79,8 @@ Result<ReflectedError> judge_light(const Surroundings& surroundings, std::uint32
   if (!(total > 0)) return e;
   mean /= total;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const DVec3 truth(judged[i].traced), off = DVec3(judged[i].shown.value_or(Vec3(0))) - truth;
-    const DVec3 scale = truth * truth + 1e-4 * mean * mean;
+    const DVec3 truth(judged[i].traced), image(judged[i].shown.value_or(Vec3(0))), off = image - truth;
+    const DVec3 brighter = glm::max(truth, image), scale = brighter * brighter + 1e-4 * mean * mean;
     double square = 0;
     for (int c = 0; c < 3; ++c) square += scale[c] > 0 ? off[c] * off[c] / scale[c] / 3 : 0;
     e.relative_error += samples[i].weight * square / total;

@@ -9,9 +9,10 @@ namespace oriel {
 // Of the light reflected by one perfect mirror at the sampled points: the maps' colour beside a traced ray's.
 struct ReflectedError {
   std::size_t samples = 0;
-  double seen = 0;            // share of the samples' weight that some map shows
-  double relative_error = 0;  // rms over samples and channels, relative, dark ones by 1 % of the mean; holes are black
-  double seen_error = 0;      // the same of what is seen: reprojection, resolution and storage alone
+  double seen = 0;  // share of the samples' weight that some map shows
+  double relative_error =
+      0;  // rms over samples and channels, relative to what is brighter and 1 % of the mean; holes are black
+  double seen_error = 0;  // the same of what is seen: reprojection, resolution and storage alone
 };
 
 // Compares the maps of one reflector (captured; of Reflector::first_map on) with light traced for the samples (of
