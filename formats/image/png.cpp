@@ -27,8 +27,7 @@ Result<Bytes> encode_png(const ByteImage& image) {
   if (image.channels != 1 && image.channels != 3 && image.channels != 4)
     return invalid("", "found {} channels, expected 1, 3 or 4", image.channels);
   if (image.width == 0 || image.height == 0 || image.width > STBI_MAX_DIMENSIONS || image.height > STBI_MAX_DIMENSIONS)
-    return invalid("", "found {} x {} pixels, expected 1 to {} a side", image.width, image.height,
-                   STBI_MAX_DIMENSIONS);
+    return invalid("", "found {} x {} pixels, expected 1 to {} a side", image.width, image.height, STBI_MAX_DIMENSIONS);
   const std::uint64_t expected = std::uint64_t{image.width} * image.height * image.channels;
   if (image.pixels.size() != expected || expected > 0x7fff0000)
     return invalid("", "found {} values, expected {} and less than 2^31", image.pixels.size(), expected);

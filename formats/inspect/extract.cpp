@@ -4,9 +4,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "formats/export/mesh_obj.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/extraction.h"
-#include "formats/export/mesh_obj.h"
 #include "formats/pack/reader.h"
 
 namespace oriel::inspect {

@@ -7,10 +7,10 @@
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/info_reflections.h"
-#include "formats/report/summary.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
+#include "formats/report/summary.h"
 
 namespace oriel::inspect {
 namespace {

@@ -15,7 +15,9 @@ namespace oriel {
 // frame. After those what the bake knows of texels, as colours: illuminance, its standard error, the texels themselves.
 enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels };
 inline constexpr int kShows = 8;
-inline bool is_survey(Show show) { return show >= Show::kLux; }
+inline bool is_survey(Show show) {
+  return show >= Show::kLux;
+}
 // How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
 // mirrored scene; or not at all.
 enum class Reflections { kMarch, kPoints, kGeometry, kOff };

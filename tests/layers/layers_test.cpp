@@ -99,7 +99,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/survey"] = plus(m["player/scene"], {"formats/image", "player/scene"});
-  m["player/passes"] = plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
+  m["player/passes"] =
+      plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera"});
   m["player/options"] = plus(m["player/session"], {"player/session"});
@@ -126,8 +127,8 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"imgui", {"player/panel"}},
     {"backends/imgui", {"player/panel"}},
     {"epoxy/",
-     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/survey", "player/passes",
-      "player/window", "player/app"}},
+     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/survey",
+      "player/passes", "player/window", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {
