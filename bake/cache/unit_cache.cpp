@@ -174,13 +174,25 @@ struct CacheFile {
   std::uint64_t bytes = 0;
 };
 
+// As path_of() names units, or what is written beside them: nobody else's files.
+bool is_unit(const fs::path& path) {
+  const auto is_hex = [](std::string_view text, std::size_t digits) {
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  };
+  const std::string name = path.filename().string(), folder = path.parent_path().filename().string();
+  const std::size_t dot = name.find(".unit");
+  if (!is_hex(folder, 2) || dot == std::string::npos || !is_hex(std::string_view(name).substr(0, dot), 30))
+    return false;
+  const std::string_view rest = std::string_view(name).substr(dot + 5);
+  return rest.empty() || rest.starts_with(".tmp-");
+}
+
 // Units of all programs, and what was being written when a process died.
 Result<std::vector<CacheFile>> files_of(const fs::path& folder) {
   std::vector<CacheFile> files;
   std::error_code ec;
   for (fs::recursive_directory_iterator entry(folder, ec), end; !ec && entry != end; entry.increment(ec)) {
-    const std::string name = entry->path().filename().string();
-    if (name.find(".unit") == std::string::npos || !entry->is_regular_file(ec)) continue;
+    if (!is_unit(entry->path()) || !entry->is_regular_file(ec)) continue;
     files.push_back({entry->last_write_time(ec), entry->path(), entry->file_size(ec)});
   }
   if (ec) return fail(ErrorCode::kIo, folder.string(), "cannot be listed: {}", ec.message());

@@ -10,7 +10,21 @@
 
 namespace oriel::inspect {
 
+namespace {
+
+// Whether a file that is to be written is the pack itself; then says so.
+bool overwrites(const std::filesystem::path& pack, const std::filesystem::path& output) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(pack, output, none)) return false;
+  report(Error{ErrorCode::kUsage, "found the pack itself, which would be overwritten, expected another file",
+               "-o " + output.string()});
+  return true;
+}
+
+}  // namespace
+
 int page(const std::filesystem::path& path, const std::filesystem::path& output) {
+  if (overwrites(path, output)) return static_cast<int>(ErrorCode::kUsage);
   const auto pack = read_pack(path);
   if (!pack) return report(pack.error());
   const auto file = read_file(path);
@@ -24,6 +38,7 @@ int page(const std::filesystem::path& path, const std::filesystem::path& output)
 }
 
 int export_scene(const std::filesystem::path& path, const std::filesystem::path& output, bool as_lightmap) {
+  if (overwrites(path, output)) return static_cast<int>(ErrorCode::kUsage);
   const auto pack = read_pack(path);
   if (!pack) return report(pack.error());
   GlbOptions options;

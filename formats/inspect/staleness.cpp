@@ -24,7 +24,8 @@ Result<std::vector<std::string>> changed_inputs(const Pack& pack, const std::fil
     const auto bytes = read_file(path);
     if (!bytes && &input == &inputs.front()) return tl::unexpected(bytes.error());
     const std::string found = bytes ? hash128_hex(*bytes) : bytes.error().message;
-    if (found != expected) changed.push_back(fmt::format("{}: found {}, baked was {}", path.string(), found, expected));
+    if (found != expected)
+      changed.push_back(fmt::format("{}: found {}, when it was baked {}", path.string(), found, expected));
   }
   return changed;
 }

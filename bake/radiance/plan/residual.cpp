@@ -210,7 +210,7 @@ Result<Residual> residual_of(const Surroundings& surroundings, const OutgoingRad
   Residual made;
   const auto inputs = [&](Archive& key) {
     // More memory than the largest map takes changes nothing.
-    key(reflector, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
+    key(reflector, eyes, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
         options.spread, options.max_resolution, options.least_missing);
     for (const RadianceMap& map : maps) key(frame_of(map));
   };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bake/jobs/units.h"
 #include "bake/radiance/curved/surround_capture.h"
@@ -205,7 +206,10 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   };
   const Surroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
   const Deadline clock(0);
-  ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, maps, nullptr));
+  UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
+  const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
+  context.units = units;
+  ORIEL_TRY_VOID(captured);
   const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
   planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
   return {};

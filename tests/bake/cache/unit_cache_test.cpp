@@ -2,8 +2,10 @@
 #include "bake/cache/unit_cache.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
+#include <fstream>
 
 #include <numeric>
 #include <thread>
@@ -108,6 +110,19 @@ TEST_F(UnitCacheTest, PrunesWhatWasUsedLongestAgo) {
   EXPECT_TRUE(used.find({3, 0}));
   EXPECT_FALSE(used.find({1, 0}));
   EXPECT_FALSE(used.find({2, 0}));
+}
+
+// Whatever folder it is told to prune: what is not named as units are stays.
+TEST_F(UnitCacheTest, PruningLeavesWhatIsNotItsOwn) {
+  cache().keep({1, 0}, unit_of("light"));
+  const auto foreign = folder_.path() / "ab";
+  std::filesystem::create_directories(foreign);
+  for (const char* name : {"a.unit", "notes.unit.ts", "0123456789abcdef0123456789abcd.units"})
+    std::ofstream(foreign / name) << "theirs";
+  ASSERT_TRUE(prune_cache(folder_.path(), 0));
+  EXPECT_EQ(cache_content(folder_.path())->units, 0);
+  for (const auto& entry : std::filesystem::directory_iterator(foreign)) EXPECT_TRUE(entry.exists());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(foreign), {}), 3);
 }
 
 TEST_F(UnitCacheTest, OneClaimsAtATime) {
