@@ -94,6 +94,23 @@ Status Extraction::images(const char* kind, const char* role, const std::vector<
   return {};
 }
 
+// Eyes rather than floors: what a script that places cameras asks for.
+Status Extraction::walk_grids() {
+  for (std::size_t i = 0; i < pack_.walk_grids.size(); ++i) {
+    const auto& grid = pack_.walk_grids[i];
+    Json entry{{"kind", "walk_grid"}, {"number", i}, {"cell_m", grid.cell_m}, {"eye_height_m", grid.eye_height_m}};
+    std::string text = "x,y,z\n";
+    for (std::size_t cell = 0; cell < grid.floor_y.size(); ++cell) {
+      if (!grid.walkable(cell)) continue;
+      const Vec3 eye = grid.eye(cell);
+      text += fmt::format("{:.6g},{:.6g},{:.6g}\n", eye.x, eye.y, eye.z);
+    }
+    ORIEL_TRY_VOID(csv(entry, "eyes_csv", fmt::format("walk_grid_{:02}_eyes.csv", i), text));
+    index_.push_back(std::move(entry));
+  }
+  return {};
+}
+
 Status Extraction::mesh() {
   Json entry{{"kind", "mesh"},
              {"vertices", pack_.mesh.positions.size()},
@@ -125,6 +142,7 @@ constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},
                            {"brdf_kernel", &Extraction::kernels},
                            {"fresnel_map", &Extraction::fresnel_maps},
                            {"texture", &Extraction::textures},
+                           {"walk_grid", &Extraction::walk_grids},
                            {"mesh", &Extraction::mesh}};
 
 }  // namespace

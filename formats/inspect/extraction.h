@@ -27,6 +27,7 @@ class Extraction {
   Status kernels();
   Status fresnel_maps();
   Status textures();
+  Status walk_grids();
   Status mesh();
   Status finish(const std::filesystem::path& source);
 

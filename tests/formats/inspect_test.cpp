@@ -201,6 +201,11 @@ TEST_F(Inspect, ExtractsEveryMap) {
   EXPECT_EQ(read_exr(to / "split_reflectance.exr")->height, 3u);
   EXPECT_EQ(read_exr(to / "fresnel_map_00.exr")->width, 3u);
   EXPECT_EQ(read_png(to / "texture_000.png")->pixels, pack->textures[0].texels);
+  ASSERT_FALSE(pack->walk_grids.empty());
+  const auto& grid = pack->walk_grids[0];
+  const std::string eyes = slurp(to / "walk_grid_00_eyes.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(eyes.begin(), eyes.end(), '\n')),
+            1 + static_cast<std::size_t>(std::ranges::count_if(grid.floor_y, [](float y) { return !std::isnan(y); })));
   EXPECT_NE(slurp(to / "mesh.obj").find("f 5/5/5 6/6/6 7/7/7"), std::string::npos);
 }
 

@@ -71,7 +71,7 @@ class GroupGather {
       const GatherSite& site = m.site[k % kKeptSites];
       const std::uint64_t stream = std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half);
       batch_.push_back(site.ray(net_.point(k, m.shift)));
-      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0, stream, k});
+      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0, stream, k, true});
       target_.push_back(i);
     }
     around_.answer(batch_, about_, answers_);

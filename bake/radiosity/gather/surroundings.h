@@ -10,6 +10,7 @@ struct GatherRay {
   float incidence = 0;       // of its direction: π times its density
   std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
   std::uint32_t sample = 0;
+  bool near = false;  // where a texel is met from nearer than its side, paths tell its light at that point
 };
 
 // A texel seen through lobes and layers.
@@ -23,7 +24,8 @@ struct Answers {
   std::vector<Hit> hits;
   std::vector<std::uint32_t> texel;  // by ray: of the matt surface met; kNoTexel: none
   std::vector<Link> links;           // in order of rays
-  std::vector<Vec3> light;           // by ray: sky, emitters behind mirrors, and emitters that closed forms do not hold
+  // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
+  std::vector<Vec3> light;
   std::uint64_t rays = 0;            // traced, beyond the batch itself
 };
 
@@ -43,7 +45,12 @@ class Surroundings {
   const Transport& transport() const { return t_; }
 
  private:
-  // Behind a surface that is more than a matt wall.
+  // Whether the mean over a texel says too little about the point that was met.
+  bool is_near(const GatherRay& about, const Hit& hit, std::uint32_t texel) const {
+    return about.near && texel != kNoTexel && hit.distance < side_[texel];
+  }
+
+  // At a surface that is more than a matt wall, or that is near.
   void follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number, Answers& answers) const;
 
   // The part of the sky met that rays answer for, the rest is left to light sampling.
@@ -51,10 +58,12 @@ class Surroundings {
 
   enum class Kind : char { kMatt, kOther };
   const Transport& t_;
+  Transport beyond_;  // a reflection later
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
   std::vector<Kind> kinds_;  // by triangle
+  std::vector<float> side_;  // by texel, m
 };
 
 }  // namespace oriel
