@@ -136,7 +136,7 @@ class Walk {
         break;
       }
       if (bounce >= t_.options.max_bounces) break;
-      const Step step = scatter(surface, ray, light);
+      const Step step = scatter(surface, ray, hit.distance, light);
       if (step == Step::kEnd) break;
       if (step == Step::kPassed) {
         ++passes;
@@ -152,12 +152,15 @@ class Walk {
  private:
   enum class Step { kEnd, kPassed, kBounced };
 
-  // Tells the diffuse reflection, and leaves a surface without it. False where nothing else reflects.
-  bool tell_diffuse(SurfacePoint& surface, const Vec3& wo) {
+  // Tells the diffuse reflection; where it is taken over a surface without it is left. False where nothing else
+  // reflects.
+  bool tell_diffuse(SurfacePoint& surface, const Vec3& wo, float distance) {
     const float cosine = glm::dot(surface.normal, wo);
     const Vec3 specular = reflectance(surface.shade, cosine);
     const Vec3 weight = throughput_ * surface.shade.diffuse * (1 - max_component(specular));
-    if (max_component(weight) > 0) (*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, weight});
+    if (max_component(weight) > 0 &&
+        !(*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, distance, weight}))
+      return true;
     surface.shade.diffuse = Vec3(0);
     // The rest goes on as often as it is bright.
     const float q = std::min(1.0f, max_component(specular) + max_component(surface.shade.transmission));
@@ -167,8 +170,8 @@ class Walk {
   }
 
   // Light sampling at the surface, then the next ray.
-  Step scatter(SurfacePoint& surface, Ray& ray, PathLight& light) {
-    if (on_diffuse_ && !tell_diffuse(surface, -ray.direction)) return Step::kEnd;
+  Step scatter(SurfacePoint& surface, Ray& ray, float distance, PathLight& light) {
+    if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
     light.scattered += throughput_ * sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     const float u = sampler_.next1();

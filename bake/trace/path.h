@@ -65,14 +65,15 @@ PathLight trace_path(const Transport& transport, const Ray& ray, float bsdf_pdf,
 struct DiffuseVertex {
   std::uint32_t triangle = 0;
   Vec2 barycentric{0};
-  bool front = true;  // the side that is seen
+  bool front = true;   // the side that is seen
+  float distance = 0;  // from where the path came last, m
   Vec3 weight{0};
 };
-using OnDiffuse = std::function<void(const DiffuseVertex&)>;
+// True: the caller knows the irradiance there and takes the diffuse reflection over; false: the path follows it.
+using OnDiffuse = std::function<bool(const DiffuseVertex&)>;
 
-// As trace_path, but diffuse reflection is left to the caller, who knows the irradiance: every diffuse surface on the
-// way is told, and the path goes on through mirrors, glossy lobes, glass and cut-outs only. `first` is what the ray
-// hits; bsdf_pdf as there.
+// As trace_path, but every diffuse surface on the way is told to the caller. Where that takes it over, the path goes on
+// through mirrors, glossy lobes, glass and cut-outs only. `first` is what the ray hits; bsdf_pdf as there.
 PathLight trace_to_diffuse(const Transport& transport, const Ray& ray, const Hit& first, float bsdf_pdf,
                            Sampler& sampler, std::uint64_t& rays, const OnDiffuse& on_diffuse);
 

@@ -14,13 +14,10 @@ bool is_matt(const SceneMaterial& m) {
          m.coat == 0 && m.metal == Metal::kNone;
 }
 
-constexpr std::uint64_t kNearSeed = 0x6ea5;
-
 }  // namespace
 
 Surroundings::Surroundings(const Transport& transport, const Texels& texels, bool closed_form, std::uint64_t seed)
-    : t_(transport), beyond_(transport), texels_(texels), closed_form_(closed_form), seed_(seed) {
-  beyond_.options.max_bounces = std::max(0, transport.options.max_bounces - 1);
+    : t_(transport), texels_(texels), closed_form_(closed_form), seed_(seed) {
   side_.resize(texels.count());
   std::ranges::transform(texels.area_m2, side_.begin(), [](float area) { return std::sqrt(area); });
   const Scene& scene = transport.accel.scene();
@@ -48,7 +45,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     const bool matt = kinds_[hit.triangle] == Kind::kMatt;
     if (matt && !hit.front) continue;  // texels hold the light of fronts
     const std::uint32_t texel = matt ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
-    if (matt && !is_near(about[i], hit, texel))
+    if (matt && !is_near(about[i], hit.distance, texel))
       answers.texel[i] = texel;
     else
       follow(rays[i], about[i], hit, i, answers);
@@ -57,22 +54,16 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
 
 void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number,
                           Answers& answers) const {
-  Sampler sampler(seed_, about.stream, about.sample), near_sampler(seed_ + kNearSeed, about.stream, about.sample);
+  Sampler sampler(seed_, about.stream, about.sample);
   const auto on_diffuse = [&](const DiffuseVertex& v) {
-    if (!v.front) return;
-    const std::uint32_t texel = texels_.find(v.triangle, v.barycentric);
-    const bool first = v.triangle == hit.triangle && v.barycentric == hit.barycentric;
-    if (first && is_near(about, hit, texel)) {
-      const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
-      const IrradianceSample e = sample_irradiance(beyond_, surface, near_sampler, answers.rays);
-      answers.light[number] += v.weight * (e.direct + e.indirect) / kPi;
-    } else if (texel != kNoTexel) {
-      answers.links.push_back({number, texel, v.weight});
-    }
+    const std::uint32_t texel = v.front ? texels_.find(v.triangle, v.barycentric) : kNoTexel;
+    if (is_near(about, v.distance, texel)) return false;
+    if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
+    return true;
   };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
   const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
-  answers.light[number] +=
+  answers.light[number] =
       light.scattered + (closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted);
 }
 

@@ -10,7 +10,7 @@ struct GatherRay {
   float incidence = 0;       // of its direction: π times its density
   std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
   std::uint32_t sample = 0;
-  bool near = false;  // where a texel is met from nearer than its side, paths tell its light at that point
+  bool near = false;  // texels met from nearer than their side are not asked: a path goes on from the point met
 };
 
 // A texel seen through lobes and layers.
@@ -26,7 +26,7 @@ struct Answers {
   std::vector<Link> links;           // in order of rays
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
   std::vector<Vec3> light;
-  std::uint64_t rays = 0;            // traced, beyond the batch itself
+  std::uint64_t rays = 0;  // traced, beyond the batch itself
 };
 
 class Surroundings {
@@ -46,8 +46,8 @@ class Surroundings {
 
  private:
   // Whether the mean over a texel says too little about the point that was met.
-  bool is_near(const GatherRay& about, const Hit& hit, std::uint32_t texel) const {
-    return about.near && texel != kNoTexel && hit.distance < side_[texel];
+  bool is_near(const GatherRay& about, float distance, std::uint32_t texel) const {
+    return about.near && texel != kNoTexel && distance < side_[texel];
   }
 
   // At a surface that is more than a matt wall, or that is near.
@@ -58,7 +58,6 @@ class Surroundings {
 
   enum class Kind : char { kMatt, kOther };
   const Transport& t_;
-  Transport beyond_;  // a reflection later
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
