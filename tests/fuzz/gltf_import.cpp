@@ -1,5 +1,5 @@
-// The glTF importer against any bytes, .gltf or .glb. The mutator changes the JSON or the binary chunk of a .glb and puts
-// the lengths right, so that mutations get past the container.
+// The glTF importer against any bytes, .gltf or .glb. The mutator changes the JSON or the binary chunk of a .glb and
+// puts the lengths right, so that mutations get past the container.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>

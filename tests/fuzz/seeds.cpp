@@ -63,9 +63,10 @@ test::Gltf quad() {
 test::Gltf room() {
   test::Gltf g = quad();
   // A PNG of 1 x 1 texels.
-  g.doc["images"] = {{{"uri",
-                       "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9"
-                       "awAAAABJRU5ErkJggg=="}}};
+  g.doc["images"] = {
+      {{"uri",
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9"
+        "awAAAABJRU5ErkJggg=="}}};
   g.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
   g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}};
   g.use("KHR_lights_punctual");
