@@ -6,7 +6,7 @@
 
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
-#include "formats/pack/check.h"
+#include "formats/pack/reader.h"
 
 namespace oriel::inspect {
 namespace {

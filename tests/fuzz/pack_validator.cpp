@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "formats/core/check.h"
-#include "formats/pack/check.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/writer.h"
 
