@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <cstring>
 
 #include "formats/core/file.h"
 #include "tests/support/temporary_folder.h"
@@ -14,14 +17,13 @@ namespace fs = std::filesystem;
 
 // A .gltf's text as the JSON chunk of a .glb.
 Bytes as_glb(const Bytes& json) {
-  Bytes padded = json;
-  padded.resize((json.size() + 3) / 4 * 4, std::byte{' '});
-  ByteWriter out;
-  for (const std::size_t word :
-       {std::size_t{0x46546C67}, std::size_t{2}, 20 + padded.size(), padded.size(), std::size_t{0x4E4F534A}})
-    out.put(static_cast<std::uint32_t>(word));
-  out.put_array(std::span<const std::byte>(padded));
-  return out.take();
+  const std::size_t padded = (json.size() + 3) / 4 * 4;
+  const std::array<std::uint32_t, 5> header{0x46546C67, 2, static_cast<std::uint32_t>(20 + padded),
+                                            static_cast<std::uint32_t>(padded), 0x4E4F534A};
+  Bytes glb(sizeof(header) + padded, std::byte{' '});
+  std::memcpy(glb.data(), header.data(), sizeof(header));
+  std::copy(json.begin(), json.end(), glb.begin() + sizeof(header));
+  return glb;
 }
 
 class InvalidScenes : public ::testing::Test {
