@@ -1,8 +1,11 @@
 #include "formats/core/file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,11 +14,25 @@
 namespace oriel {
 namespace fs = std::filesystem;
 
-Result<Bytes> read_file(const fs::path& path, std::uint64_t max_bytes) {
+namespace {
+
+Status check_file(const fs::path& path) {
   std::error_code ec;
   const auto status = fs::status(path, ec);
   if (!fs::exists(status)) return fail(ErrorCode::kIo, path.string(), "no such file");
   if (fs::is_directory(status)) return fail(ErrorCode::kIo, path.string(), "is a directory, expected a file");
+  return {};
+}
+
+bool all_zero(std::span<const std::byte> bytes) {
+  return bytes.empty() ||
+         (bytes[0] == std::byte{0} && std::memcmp(bytes.data(), bytes.data() + 1, bytes.size() - 1) == 0);
+}
+
+}  // namespace
+
+Result<Bytes> read_file(const fs::path& path, std::uint64_t max_bytes) {
+  ORIEL_TRY_VOID(check_file(path));
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) return fail(ErrorCode::kIo, path.string(), "cannot be opened for reading: {}", std::strerror(errno));
   const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, in.tellg()));
@@ -32,28 +49,72 @@ fs::path temporary_name(const fs::path& path) {
   return path.string() + fmt::format(".tmp-{}", ::getpid());
 }
 
-Status write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  const fs::path temporary = temporary_name(path);
-  const auto failed = [&](const char* what) -> Status {
-    const std::string reason = std::strerror(errno);
-    ::unlink(temporary.c_str());
-    return fail(ErrorCode::kIo, path.string(), "{}: {}", what, reason);
-  };
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) return failed("cannot be written");
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
+Result<AtomicFile> AtomicFile::create(const fs::path& path) {
+  const int fd = ::open(temporary_name(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) return fail(ErrorCode::kIo, path.string(), "cannot be written: {}", std::strerror(errno));
+  return AtomicFile(path, fd);
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::exchange(other.path_, {})), fd_(std::exchange(other.fd_, -1)), size_(other.size_) {}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!path_.empty()) ::unlink(temporary_name(path_).c_str());
+}
+
+Status AtomicFile::failed(const char* what) const {
+  return fail(ErrorCode::kIo, path_.string(), "{}: {}", what, std::strerror(errno));
+}
+
+Status AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  const bool hole = offset >= size_ && all_zero(bytes);
+  for (std::size_t done = 0; done < bytes.size() && !hole;) {
+    const ssize_t n = ::pwrite(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      ::close(fd);
-      return failed("cannot be written to its end");
-    }
+    if (n <= 0) return failed("cannot be written to its end");
     done += static_cast<std::size_t>(n);
   }
-  const bool synced = ::fsync(fd) == 0;
-  if (::close(fd) != 0 || !synced) return failed("cannot be flushed to disk");
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return failed("cannot be renamed into place");
+  size_ = std::max(size_, offset + bytes.size());
   return {};
+}
+
+Status AtomicFile::commit() {
+  if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) return failed("cannot be written to its end");
+  if (::fsync(fd_) != 0) return failed("cannot be flushed to disk");
+  if (::close(std::exchange(fd_, -1)) != 0) return failed("cannot be flushed to disk");
+  if (::rename(temporary_name(path_).c_str(), path_.c_str()) != 0) return failed("cannot be renamed into place");
+  path_.clear();
+  return {};
+}
+
+Status write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  ORIEL_TRY(AtomicFile file, AtomicFile::create(path));
+  ORIEL_TRY_VOID(file.write(0, bytes));
+  return file.commit();
+}
+
+Result<MappedFile> MappedFile::open(const fs::path& path) {
+  const auto failed = [&](const char* what) {
+    return fail(ErrorCode::kIo, path.string(), "{}: {}", what, std::strerror(errno));
+  };
+  ORIEL_TRY_VOID(check_file(path));
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return failed("cannot be opened for reading");
+  struct stat status {};
+  const bool known = ::fstat(fd, &status) == 0;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* const at = known && size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0) : nullptr;
+  const int reason = errno;
+  ::close(fd);  // the mapping stays
+  errno = reason;
+  if (!known || at == MAP_FAILED) return failed("cannot be mapped");
+  if (at) ::madvise(at, size, MADV_SEQUENTIAL);
+  return MappedFile({static_cast<const std::byte*>(at), size});
+}
+
+MappedFile::~MappedFile() {
+  if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 Status print(std::string_view text) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
@@ -16,9 +17,49 @@ Result<Bytes> read_file(const std::filesystem::path& path, std::uint64_t max_byt
 // The name under which write_file_atomically writes first, for who must remove it after a kill.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
-// Writes to a temporary name beside path, flushes to disk and renames: path holds either the old file or the whole new
-// one. Error kIo names the reason of the system; the temporary file is removed.
+// A file that appears whole: it grows under a temporary name beside path, and commit() flushes it to disk and renames
+// it, so that path holds either the old file or the whole new one. What is not committed is removed. Every Status is
+// kIo with the reason of the system.
+class AtomicFile {
+ public:
+  static Result<AtomicFile> create(const std::filesystem::path& path);
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  ~AtomicFile();
+
+  // Bytes from offset on; bytes in between that nobody writes are 0. Zeros that reach beyond what was written before
+  // may become a hole, which takes no room on the disk.
+  Status write(std::uint64_t offset, std::span<const std::byte> bytes);
+  Status commit();
+
+ private:
+  AtomicFile(const std::filesystem::path& path, int fd) : path_(path), fd_(fd) {}
+  Status failed(const char* what) const;
+
+  std::filesystem::path path_;  // empty: committed or moved from
+  int fd_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+// The same at once.
 Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// The bytes of a file as they lie in the system's file cache: none is read before somebody looks at it, and none is
+// copied. The file must keep its length while it is mapped, as files that are replaced by renaming do.
+class MappedFile {
+ public:
+  // Error kIo where path is missing, no regular file or unreadable.
+  static Result<MappedFile> open(const std::filesystem::path& path);
+  MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+  MappedFile& operator=(MappedFile&&) = delete;
+  ~MappedFile();
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  std::span<const std::byte> bytes_;
+};
 
 // Text to standard output, flushed. Error kIo.
 Status print(std::string_view text);

@@ -20,12 +20,45 @@ std::string to_hex(const Hash128& hash) {
   return fmt::format("{:016x}{:016x}", hash.high, hash.low);
 }
 
+namespace {
+
+using XxhState = std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)>;
+
+XxhState make_xxh_state() {
+  XxhState state(XXH3_createState(), &XXH3_freeState);
+  if (!state) throw std::bad_alloc();
+  return state;
+}
+
+}  // namespace
+
+struct Hasher64::State {
+  XxhState xxh = make_xxh_state();
+};
+
+Hasher64::Hasher64() : state_(std::make_unique<State>()) {
+  reset();
+}
+
+Hasher64::~Hasher64() = default;
+
+void Hasher64::reset() {
+  XXH3_64bits_reset(state_->xxh.get());
+}
+
+void Hasher64::add(std::span<const std::byte> bytes) {
+  XXH3_64bits_update(state_->xxh.get(), bytes.data(), bytes.size());
+}
+
+std::uint64_t Hasher64::result() const {
+  return XXH3_64bits_digest(state_->xxh.get());
+}
+
 struct Hasher::State {
-  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> xxh{XXH3_createState(), &XXH3_freeState};
+  XxhState xxh = make_xxh_state();
 };
 
 Hasher::Hasher() : state_(std::make_unique<State>()) {
-  if (!state_->xxh) throw std::bad_alloc();
   XXH3_128bits_reset(state_->xxh.get());
 }
 

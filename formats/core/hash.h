@@ -22,6 +22,23 @@ struct Hash128 {
 // 32 lower-case hexadecimal digits.
 std::string to_hex(const Hash128& hash);
 
+// hash64 of bytes that come piece by piece.
+class Hasher64 {
+ public:
+  Hasher64();
+  ~Hasher64();
+  Hasher64(const Hasher64&) = delete;
+  Hasher64& operator=(const Hasher64&) = delete;
+
+  void reset();
+  void add(std::span<const std::byte> bytes);
+  std::uint64_t result() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 // XXH3-128 of bytes that come piece by piece.
 class Hasher {
  public:

@@ -6,27 +6,10 @@
 
 #include "formats/core/file.h"
 #include "formats/inspect/commands.h"
-#include "formats/pack/index.h"
 #include "formats/pack/reader.h"
-#include "formats/pack/validate.h"
 
 namespace oriel::inspect {
 namespace {
-
-// Damage has number 1: the bytes are not what was written, so that nothing can be said about their meaning. All damaged
-// sections are named, not only the first.
-std::vector<Issue> damage(const Bytes& file) {
-  std::vector<Issue> issues;
-  const auto add = [&](const Error& error) { issues.push_back({1, Severity::kError, error.where, error.message}); };
-  const auto index = read_index(file);
-  if (!index) {
-    add(index.error());
-    return issues;
-  }
-  for (const auto& section : index->sections)
-    if (const auto status = check_section(file, section); !status) add(status.error());
-  return issues;
-}
 
 void print_text(const std::vector<Issue>& issues, std::size_t errors) {
   for (const auto& issue : issues)
@@ -59,21 +42,14 @@ void print_json(const std::filesystem::path& path, const std::vector<Issue>& iss
 int validate(const std::filesystem::path& path, const std::filesystem::path& scene, bool json) {
   const auto file = read_file(path);
   if (!file) return report(file.error());
-  auto issues = damage(*file);
+  const auto checked = check_pack(*file);
+  if (!checked) return report(checked.error());
+  const auto& issues = checked->issues;
   std::optional<std::vector<std::string>> changed;
-  if (issues.empty()) {
-    const auto pack = decode_pack(*file);
-    if (!pack && pack.error().code != ErrorCode::kInvalid) return report(pack.error());
-    if (pack) {
-      issues = oriel::validate(*pack);
-      if (!scene.empty()) {
-        auto found = changed_inputs(*pack, scene);
-        if (!found) return report(found.error());
-        changed = std::move(*found);
-      }
-    } else {
-      issues.push_back({1, Severity::kError, pack.error().where, pack.error().message});
-    }
+  if (checked->pack && !scene.empty()) {
+    auto found = changed_inputs(*checked->pack, scene);
+    if (!found) return report(found.error());
+    changed = std::move(*found);
   }
   std::size_t errors = 0;
   for (const auto& issue : issues) errors += issue.severity == Severity::kError ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <new>
 
 #include "formats/core/hash.h"
 
@@ -155,14 +156,10 @@ Status check_section(std::span<const std::byte> file, const SectionInfo& section
   return {};
 }
 
-Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInfo& section) {
-  ORIEL_TRY_VOID(check_section(file, section));
-  const auto stored = stored_bytes(file, section);
-  RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(section.raw_bytes), section.raw_bytes};
-  if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
-    std::copy(stored.begin(), stored.end(), raw.data.get());
-    return raw;
-  }
+namespace {
+
+// Whether the stored bytes are one zstd frame of the section's size.
+Status check_frame(std::span<const std::byte> stored, const SectionInfo& section) {
   if (section.codec != static_cast<std::uint32_t>(Codec::kZstd))
     return invalid(section.label, "found codec {}, expected 0 (none) or 1 (zstd)", section.codec);
   const auto content = ZSTD_getFrameContentSize(stored.data(), stored.size());
@@ -174,10 +171,45 @@ Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInf
   const std::size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
   if (ZSTD_isError(frame) || frame != stored.size())
     return invalid(section.label, "is not exactly one zstd frame of {} bytes", stored.size());
+  return {};
+}
+
+}  // namespace
+
+Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInfo& section) {
+  ORIEL_TRY_VOID(check_section(file, section));
+  const auto stored = stored_bytes(file, section);
+  RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(section.raw_bytes), section.raw_bytes};
+  if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
+    std::copy(stored.begin(), stored.end(), raw.data.get());
+    return raw;
+  }
+  ORIEL_TRY_VOID(check_frame(stored, section));
   const std::size_t n = ZSTD_decompress(raw.data.get(), raw.size, stored.data(), stored.size());
   if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
   if (n != raw.size) return invalid(section.label, "decompressed to {} bytes, expected {}", n, raw.size);
   return raw;
+}
+
+Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes) {
+  const auto stored = stored_bytes(file, section);
+  Bytes head(std::min<std::uint64_t>(bytes, section.raw_bytes));
+  if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
+    std::copy_n(stored.begin(), head.size(), head.begin());
+    return head;
+  }
+  ORIEL_TRY_VOID(check_frame(stored, section));
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  ZSTD_inBuffer in{stored.data(), stored.size(), 0};
+  ZSTD_outBuffer out{head.data(), head.size(), 0};
+  while (out.pos < out.size) {
+    const std::size_t before = in.pos + out.pos, n = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
+    if (in.pos + out.pos == before)
+      return invalid(section.label, "decompressed to {} bytes, expected {}", out.pos, out.size);
+  }
+  return head;
 }
 
 }  // namespace oriel

@@ -45,4 +45,8 @@ struct RawBytes {
 // check_section, then the decompressed bytes: exactly raw_bytes of them. May throw std::bad_alloc.
 Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInfo& section);
 
+// The first of them, of a section that check_section accepts: at most `bytes`, fewer where the section holds fewer.
+// What follows in the section is not looked at.
+Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes);
+
 }  // namespace oriel

@@ -3,9 +3,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "formats/core/file.h"
+#include "formats/pack/deferred.h"
 #include "formats/pack/fields.h"
-#include "formats/pack/index.h"
+#include "formats/pack/rules/issues.h"
 #include "formats/pack/sections.h"
 #include "formats/pack/validate.h"
 
@@ -218,11 +218,30 @@ Status attach(ReflectorEmitters& from, Pack& pack) {
   return {};
 }
 
-Result<Pack> decode_all(std::span<const std::byte> file) {
-  ORIEL_TRY(const PackIndex index, read_index(file));
+// A radiance map without its pixels.
+Status decode_without_pixels(std::span<const std::byte> file, const SectionInfo& section, Pack& pack) {
+  ORIEL_TRY_VOID(check_section(file, section));
+  ORIEL_TRY(const Bytes head, section_head(file, section, kRadianceMapPlaceBytes));
+  ByteReader in(head);
+  RadianceMap map;
+  RadianceMapScale scale;
+  if (auto status = decode_place(in, map, scale); !status && in.ok())
+    return invalid(section.label, "element 0: {}", status.error().message);
+  const std::uint64_t expected = kRadianceMapPlaceBytes + std::uint64_t{7} * map.width * map.height;
+  if (!in.ok() || section.raw_bytes != expected)
+    return invalid(section.label, "found {} bytes, expected the {} of its pixels", section.raw_bytes, expected);
+  pack.radiance_maps.push_back(std::move(map));
+  return {};
+}
+
+Result<Pack> decode_all(std::span<const std::byte> file, const PackIndex& index, MapPixels pixels) {
   Parts parts;
   Pack& pack = parts.pack;
   for (const auto& section : index.sections) {
+    if (section.kind == kRadianceMapSection && pixels == MapPixels::kDeferred) {
+      ORIEL_TRY_VOID(decode_without_pixels(file, section, pack));
+      continue;
+    }
     if (find_section_kind(section.kind)) {
       ORIEL_TRY_VOID(decode_section(file, section, parts));
       continue;
@@ -242,11 +261,11 @@ Result<Pack> decode_all(std::span<const std::byte> file) {
   return std::move(parts.pack);
 }
 
-}  // namespace
-
-Result<Pack> decode_pack(std::span<const std::byte> file) {
+// What lacks memory gives an error.
+template <class Decode>
+auto without_exceptions(const Decode& decode) -> decltype(decode()) {
   try {
-    return decode_all(file);
+    return decode();
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kRuntime, "pack", "there is not enough memory to decode it");
   } catch (const std::length_error&) {
@@ -254,18 +273,97 @@ Result<Pack> decode_pack(std::span<const std::byte> file) {
   }
 }
 
-Result<Pack> read_pack(const std::filesystem::path& path) {
-  ORIEL_TRY(const Bytes file, read_file(path));
-  auto pack = decode_pack(file);
-  if (!pack) {
-    Error error = std::move(pack).error();
-    error.where = error.where.empty() ? path.string() : path.string() + ": " + error.where;
-    return tl::unexpected<Error>(std::move(error));
-  }
-  for (const auto& issue : validate(*pack))
-    if (issue.severity == Severity::kError)
-      return invalid(path.string() + ": " + issue.section, "issue {}: {}", issue.number, issue.message);
+tl::unexpected<Error> in_file(const std::string& path, Error error) {
+  error.where = error.where.empty() ? path : path + ": " + error.where;
+  return tl::unexpected<Error>(std::move(error));
+}
+
+// The first issue of severity kError.
+Status refuse_errors(const std::vector<Issue>& issues) {
+  for (const auto& issue : issues)
+    if (issue.severity == Severity::kError) return invalid(issue.section, "issue {}: {}", issue.number, issue.message);
+  return {};
+}
+
+Result<Pack> decode_valid(std::span<const std::byte> file, const PackIndex& index, MapPixels pixels) {
+  ORIEL_TRY(Pack pack, decode_all(file, index, pixels));
+  ORIEL_TRY_VOID(refuse_errors(validate(pack, pixels)));
   return pack;
+}
+
+Result<RadianceMap> decode_map(std::span<const std::byte> file, const SectionInfo& section, std::size_t map) {
+  Parts parts;
+  ORIEL_TRY_VOID(decode_section(file, section, parts));
+  IssueList list;
+  list.in_section(kRadianceMapSection, map);
+  validate_pixels(parts.pack.radiance_maps[0], list);
+  ORIEL_TRY_VOID(refuse_errors(list.issues));
+  return std::move(parts.pack.radiance_maps[0]);
+}
+
+Issue damage(const Error& error) {
+  return {1, Severity::kError, error.where, error.message};
+}
+
+std::vector<Issue> find_damage(std::span<const std::byte> file) {
+  const auto index = read_index(file);
+  if (!index) return {damage(index.error())};
+  std::vector<Issue> issues;
+  for (const auto& section : index->sections)
+    if (const auto status = check_section(file, section); !status) issues.push_back(damage(status.error()));
+  return issues;
+}
+
+}  // namespace
+
+Result<Pack> decode_pack(std::span<const std::byte> file) {
+  return without_exceptions([&]() -> Result<Pack> {
+    ORIEL_TRY(const PackIndex index, read_index(file));
+    return decode_all(file, index, MapPixels::kHere);
+  });
+}
+
+Result<CheckedPack> check_pack(std::span<const std::byte> file) {
+  CheckedPack checked{std::nullopt, find_damage(file)};
+  if (!checked.issues.empty()) return checked;
+  auto pack = decode_pack(file);
+  if (!pack && pack.error().code != ErrorCode::kInvalid) return tl::unexpected<Error>(std::move(pack).error());
+  if (!pack) {
+    checked.issues.push_back(damage(pack.error()));
+    return checked;
+  }
+  checked.issues = validate(*pack);
+  checked.pack = std::move(*pack);
+  return checked;
+}
+
+Result<Pack> read_pack(const std::filesystem::path& path) {
+  ORIEL_TRY(const MappedFile file, MappedFile::open(path));
+  auto pack = without_exceptions([&]() -> Result<Pack> {
+    ORIEL_TRY(const PackIndex index, read_index(file.bytes()));
+    return decode_valid(file.bytes(), index, MapPixels::kHere);
+  });
+  if (!pack) return in_file(path.string(), std::move(pack).error());
+  return pack;
+}
+
+Result<DeferredPack> read_pack_deferred(const std::filesystem::path& path) {
+  ORIEL_TRY(MappedFile file, MappedFile::open(path));
+  auto pack = without_exceptions([&]() -> Result<DeferredPack> {
+    ORIEL_TRY(PackIndex index, read_index(file.bytes()));
+    ORIEL_TRY(Pack decoded, decode_valid(file.bytes(), index, MapPixels::kDeferred));
+    std::erase_if(index.sections, [](const SectionInfo& s) { return s.kind != kRadianceMapSection; });
+    return DeferredPack{std::move(decoded), std::make_shared<const DeferredMaps>(std::move(file), path.string(),
+                                                                                 std::move(index.sections))};
+  });
+  if (!pack) return in_file(path.string(), std::move(pack).error());
+  return pack;
+}
+
+Result<RadianceMap> DeferredMaps::load(std::size_t map) const {
+  auto loaded = without_exceptions([&] { return decode_map(file_.bytes(), sections_[map], map); });
+  if (!loaded) return in_file(path_, std::move(loaded).error());
+  return loaded;
 }
 
 }  // namespace oriel

@@ -88,6 +88,13 @@ Status decode(ByteReader& in, LightmapPage& page);
 Status decode(ByteReader& in, DirectionPage& page);
 Status decode(ByteReader& in, NormalMapping& mapping);
 Status decode(ByteReader& in, RadianceMap& map);
+// The same without the pixels: the first kRadianceMapPlaceBytes of the section.
+struct RadianceMapScale {
+  int exponent = 0;  // of 2: what radiance was divided by
+  int shift = 0;     // disparity_from_code's
+};
+inline constexpr std::size_t kRadianceMapPlaceBytes = 52;
+Status decode_place(ByteReader& in, RadianceMap& map, RadianceMapScale& scale);
 Status decode(ByteReader& in, CurvedReflector& reflector);
 Status decode(ByteReader& in, SurroundMap& map);
 Status decode(ByteReader& in, BrdfKernel& kernel);

@@ -193,7 +193,7 @@ void validate_unknown(const Pack& pack, IssueList& list) {
   }
 }
 
-std::vector<Issue> validate(const Pack& pack) {
+std::vector<Issue> validate(const Pack& pack, MapPixels pixels) {
   IssueList list;
   validate_texts(pack, list);
   validate_mesh(pack, list);
@@ -201,7 +201,7 @@ std::vector<Issue> validate(const Pack& pack) {
   validate_textures(pack, list);
   validate_lightmaps(pack, list);
   validate_reflectors(pack, list);
-  validate_radiance_maps(pack, list);
+  validate_radiance_maps(pack, pixels, list);
   validate_elements(pack, list);
   validate_emitters(pack, list);
   validate_curved_reflectors(pack, list);

@@ -1,96 +1,67 @@
 #include "formats/pack/writer.h"
 
-#include <zstd.h>
+#include <algorithm>
+#include <functional>
 
-#include <memory>
-
-#include "formats/core/check.h"
 #include "formats/core/file.h"
-#include "formats/core/hash.h"
+#include "formats/pack/fields.h"
 #include "formats/pack/layout.h"
 #include "formats/pack/sections.h"
+#include "formats/pack/stream.h"
 #include "formats/pack/validate.h"
 
 namespace oriel {
 namespace {
 
-// Level 6 saves 1 to 2 % on maps for two to three times the time, level 15 no more than that (measured:
-// docs/format.md).
-constexpr int kZstdLevel = 3;
-
-struct Section {
-  SectionRecord record{};
-  Bytes stored;
-};
-
-Bytes compress(const Bytes& raw) {
-  Bytes stored(ZSTD_compressBound(raw.size()));
-  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
-  ORIEL_CHECK(context != nullptr);
-  const std::size_t n =
-      ZSTD_compressCCtx(context.get(), stored.data(), stored.size(), raw.data(), raw.size(), kZstdLevel);
-  ORIEL_CHECK(!ZSTD_isError(n));
-  stored.resize(n);
-  return stored;
-}
-
+// What a pack's sections are, before any is encoded: one at a time is in memory.
 class SectionList {
  public:
-  void add(std::uint32_t kind, std::uint64_t count, Bytes raw) {
-    Section section;
-    section.record.kind = kind;
-    section.record.flags = find_section_kind(kind)->optional ? kSectionOptional : 0;
-    section.record.count = count;
-    section.record.raw_bytes = raw.size();
-    section.stored = compress(raw);
-    section.record.codec = static_cast<std::uint32_t>(Codec::kZstd);
-    // Bytes that do not shrink are stored as they are. The other bound is the reader's, against decompression bombs.
-    if (section.stored.size() >= raw.size() || raw.size() / kMaxExpansion > section.stored.size()) {
-      section.stored = std::move(raw);
-      section.record.codec = static_cast<std::uint32_t>(Codec::kNone);
-    }
-    finish(std::move(section));
+  void add(std::uint32_t kind, std::uint64_t count, std::function<void(ByteWriter&)> encode_raw) {
+    writers_.push_back([kind, count, encode_raw = std::move(encode_raw)](PackStream& stream) {
+      ByteWriter out;
+      encode_raw(out);
+      return stream.add(kind, count, out.bytes());
+    });
   }
   void add_text(std::uint32_t kind, const std::string& text) {
-    if (text.empty()) return;
-    const auto* p = reinterpret_cast<const std::byte*>(text.data());
-    add(kind, 1, Bytes(p, p + text.size()));
+    if (!text.empty()) add(kind, 1, [&text](ByteWriter& out) { out.put_array(std::span<const char>(text)); });
   }
+  // elements: of the pack, or a list made for this (moved in).
   template <class T>
   void add_list(std::uint32_t kind, const std::vector<T>& elements) {
-    if (elements.empty()) return;
-    ByteWriter out;
-    for (const T& element : elements) encode(out, element);
-    add(kind, elements.size(), out.take());
+    if (!elements.empty()) add(kind, elements.size(), [&elements](ByteWriter& out) { encode_all(out, elements); });
+  }
+  template <class T>
+  void add_list(std::uint32_t kind, std::vector<T>&& elements) {
+    const std::size_t count = elements.size();
+    if (count == 0) return;
+    add(kind, count, [made = std::move(elements)](ByteWriter& out) { encode_all(out, made); });
+  }
+  template <class T>
+  void add_one(std::uint32_t kind, const T& element) {
+    add(kind, 1, [&element](ByteWriter& out) { encode(out, element); });
   }
   template <class T>
   void add_each(std::uint32_t kind, const std::vector<T>& elements) {
-    for (const T& element : elements) {
-      ByteWriter out;
-      encode(out, element);
-      add(kind, 1, out.take());
-    }
+    for (const T& element : elements) add_one(kind, element);
   }
   void add_unknown(const UnknownSection& unknown) {
-    Section section;
-    section.record.kind = unknown.kind;
-    section.record.codec = unknown.codec;
-    section.record.flags = kSectionOptional;
-    section.record.raw_bytes = unknown.raw_bytes;
-    section.record.count = unknown.count;
-    section.stored = unknown.stored;
-    finish(std::move(section));
+    writers_.push_back([&unknown](PackStream& stream) { return stream.add(unknown); });
   }
-  const std::vector<Section>& sections() const { return sections_; }
+
+  Status write(const PutBytes& put) const {
+    PackStream stream(writers_.size(), put);
+    for (const auto& writer : writers_) ORIEL_TRY_VOID(writer(stream));
+    return stream.finish();
+  }
 
  private:
-  void finish(Section section) {
-    section.record.stored_bytes = section.stored.size();
-    section.record.checksum = hash64(section.stored);
-    sections_.push_back(std::move(section));
+  template <class T>
+  static void encode_all(ByteWriter& out, const std::vector<T>& elements) {
+    for (const T& element : elements) encode(out, element);
   }
 
-  std::vector<Section> sections_;
+  std::vector<std::function<Status(PackStream&)>> writers_;
 };
 
 // One or none.
@@ -141,25 +112,22 @@ std::vector<ReflectorEmitters> reflector_emitters(const Pack& pack) {
   return all;
 }
 
-SectionList encode_sections(const Pack& pack) {
+// Refers to the pack.
+SectionList sections_of(const Pack& pack) {
   SectionList list;
   list.add_text(kProvenanceSection, pack.provenance);
   list.add_text(kPlanSection, pack.plan);
-  ByteWriter scene;
-  for (int c = 0; c < 3; ++c) scene.put(pack.sky[c]);
-  list.add(kSceneSection, 1, scene.take());
-  ByteWriter mesh;
-  encode(mesh, pack.mesh);
-  list.add(kMeshSection, 1, mesh.take());
+  list.add(kSceneSection, 1, [&pack](ByteWriter& out) { put(out, pack.sky); });
+  list.add_one(kMeshSection, pack.mesh);
   list.add_list(kMaterialSection, pack.materials);
   list.add_each(kTextureSection, pack.textures);
   list.add_each(kLightmapSection, pack.lightmaps);
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const LightmapPage& page = pack.lightmaps[i];
     if (page.direction.empty()) continue;
-    ByteWriter out;
-    encode(out, DirectionPage{static_cast<std::uint32_t>(i), page.width, page.height, page.direction});
-    list.add(kDirectionSection, 1, out.take());
+    list.add(kDirectionSection, 1, [&page, i](ByteWriter& out) {
+      encode(out, DirectionPage{static_cast<std::uint32_t>(i), page.width, page.height, page.direction});
+    });
   }
   list.add_each(kNormalTextureSection, pack.normal_textures);
   list.add_list(kNormalMappingSection, normal_mapping(pack));
@@ -175,76 +143,50 @@ SectionList encode_sections(const Pack& pack) {
   list.add_list(kKernelFitSection, kernel_fits(pack));
   list.add_list(kFresnelSection, pack.fresnel_maps);
   list.add_list(kFresnelFactorSection, fresnel_factors(pack));
-  if (pack.split_reflectance.angles > 0) {
-    ByteWriter split;
-    encode(split, pack.split_reflectance);
-    list.add(kSplitSection, 1, split.take());
-  }
+  if (pack.split_reflectance.angles > 0) list.add_one(kSplitSection, pack.split_reflectance);
   list.add_list(kCameraSection, pack.cameras);
   list.add_list(kPathSection, pack.paths);
   list.add_list(kWalkSection, pack.walk_grids);
   list.add_each(kMoverSection, pack.movers);
-  if (pack.light_field.bands > 0) {
-    ByteWriter field;
-    encode(field, pack.light_field);
-    list.add(kLightFieldSection, 1, field.take());
-  }
+  if (pack.light_field.bands > 0) list.add_one(kLightFieldSection, pack.light_field);
   for (const auto& unknown : pack.unknown) list.add_unknown(unknown);
   return list;
 }
 
-void append(Bytes& bytes, const void* data, std::size_t size) {
-  const auto* p = static_cast<const std::byte*>(data);
-  bytes.insert(bytes.end(), p, p + size);
+// Refuses a pack with an issue of severity kError.
+Status check_writable(const Pack& pack) {
+  for (const auto& issue : validate(pack))
+    if (issue.severity == Severity::kError) return invalid(issue.section, "issue {}: {}", issue.number, issue.message);
+  return {};
 }
 
-std::uint64_t align(std::uint64_t offset) {
-  return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+Status write_file(const std::filesystem::path& path, const Pack& pack) {
+  ORIEL_TRY_VOID(check_writable(pack));
+  ORIEL_TRY(AtomicFile file, AtomicFile::create(path));
+  ORIEL_TRY_VOID(sections_of(pack).write(
+      [&](std::uint64_t offset, std::span<const std::byte> bytes) { return file.write(offset, bytes); }));
+  return file.commit();
 }
 
 }  // namespace
 
 Result<Bytes> encode_pack(const Pack& pack) {
-  for (const auto& issue : validate(pack))
-    if (issue.severity == Severity::kError) return invalid(issue.section, "issue {}: {}", issue.number, issue.message);
-  const SectionList list = encode_sections(pack);
-  if (list.sections().size() > kMaxSections)
-    return invalid("section table", "found {} sections, at most {} are accepted", list.sections().size(), kMaxSections);
-  FileHeader header{};
-  header.magic = kPackMagic;
-  header.version = kPackVersion;
-  header.section_count = static_cast<std::uint32_t>(list.sections().size());
-  header.record_bytes = sizeof(SectionRecord);
-  header.table_offset = sizeof(FileHeader);
-  std::uint64_t end = sizeof(FileHeader) + list.sections().size() * sizeof(SectionRecord);
-  Bytes table;
-  for (const auto& section : list.sections()) {
-    SectionRecord record = section.record;
-    record.offset = align(end);
-    end = record.offset + record.stored_bytes;
-    append(table, &record, sizeof(record));
-  }
-  header.file_bytes = end;
+  ORIEL_TRY_VOID(check_writable(pack));
   Bytes file;
-  file.reserve(end);
-  append(file, &header, offsetof(FileHeader, checksum));
-  Bytes covered = file;
-  append(covered, table.data(), table.size());
-  const std::uint64_t checksum = hash64(covered);
-  append(file, &checksum, sizeof(checksum));
-  append(file, table.data(), table.size());
-  for (const auto& section : list.sections()) {
-    file.resize(align(file.size()));
-    append(file, section.stored.data(), section.stored.size());
-  }
+  ORIEL_TRY_VOID(sections_of(pack).write([&](std::uint64_t offset, std::span<const std::byte> bytes) -> Status {
+    if (file.size() < offset + bytes.size()) file.resize(offset + bytes.size());
+    std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(offset));
+    return {};
+  }));
   return file;
 }
 
 Status write_pack(const std::filesystem::path& path, const Pack& pack) {
-  auto bytes = encode_pack(pack);
+  auto status = write_file(path, pack);
   // The data is ours, not the user's: a pack that cannot be written is a failure of the run.
-  if (!bytes) return fail(ErrorCode::kRuntime, path.string(), "{}", bytes.error().text());
-  return write_file_atomically(path, *bytes);
+  if (!status && status.error().code == ErrorCode::kInvalid)
+    return fail(ErrorCode::kRuntime, path.string(), "{}", status.error().text());
+  return status;
 }
 
 }  // namespace oriel

@@ -14,7 +14,8 @@ namespace oriel {
 // refused with kInvalid and the first issue's text.
 Result<Bytes> encode_pack(const Pack& pack);
 
-// encode_pack, then the file: path holds either the old file or the whole new one. Errors: kInvalid, kIo.
+// The same bytes as a file: path holds either the old file or the whole new one. One encoded section is in memory at a
+// time. Errors: kRuntime where encode_pack has kInvalid, kIo.
 Status write_pack(const std::filesystem::path& path, const Pack& pack);
 
 }  // namespace oriel

@@ -100,7 +100,7 @@ Status write_difference(const std::string& path, const FloatImage& picture) {
 
 }  // namespace
 
-Status play_compare(Pack pack, const PlayArguments& arguments) {
+Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const LayeredImage reference, read_layered_exr(arguments.reference));
   const FloatImage& picture = reference.layers.at("");
   ORIEL_TRY(const std::uint32_t n, supersampling(arguments, picture));

@@ -1,7 +1,7 @@
 // Frames beside their path-traced reference, in numbers and as a picture.
 #pragma once
 
-#include "formats/pack/pack.h"
+#include "formats/pack/deferred.h"
 #include "player/options/arguments.h"
 
 namespace oriel {
@@ -10,6 +10,6 @@ namespace oriel {
 // stdout and writes what the arguments ask for. The size is a whole multiple of the reference's: pixels are then
 // averaged. Errors: kUsage, kIo, kInvalid, kRuntime; kDifferent where FLIP exceeds
 // arguments.max_flip or the frame holds values that are not finite.
-Status play_compare(Pack pack, const PlayArguments& arguments);
+Status play_compare(DeferredPack pack, const PlayArguments& arguments);
 
 }  // namespace oriel

@@ -3,7 +3,7 @@
 #include <exception>
 
 #include "formats/camera/path.h"
-#include "formats/pack/reader.h"
+#include "formats/pack/deferred.h"
 #include "player/app/compare.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
@@ -28,9 +28,9 @@ void list_cameras(const Pack& pack) {
 }
 
 Status play(const PlayArguments& arguments) {
-  ORIEL_TRY(Pack pack, read_pack(arguments.pack));
+  ORIEL_TRY(DeferredPack pack, read_pack_deferred(arguments.pack));
   if (arguments.list) {
-    list_cameras(pack);
+    list_cameras(pack.pack);
     return {};
   }
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);

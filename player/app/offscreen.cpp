@@ -177,7 +177,7 @@ class Studio {
 
 }  // namespace
 
-Status play_offscreen(Pack pack, const PlayArguments& arguments) {
+Status play_offscreen(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);

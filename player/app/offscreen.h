@@ -1,13 +1,13 @@
 // Pictures without a display.
 #pragma once
 
-#include "formats/pack/pack.h"
+#include "formats/pack/deferred.h"
 #include "player/options/arguments.h"
 
 namespace oriel {
 
 // Draws each camera of the arguments, or frames along a path, into files. Timings go to stderr. Errors: kUsage, kIo,
 // kRuntime, kStopped.
-Status play_offscreen(Pack pack, const PlayArguments& arguments);
+Status play_offscreen(DeferredPack pack, const PlayArguments& arguments);
 
 }  // namespace oriel

@@ -123,6 +123,7 @@ void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflecto
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
+  ORIEL_TRY_VOID(scene.load_maps(reflector));
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);

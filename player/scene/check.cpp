@@ -69,7 +69,7 @@ Status check_rectangle(const std::string& where, const Vec2& lower, const Vec2& 
                  upper.x, upper.y);
 }
 
-Status check_images(const Pack& pack, const gpu::Device& device) {
+Status check_images(const Pack& pack, const gpu::Device& device, MapPixels pixels) {
   for (std::size_t i = 0; i < pack.textures.size(); ++i) {
     const Texture& t = pack.textures[i];
     ORIEL_TRY_VOID(check_size(fmt::format("texture {}", i), t.width, t.height, t.texels.size(), 4, device));
@@ -87,7 +87,9 @@ Status check_images(const Pack& pack, const gpu::Device& device) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& m = pack.radiance_maps[i];
     const std::string where = fmt::format("radiance map {}", i);
-    ORIEL_TRY_VOID(check_size(where, m.width, m.height, m.radiance.size(), 1, device));
+    const bool here = pixels == MapPixels::kHere;
+    const std::uint64_t found = here ? m.radiance.size() : std::uint64_t{m.width} * m.height;
+    ORIEL_TRY_VOID(check_size(where, m.width, m.height, found, 1, device));
     if (m.disparity.size() != m.radiance.size() || m.valid.size() != m.radiance.size()) {
       return invalid(where, "found {} disparities and {} states, expected {}", m.disparity.size(), m.valid.size(),
                      m.radiance.size());
@@ -314,12 +316,12 @@ Status check_movers(const Pack& pack, const gpu::Device& device) {
 
 }  // namespace
 
-Status check_drawable(const Pack& pack, const gpu::Device& device) {
+Status check_drawable(const Pack& pack, const gpu::Device& device, MapPixels pixels) {
   ORIEL_TRY_VOID(check_mesh(pack, pack.mesh, "mesh"));
   ORIEL_TRY_VOID(check_materials(pack));
   ORIEL_TRY_VOID(check_kernels(pack, device));
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
-  ORIEL_TRY_VOID(check_images(pack, device));
+  ORIEL_TRY_VOID(check_images(pack, device, pixels));
   ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
   ORIEL_TRY_VOID(check_emitters(pack));
   ORIEL_TRY_VOID(check_reflectors(pack, device));

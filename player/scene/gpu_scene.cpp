@@ -42,12 +42,13 @@ MapMeans means_of_maps(const Pack& pack, const Reflector& reflector) {
 
 }  // namespace
 
-Result<std::unique_ptr<GpuScene>> GpuScene::create(Pack pack, const gpu::Device& device) {
-  ORIEL_TRY_VOID(check_drawable(pack, device));
+Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu::Device& device) {
+  ORIEL_TRY_VOID(check_drawable(pack.pack, device, pack.maps ? MapPixels::kDeferred : MapPixels::kHere));
   std::unique_ptr<GpuScene> scene(new GpuScene);
   static std::atomic<std::uint64_t> scenes{0};
   scene->serial_ = ++scenes;
-  scene->pack_ = std::move(pack);
+  scene->pack_ = std::move(pack.pack);
+  scene->deferred_ = std::move(pack.maps);
   scene->upload_geometry();
   scene->upload_images();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
@@ -95,12 +96,25 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
-    const MapMeans means = means_of_maps(pack_, r);
-    out.mean_radiance = means.radiance;
-    out.mean_distance = means.distance;
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
+  loaded_.resize(reflectors_.size());
+}
+
+Status GpuScene::load_maps(const GpuReflector& reflector) {
+  if (loaded_[reflector.index]) return {};
+  const Reflector& r = pack_.reflectors[reflector.index];
+  for (std::uint32_t i = r.first_map; deferred_ && i < r.first_map + r.map_count; ++i) {
+    ORIEL_TRY(RadianceMap map, deferred_->load(i));
+    map.residual = pack_.radiance_maps[i].residual;
+    pack_.radiance_maps[i] = std::move(map);
+  }
+  const MapMeans means = means_of_maps(pack_, r);
+  reflectors_[reflector.index].mean_radiance = means.radiance;
+  reflectors_[reflector.index].mean_distance = means.distance;
+  loaded_[reflector.index] = true;
+  return {};
 }
 
 void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "formats/pack/pack.h"
+#include "formats/pack/deferred.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/device.h"
 #include "player/maps/map_array.h"
@@ -28,6 +28,7 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
+  // Once load_maps() has been called:
   Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
   float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
   GpuEmitters emitters;     // that its maps leave out
@@ -52,7 +53,10 @@ struct GpuKernel {
 class GpuScene {
  public:
   // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
-  static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device);
+  static Result<std::unique_ptr<GpuScene>> create(DeferredPack pack, const gpu::Device& device);
+  static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device) {
+    return create(DeferredPack{std::move(pack), nullptr}, device);
+  }
 
   const Pack& pack() const { return pack_; }
   // Of this scene alone, for what others keep of it.
@@ -79,6 +83,9 @@ class GpuScene {
   // Scale 0 where index is -1.
   const LightmapTexture& lightmap(std::int32_t index) const;
   const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
+  // To be called before a reflector's maps are used: brings their pixels from the file, the first time. Errors of
+  // DeferredMaps::load.
+  Status load_maps(const GpuReflector& reflector);
   // Uploaded on first use and kept.
   const gpu::Texture& radiance_map(std::uint32_t index);       // as points
   const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
@@ -100,6 +107,8 @@ class GpuScene {
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   Pack pack_;
+  std::shared_ptr<const DeferredMaps> deferred_;  // null: all pixels are in pack_
+  std::vector<bool> loaded_;                      // by reflector
   std::uint64_t serial_ = 0;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;

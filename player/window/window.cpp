@@ -189,7 +189,7 @@ class Loop {
 
 }  // namespace
 
-Status play_in_window(Pack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
+Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);

@@ -3,13 +3,13 @@
 
 #include <functional>
 
-#include "formats/pack/pack.h"
+#include "formats/pack/deferred.h"
 #include "player/options/arguments.h"
 
 namespace oriel {
 
 // Shows the pack until the user closes the window. Errors: kRuntime (no display, no OpenGL 3.3), kUsage, kStopped once
 // `stopped` says so.
-Status play_in_window(Pack pack, const PlayArguments& arguments, const std::function<bool()>& stopped);
+Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped);
 
 }  // namespace oriel

@@ -186,6 +186,56 @@ TEST(Files, WholeOrNot) {
   EXPECT_TRUE(read_file(path)->empty());
 }
 
+TEST(Files, AppearWhenCommitted) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  const Bytes ones(10, std::byte{1}), zeros(3);
+  {
+    auto file = AtomicFile::create(path);
+    ASSERT_TRUE(file && file->write(0, ones));
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "nothing stays of what is not committed";
+  auto file = AtomicFile::create(path);
+  ASSERT_TRUE(file);
+  AtomicFile moved = std::move(*file);
+  ASSERT_TRUE(moved.write(4, ones));
+  ASSERT_TRUE(moved.write(5, zeros));   // over what is there
+  ASSERT_TRUE(moved.write(20, zeros));  // a hole at the end
+  ASSERT_TRUE(moved.commit());
+  Bytes expected(23);
+  for (const int i : {4, 8, 9, 10, 11, 12, 13}) expected[static_cast<std::size_t>(i)] = std::byte{1};
+  EXPECT_EQ(*read_file(path), expected);
+}
+
+TEST(Files, MapsWhatIsThere) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  const Bytes first(10000, std::byte{1}), second(10, std::byte{2});
+  ASSERT_TRUE(write_file_atomically(path, first));
+  const auto mapped = MappedFile::open(path);
+  ASSERT_TRUE(mapped);
+  ASSERT_TRUE(write_file_atomically(path, second));  // another file under the name: the mapped one stays
+  EXPECT_TRUE(std::ranges::equal(mapped->bytes(), first));
+  EXPECT_TRUE(std::ranges::equal(MappedFile::open(path)->bytes(), second));
+  ASSERT_TRUE(write_file_atomically(path, {}));
+  EXPECT_TRUE(MappedFile::open(path)->bytes().empty());
+  EXPECT_EQ(MappedFile::open(folder.path()).error().code, ErrorCode::kIo);
+  EXPECT_EQ(MappedFile::open(folder.path() / "none").error().code, ErrorCode::kIo);
+}
+
+TEST(Hash, PiecesAreTheWhole) {
+  Bytes bytes(5000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i * 7);
+  Hasher64 hasher;
+  for (int round = 0; round < 2; ++round) {
+    hasher.reset();
+    for (std::size_t i = 0; i < bytes.size(); i += 611)
+      hasher.add(std::span(bytes).subspan(i, std::min<std::size_t>(611, bytes.size() - i)));
+    EXPECT_EQ(hasher.result(), hash64(bytes));
+  }
+}
+
 TEST(Results, TextAndTry) {
   const auto half = [](int x) -> Result<int> {
     if (x % 2 != 0) return invalid("number", "found {}, expected an even one", x);

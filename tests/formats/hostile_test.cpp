@@ -146,6 +146,34 @@ TEST(Hostile, CountsInsideSections) {
   expect_refusal(with_raw(kFresnelSection, 8, ~0u), "section FRES (Fresnel maps): its counts need more");
 }
 
+TEST(Hostile, EveryCutOfEverySectionIsRefused) {
+  const Forge whole = Forge::from(tiny_file());
+  for (std::size_t i = 0; i < whole.sections.size(); ++i) {
+    const std::uint32_t kind = whole.sections[i].record.kind;
+    if (!find_section_kind(kind) || kind == kProvenanceSection || kind == kPlanSection) continue;
+    const Bytes raw = Forge::raw(whole.sections[i]);
+    for (std::size_t n = 0; n < raw.size(); ++n) {
+      Forge forge = whole;
+      Forge::set_raw(forge.sections[i], Bytes(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(n)));
+      ASSERT_NE(refusal(forge.file()).find("its counts need more than the"), std::string::npos) << kind_text(kind);
+    }
+  }
+}
+
+// What a cut leaves of a transfer's sizes is not multiplied.
+TEST(Hostile, ATransferThatEndsInItsSizes) {
+  Forge forge = Forge::from(tiny_file());
+  auto& section = forge.find(kMoverSection);
+  Bytes raw = Forge::raw(section);
+  const CompressedTransfer t = tiny_mapped_pack().movers[0].transfer;
+  const std::size_t after_sizes =
+      4 + 4 * (t.basis.size() + t.weight_scale.size()) + t.vertices() * static_cast<std::size_t>(t.bytes_per_vertex());
+  raw.resize(raw.size() - after_sizes - 1);  // inside the last of the four sizes
+  for (std::size_t i = raw.size() - 7; i < raw.size(); ++i) raw[i] = std::byte{0xff};
+  Forge::set_raw(section, raw);
+  expect_refusal(forge.file(), "section MOVR 0 (mover): its counts need more");
+}
+
 TEST(Hostile, HalvesThatAreNotFinite) {
   Forge forge = Forge::from(tiny_file());
   auto& section = forge.find(kLightmapSection);

@@ -85,6 +85,28 @@ TEST_F(Inspect, MissingFileAndBlockedFolder) {
   EXPECT_EQ(run("extract -o " + (pack_ / "below-a-file").string() + " " + pack_.string()).code, 2);
 }
 
+// A pack of a program to come: every command says what it lacks, none guesses.
+TEST_F(Inspect, LaterVersionsAreRefusedInWords) {
+  testing::Forge later = testing::Forge::from(*read_file(pack_));
+  testing::Forge required = later;
+  later.version = 2;
+  required.find(fourcc("XTRA")).record.flags = 0;
+  const auto expect_words = [&](const Bytes& file, const std::string& words) {
+    ASSERT_TRUE(write_file_atomically(pack_, file));
+    const std::string output = " -o " + (folder_.path() / "x").string();
+    for (const std::string command : {"info", "validate", "extract", "report", "export", "diff"}) {
+      const bool writes = command == "extract" || command == "report" || command == "export";
+      const std::string second = command == "diff" ? " " + pack_.string() : writes ? output : "";
+      const Outcome found = run(command + " " + pack_.string() + second);
+      EXPECT_EQ(found.code, 3) << command;
+      EXPECT_NE((found.out + found.err).find(words), std::string::npos) << command << ": " << found.out << found.err;
+    }
+  };
+  expect_words(later.file(), "header: found format version 2, this program reads version 1");
+  expect_words(required.file(),
+               "section XTRA (unknown): is of a kind that this program does not know, and is not marked as optional");
+}
+
 TEST_F(Inspect, InfoForPeople) {
   const Outcome info = run("info " + pack_.string());
   EXPECT_EQ(info.code, 0) << info.err;

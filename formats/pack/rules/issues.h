@@ -81,7 +81,9 @@ void validate_materials(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, IssueList& list);
 void validate_lightmaps(const Pack& pack, IssueList& list);
 void validate_reflectors(const Pack& pack, IssueList& list);
-void validate_radiance_maps(const Pack& pack, IssueList& list);
+void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& list);
+// Of one map, in the section that the list is in.
+void validate_pixels(const RadianceMap& map, IssueList& list);
 void validate_elements(const Pack& pack, IssueList& list);
 void validate_curved_reflectors(const Pack& pack, IssueList& list);
 void validate_surround_maps(const Pack& pack, IssueList& list);

@@ -139,18 +139,25 @@ void validate_reflectors(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, list);
 }
 
-void validate_radiance_maps(const Pack& pack, IssueList& list) {
+void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& list) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
     validate_map_place(pack, i, list);
-    if (!check_area(411, map.width, map.height, {map.radiance.size(), map.disparity.size(), map.valid.size()}, list))
-      continue;
-    list.each(415, "pixels of radiance", map.radiance, light, text3, kLight);
-    list.each(
-        416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, text1, "0 to 1");
-    check_validity(417, map.valid, list);
+    if (pixels == MapPixels::kHere)
+      validate_pixels(map, list);
+    else
+      check_area(411, map.width, map.height, {}, list);
   }
+}
+
+void validate_pixels(const RadianceMap& map, IssueList& list) {
+  if (!check_area(411, map.width, map.height, {map.radiance.size(), map.disparity.size(), map.valid.size()}, list))
+    return;
+  list.each(415, "pixels of radiance", map.radiance, light, text3, kLight);
+  list.each(
+      416, "pixels of disparity", map.disparity, [](float d) { return within(d, 0, 1); }, text1, "0 to 1");
+  check_validity(417, map.valid, list);
 }
 
 void validate_curved_reflectors(const Pack& pack, IssueList& list) {

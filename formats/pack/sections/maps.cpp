@@ -163,7 +163,7 @@ void encode(ByteWriter& out, const RadianceMap& map) {
   put_planes(out, std::span<const std::uint8_t>(map.valid));
 }
 
-Status decode(ByteReader& in, RadianceMap& map) {
+Status decode_place(ByteReader& in, RadianceMap& map, RadianceMapScale& scale) {
   map.reflector = in.get<std::uint32_t>();
   ORIEL_TRY_VOID(get_size(in, map.width, map.height));
   ORIEL_TRY_VOID(get_choice(in, "emission flag", 1, map.has_emission));
@@ -172,16 +172,22 @@ Status decode(ByteReader& in, RadianceMap& map) {
   map.eye = get_vec3(in);
   map.lower = get_vec2(in);
   map.upper = get_vec2(in);
-  int exponent = 0;
-  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
-  const auto shift = in.get<std::int32_t>();
-  if (shift < 0 || shift > kMaxDisparityShift)
-    return invalid("", "found disparity shift {}, expected 0 to {}", shift, kMaxDisparityShift);
+  ORIEL_TRY_VOID(get_scale_exponent(in, scale.exponent));
+  scale.shift = in.get<std::int32_t>();
+  if (scale.shift < 0 || scale.shift > kMaxDisparityShift)
+    return invalid("", "found disparity shift {}, expected 0 to {}", scale.shift, kMaxDisparityShift);
+  return {};
+}
+
+Status decode(ByteReader& in, RadianceMap& map) {
+  RadianceMapScale scale;
+  ORIEL_TRY_VOID(decode_place(in, map, scale));
   const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
-  map.radiance = get_rgb9e5(in, pixels, exponent);
+  map.radiance = get_rgb9e5(in, pixels, scale.exponent);
   const auto disparities = get_planes<std::uint16_t>(in, pixels);
   map.disparity.resize(disparities.size());
-  for (std::size_t i = 0; i < disparities.size(); ++i) map.disparity[i] = disparity_from_code(disparities[i], shift);
+  for (std::size_t i = 0; i < disparities.size(); ++i)
+    map.disparity[i] = disparity_from_code(disparities[i], scale.shift);
   map.valid = get_planes<std::uint8_t>(in, pixels);
   return {};
 }

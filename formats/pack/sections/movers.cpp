@@ -33,8 +33,9 @@ void put(ByteWriter& out, const CompressedTransfer& t) {
 
 Status get_transfer(ByteReader& in, std::size_t vertices, CompressedTransfer& t) {
   for (int* v : {&t.bands, &t.channels, &t.clusters, &t.components}) *v = in.get<std::uint16_t>();
-  if (in.ok() && (t.bands < 2 || t.bands > 6 || (t.channels != 1 && t.channels != 3) || t.clusters < 1 ||
-                  t.clusters > 256 || t.components < 1 || t.components > 64))
+  if (!in.ok()) return {};  // what was read before the end may be any number
+  if (t.bands < 2 || t.bands > 6 || (t.channels != 1 && t.channels != 3) || t.clusters < 1 || t.clusters > 256 ||
+      t.components < 1 || t.components > 64)
     return invalid("",
                    "found a transfer of {} bands, {} channels, {} clusters and {} components, expected 2 to 6, 1 or 3, "
                    "1 to 256 and 1 to 64",

@@ -1,0 +1,127 @@
+// Times of packs as files. docs/format.md holds what it printed.
+//   pack_bench grow PACK OUT BYTES     repeats PACK's lightmap pages and reflectors until OUT has BYTES or more
+//   pack_bench load PACK               seconds to read PACK as the player does, bytes read, largest memory
+//   pack_bench levels PACK             zstd levels by kind of section: ratio and MB/s
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <zstd.h>
+
+#include <chrono>
+#include <fstream>
+#include <map>
+
+#include "formats/core/file.h"
+#include "formats/pack/deferred.h"
+#include "formats/pack/index.h"
+#include "formats/pack/reader.h"
+#include "formats/pack/writer.h"
+
+namespace {
+
+using namespace oriel;
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// One more of every lightmap page, and of every reflector with its maps.
+void append_copy(Pack& pack, const Pack& of) {
+  pack.lightmaps.insert(pack.lightmaps.end(), of.lightmaps.begin(), of.lightmaps.end());
+  const auto first_reflector = static_cast<std::uint32_t>(pack.reflectors.size());
+  const auto first_map = static_cast<std::uint32_t>(pack.radiance_maps.size());
+  for (Reflector reflector : of.reflectors) {
+    reflector.first_map += first_map;
+    pack.reflectors.push_back(std::move(reflector));
+  }
+  for (RadianceMap map : of.radiance_maps) {
+    map.reflector += first_reflector;
+    pack.radiance_maps.push_back(std::move(map));
+  }
+}
+
+Status grow(const std::string& from, const std::string& to, std::uint64_t bytes) {
+  ORIEL_TRY(const Pack one, read_pack(from));
+  ORIEL_TRY(const Bytes file, read_file(from));
+  Pack pack = one;
+  for (std::uint64_t size = file.size(); size < bytes; size += file.size()) append_copy(pack, one);
+  return write_pack(to, pack);
+}
+
+// From /proc/self/io: through read() and its like, whether from a disk or from the system's cache.
+std::uint64_t bytes_read() {
+  std::ifstream in("/proc/self/io");
+  std::string name;
+  std::uint64_t value = 0;
+  in >> name >> value;
+  return value;
+}
+
+Status load(const std::string& path) {
+  const std::uint64_t before = bytes_read();
+  Result<DeferredPack> pack = tl::unexpected<Error>(Error{});
+  const double taken = seconds([&] { pack = read_pack_deferred(path); });
+  if (!pack) return tl::unexpected<Error>(std::move(pack).error());
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  fmt::print("{:.3f} s, {} bytes through read(), at most {} MB of memory, {} pages from the disk\n", taken,
+             bytes_read() - before, usage.ru_maxrss / 1024, usage.ru_majflt);
+  return {};
+}
+
+struct Kind {
+  std::size_t raw = 0;
+  std::map<int, std::pair<std::size_t, double>> by_level;  // stored bytes, seconds
+  double decompression_s = 0;                              // of level 3
+};
+
+void measure(std::span<const std::byte> raw, Kind& kind) {
+  kind.raw += raw.size();
+  Bytes stored(ZSTD_compressBound(raw.size())), back(raw.size());
+  for (const int level : {1, 3, 9, 19}) {
+    std::size_t n = 0;
+    auto& [bytes, time] = kind.by_level[level];
+    time += seconds([&] { n = ZSTD_compress(stored.data(), stored.size(), raw.data(), raw.size(), level); });
+    bytes += n;
+    if (level == 3)
+      kind.decompression_s += seconds([&] { ZSTD_decompress(back.data(), back.size(), stored.data(), n); });
+  }
+}
+
+Status levels(const std::string& path) {
+  ORIEL_TRY(const MappedFile file, MappedFile::open(path));
+  ORIEL_TRY(const PackIndex index, read_index(file.bytes()));
+  std::map<std::string, Kind> kinds;
+  for (const auto& section : index.sections) {
+    ORIEL_TRY(const RawBytes raw, section_bytes(file.bytes(), section));
+    measure(raw.span(), kinds[kind_text(section.kind)]);
+  }
+  fmt::print("| kind | MB | level 1 | level 3 | level 9 | level 19 | back |\n|---|---|---|---|---|---|---|\n");
+  for (const auto& [name, kind] : kinds) {
+    const double megabytes = static_cast<double>(kind.raw) / 1e6;
+    fmt::print("| {} | {:.2f} |", name, megabytes);
+    for (const auto& [level, result] : kind.by_level)
+      fmt::print(" {:.1f} %, {:.0f} MB/s |", 100 * static_cast<double>(result.first) / static_cast<double>(kind.raw),
+                 megabytes / result.second);
+    fmt::print(" {:.0f} MB/s |\n", megabytes / kind.decompression_s);
+  }
+  return {};
+}
+
+Status run(const std::vector<std::string>& words) {
+  if (words.size() == 4 && words[0] == "grow") return grow(words[1], words[2], std::stoull(words[3]));
+  if (words.size() == 2 && words[0] == "load") return load(words[1]);
+  if (words.size() == 2 && words[0] == "levels") return levels(words[1]);
+  return fail(ErrorCode::kUsage, "pack_bench", "expected grow PACK OUT BYTES, load PACK or levels PACK");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Status status = run({argv + 1, argv + argc});
+  if (status) return 0;
+  fmt::print(stderr, "{}\n", status.error().text());
+  return static_cast<int>(status.error().code);
+}
