@@ -80,12 +80,16 @@ class CachedBake {
   double target() const { return target_; }
 
   void recall() {
-    if (!context_.units || options_.bounces == 1) return;  // then nothing is known of gathered light before the gather
     known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
                                       context_.seed);
-    if (options_.reuse_error <= 0) return;
+    // With one bounce nothing is known of gathered light before the gather.
+    if (options_.reuse_error <= 0 || options_.bounces == 1) return;
     if (auto known = recall_light(context_, known_name_, options_.directional))
       reuse_.emplace(texels_, std::move(*known));
+    else
+      context_.warning(
+          "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles "
+          "on as large pages: all is baked");
   }
 
   // Direct light that looks the same at a glance is taken as it was.
@@ -308,7 +312,7 @@ class CachedBake {
   void store(Radiosity& result) {
     result.report.filter_drift = estimate_.energy_drift;
     result.report.ended_early = ended_early_;
-    if (reuse_) result.report.reuse = reuse_->report();
+    result.report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec3> of_direct = direct_variance();
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
