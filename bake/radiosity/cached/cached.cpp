@@ -195,11 +195,12 @@ class CachedBake {
   void update_estimate() {
     estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
     DVec3 sum(0);
-    count_ = 0;
+    count_ = baked_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
       sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
       ++count_;
+      baked_ += !keeps(i);
     }
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
@@ -219,7 +220,7 @@ class CachedBake {
       const double ea = typical[a] / samples[a], eb = typical[b] / samples[b];
       return ea != eb ? ea > eb : a < b;
     });
-    double left = (now - goal) * static_cast<double>(count_);
+    double left = (now - goal) * static_cast<double>(baked_);
     std::size_t taken = 0;
     while (taken < by_error.size() && left > 0) left -= gain * typical[by_error[taken++]];
     by_error.resize(taken);
@@ -230,13 +231,14 @@ class CachedBake {
     return in_order;
   }
 
+  // The mean of relative2() over the texels that are baked: what others keep is not theirs to make up for.
   double mean_squares(const std::vector<Vec3>& variance) {
     double sum = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
-      sum += relative_[i];
+      sum += keeps(i) ? 0 : relative_[i];
     }
-    return count_ > 0 ? sum / static_cast<double>(count_) : 0;
+    return baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
   }
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
@@ -250,12 +252,12 @@ class CachedBake {
     return {};
   }
 
-  // What texels that have all their samples, or keep their light, add to the mean square, where that alone misses the
+  // What texels that have all their samples add to the mean square, where that alone misses the
   // goal: the others cannot make up for it and are refined to the goal among themselves.
   double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
     double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most || keeps(i) ? relative_[i] : 0;
-    const double mean = count_ > 0 ? sum / static_cast<double>(count_) : 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most && !keeps(i) ? relative_[i] : 0;
+    const double mean = baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
     return mean > goal ? mean : 0;
   }
 
@@ -323,8 +325,8 @@ class CachedBake {
       if (texels_.visible[i] == 0) continue;
       if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
       page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
-      const Vec3 edited = keeps(i) ? reuse_->change(i) : Vec3(0);
-      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited);
+      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
+      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited * edited);
     }
   }
 
@@ -349,6 +351,7 @@ class CachedBake {
   std::vector<float> relative_;  // by texel: squared relative error of the part being refined
   DVec3 mean_{0};                // lux, over texels that see light
   std::size_t count_ = 0;        // of them
+  std::size_t baked_ = 0;        // of these, those that do not keep their light
   bool ended_early_ = false;
 };
 

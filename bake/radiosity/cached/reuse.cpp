@@ -65,10 +65,7 @@ void remember_light(Context& context, const Hash128& name, KnownLight known) {
 }
 
 Reuse::Reuse(const Texels& texels, KnownLight before)
-    : known_(std::move(before)),
-      number_(texels.count(), kNoTexel),
-      kept_(texels.count()),
-      change_(texels.count(), Vec3(0)) {
+    : known_(std::move(before)), number_(texels.count(), kNoTexel), kept_(texels.count()), change_(texels.count()) {
   for (std::uint32_t k = 0; k < known_.count(); ++k) {
     if (known_.page[k] >= texels.pages.size()) continue;
     const std::uint32_t now = texels.at(known_.page[k], static_cast<int>(known_.x[k]), static_cast<int>(known_.y[k]));
@@ -98,7 +95,6 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
   report_.asked = error;
   for (std::size_t first = 0; first < order.size(); first += kTile) {
     const auto tile = order.subspan(first, std::min(kTile, order.size() - first));
-    DVec3 squares(0);
     double relative = 0, count = 0;
     bool known = true;
     for (const std::uint32_t i : tile) {
@@ -106,7 +102,6 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
       ++count;
       if (!(known = known && number_[i] != kNoTexel)) break;
       const DVec3 now(coarse[i]), d = now - DVec3(known_.coarse[number_[i]]);
-      squares += d * d;
       for (int c = 0; c < 3; ++c)
         if (const double square = now[c] * now[c] + mean[c] * mean[c]; square > 0) relative += d[c] * d[c] / square / 3;
     }
@@ -117,7 +112,7 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
     for (const std::uint32_t i : tile) {
       if (texels.visible[i] == 0) continue;
       kept_[i] = true;
-      change_[i] = Vec3(squares / count);
+      change_[i] = static_cast<float>(std::sqrt(relative / count));
     }
   }
   report_.error = visible > 0 ? std::sqrt(all / static_cast<double>(visible)) : 0;

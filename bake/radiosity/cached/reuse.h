@@ -45,15 +45,15 @@ class Reuse {
   // coarse: as KnownLight's, of the scene as it is now. order: coherent_order.
   void compare(const Texels& texels, std::span<const std::uint32_t> order, std::span<const Vec3> coarse, double error);
   bool keeps(std::size_t texel) const { return kept_[texel]; }
-  // Mean square, over its tile, of what the edit changes in the light of a texel that is kept; lux².
-  const Vec3& change(std::size_t texel) const { return change_[texel]; }
+  // Root mean square, over its tile, of what the edit changes in the light of a texel that is kept, relative.
+  float change(std::size_t texel) const { return change_[texel]; }
   const ReuseReport& report() const { return report_; }
 
  private:
   KnownLight known_;
   std::vector<std::uint32_t> number_;
   std::vector<bool> kept_;
-  std::vector<Vec3> change_;
+  std::vector<float> change_;
   ReuseReport report_;
 };
 
