@@ -104,18 +104,41 @@ fs::path UnitCache::path_of(const Hash128& own_name) const {
   return folder_ / hex.substr(0, 2) / (hex.substr(2) + ".unit");
 }
 
-std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
-  const Hash128 own_name = own(name);
+std::optional<KeptUnit> UnitCache::read(const Hash128& own_name) const {
   const fs::path path = path_of(own_name);
   const auto file = bytes_of(path);
-  if (!file) return std::nullopt;
-  auto unit = unit_in(*file, own_name);
+  auto unit = file ? unit_in(*file, own_name) : std::nullopt;
+  if (unit) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // prune_cache() leaves what was used last
+  return unit;
+}
+
+void UnitCache::write(const Hash128& own_name, const KeptUnit& unit) {
+  if (!writes_) return;
+  const fs::path path = path_of(own_name);
+  std::error_code ec;
+  fs::create_directories(path.parent_path(), ec);
+  const fs::path beside = path.string() + ".tmp-" + to_hex(hash_of(Leases::own_name(), ++written_));
+  if (!write_beside_and_rename(path, beside, file_of(own_name, unit)) && writes_.exchange(false) && warn_)
+    warn_(fmt::format("the cache {} cannot be written: {}; what follows is computed and not kept", folder_.string(),
+                      std::strerror(errno)));
+}
+
+std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
+  auto unit = read(own(name));
   if (!unit) return std::nullopt;
-  ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // prune_cache() leaves what was used last
   const std::lock_guard lock(mutex_);
   ++share_.reused;
   share_.reused_s += unit->seconds;
   return unit;
+}
+
+std::optional<Bytes> UnitCache::recall(const Hash128& name) {
+  auto kept = read(own(name));
+  return kept ? std::optional(std::move(kept->results)) : std::nullopt;
+}
+
+void UnitCache::remember(const Hash128& name, Bytes bytes) {
+  write(own(name), {std::move(bytes), 0});
 }
 
 // Where nothing can be written, nobody waits for it.
@@ -129,15 +152,7 @@ void UnitCache::leave(const Hash128& name) {
 
 void UnitCache::keep(const Hash128& name, const KeptUnit& unit) {
   const Hash128 own_name = own(name);
-  if (writes_) {
-    const fs::path path = path_of(own_name);
-    std::error_code ec;
-    fs::create_directories(path.parent_path(), ec);
-    const fs::path beside = path.string() + ".tmp-" + to_hex(hash_of(Leases::own_name(), ++written_));
-    if (!write_beside_and_rename(path, beside, file_of(own_name, unit)) && writes_.exchange(false) && warn_)
-      warn_(fmt::format("the cache {} cannot be written: {}; what follows is computed and not kept", folder_.string(),
-                        std::strerror(errno)));
-  }
+  write(own_name, unit);
   leases_.release(own_name);
   const std::lock_guard lock(mutex_);
   ++share_.computed;

@@ -25,11 +25,15 @@ class UnitCache : public UnitStore {
   void leave(const Hash128& name) override;
 
   UnitShare share() const override;
+  std::optional<Bytes> recall(const Hash128& name) override;
+  void remember(const Hash128& name, Bytes bytes) override;
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
   Hash128 own(const Hash128& name) const { return hash_of(program_, name); }
   std::filesystem::path path_of(const Hash128& own_name) const;
+  std::optional<KeptUnit> read(const Hash128& own_name) const;
+  void write(const Hash128& own_name, const KeptUnit& unit);
 
   std::filesystem::path folder_;
   std::string program_;

@@ -24,7 +24,7 @@ constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the erro
 struct Texts {
   std::string texel = "10cm", memory = "128MiB", lightmap_memory, views = "planned:8", eyes = "walk",
               directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", verify = "10%", time,
-              transfer = "shadowed", probe = "1m";
+              reuse, transfer = "shadowed", probe = "1m";
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option *texel_option = nullptr, *error_option = nullptr;
@@ -86,6 +86,11 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
          "rays, or off. What misses --error by a tenth is refined")
       ->check(checked(parse_verify, "SHARE|off"))
       ->capture_default_str();
+  app.add_option("--reuse-error", texts.reuse,
+                 "After an edit of the scene: keep the light of the last whole bake in the cache, with these options, "
+                 "where the edit changes it by no more than that, relative; the error that this brings is measured and "
+                 "stated. The pack then depends on the cache. Default: all is baked")
+      ->check(checked(parse_fraction, "SHARE"));
   app.add_option("--samples", texts.samples,
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")
       ->check(CLI::Range(1u, 1u << 24))
@@ -180,6 +185,9 @@ Status resolve(const Texts& texts, Arguments& args) {
     return fail(ErrorCode::kUsage, "--views", "{}", views.error().message);
   ORIEL_TRY(bake.eyes, parse_eye_source(texts.eyes));
   ORIEL_TRY(bake.radiosity.verify, parse_verify(texts.verify));
+  if (!texts.reuse.empty()) {
+    ORIEL_TRY(bake.radiosity.reuse_error, parse_fraction(texts.reuse));
+  }
   bake.radiosity.estimator = texts.estimator == "cached" ? Estimator::kCached : Estimator::kReference;
   if (texts.samples > 0) {
     bake.radiosity.samples = texts.samples;

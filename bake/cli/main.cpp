@@ -100,6 +100,9 @@ std::string light_line(const RadiosityReport& r) {
     line += fmt::format(
         "; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out texels, which are {:+.2g} % ± {:.2g} % brighter",
         100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, c.texels, 100 * c.bias, 100 * c.bias_interval);
+  if (r.reuse.asked > 0)
+    line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
+                        r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);
   if (r.refinements > 0) line += fmt::format("; refined {} times after that", r.refinements);
   return line;
 }

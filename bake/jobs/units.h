@@ -37,6 +37,9 @@ class UnitStore {
   virtual void keep(const Hash128& name, const KeptUnit& unit) = 0;
   virtual void leave(const Hash128& name) = 0;
   virtual UnitShare share() const = 0;
+  // What was remembered last under a name: no unit, since what it is depends on who came last. Not counted in share().
+  virtual std::optional<Bytes> recall(const Hash128&) { return std::nullopt; }
+  virtual void remember(const Hash128&, Bytes) {}
 };
 
 // While it lives, the units of loops are named by these inputs of their stage too.

@@ -41,6 +41,9 @@ struct RadiosityOptions {
   // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise can mend it,
   // at most kRefinements times.
   double verify = 0.1;
+  // cached: tiles of texels whose light an edit of the scene changes by no more than this, relative, keep that of the
+  // last bake with these options that reused none (Context::units knows it); 0: all are baked.
+  double reuse_error = 0;
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
@@ -68,7 +71,15 @@ struct Certificate {
   std::uint64_t rays = 0;
 };
 
+// What an edit of the scene left of the light of the bake before (RadiosityOptions::reuse_error).
+struct ReuseReport {
+  double asked = 0;                 // 0: all was baked
+  std::size_t tiles = 0, kept = 0;  // of about 64 texels each
+  double error = 0;                 // that this brings: rms over all texels, relative; relative_error has it in it
+};
+
 struct RadiosityReport {
+  ReuseReport reuse;
   Certificate certificate;  // of the cached estimator
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones

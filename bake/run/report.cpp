@@ -142,6 +142,11 @@ Json movers_json(std::span<const MoverReport> movers) {
   return out;
 }
 
+Json reuse_json(const ReuseReport& r) {
+  if (r.asked <= 0) return Json();
+  return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.kept}, {"relative_error", r.error}};
+}
+
 Json light_field_json(const LightField& field) {
   if (field.bands == 0) return Json();
   return {{"probes", field.probes.size()},
@@ -182,6 +187,7 @@ std::string plan_json(const BakeFacts& f) {
           {"relative_error_95_high", f.radiosity.certificate.error_high},
           {"rays", f.radiosity.certificate.rays}}},
         {"refinements", f.radiosity.refinements},
+        {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},

@@ -6,6 +6,7 @@
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/cached/patches.h"
+#include "bake/radiosity/cached/reuse.h"
 #include "bake/radiosity/gather/moments.h"
 
 namespace oriel {
@@ -39,6 +40,7 @@ class CachedBake {
 
   Status run(Radiosity& result, const NextError& next) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    recall();
     ORIEL_TRY_VOID(first_direct());
     Sweeps sweeps;
     if (options_.bounces != 1) {  // the gather itself is one
@@ -55,19 +57,70 @@ class CachedBake {
     result.report.sweeps = sweeps.count;
     result.report.sweep_tail = sweeps.tail;
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
+    take_known();
     ORIEL_TRY_VOID(first_gather());
     while (true) {
       ORIEL_TRY_VOID(gather_to_target());
       ORIEL_TRY_VOID(refine_direct());
       store(result);
       ORIEL_TRY(const double error, next());
-      if (error <= 0) return {};
+      if (error <= 0) break;
       target_ = error;
     }
+    // What took light from elsewhere is not passed on: errors would add up from edit to edit.
+    if (ended_early_ || result.report.reuse.kept > 0) return {};
+    KnownLight& known = known_now_;
+    known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
+    known.coarse = irradiance_, known.direct = direct_, known.gathered = gathered_;
+    remember_light(context_, known_name_, std::move(known));
+    return {};
   }
 
  private:
   double target() const { return target_; }
+
+  void recall() {
+    known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
+                                      context_.seed);
+    // With one bounce nothing is known of gathered light before the gather.
+    if (options_.reuse_error <= 0 || options_.bounces == 1) return;
+    if (auto known = recall_light(context_, known_name_, options_.directional))
+      reuse_.emplace(texels_, std::move(*known));
+    else
+      context_.warning(
+          "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles "
+          "on as large pages: all is baked");
+  }
+
+  // Direct light that looks the same at a glance is taken as it was.
+  void take_known_direct() {
+    known_direct_ = reuse_->same_glance(graph_, direct_.value);
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if (known_direct_[i]) direct_.value[i] = reuse_->known().first_direct[reuse_->before(i)];
+  }
+
+  // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
+  void take_known() {
+    if (!reuse_) return;
+    reuse_->compare(texels_, order_, irradiance_, options_.reuse_error);
+    const DirectSums& direct = reuse_->known().direct;
+    const HalfSums& gathered = reuse_->known().gathered;
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      const std::uint32_t k = reuse_->before(i);
+      if (known_direct_[i] || reuse_->keeps(i)) {
+        direct_.value[i] = direct.value[k], direct_.variance[i] = direct.variance[k];
+        direct_.sampled[i] = direct.sampled[k], direct_.uneven[i] = direct.uneven[k];
+        direct_.per_half[i] = direct.per_half[k];
+        if (!direct.moments.empty()) direct_.moments[i] = direct.moments[k];
+      }
+      if (!reuse_->keeps(i)) continue;
+      for (int h = 0; h < kHalves; ++h)
+        gathered_.sum[h][i] = gathered.sum[h][k], gathered_.slope[h][i] = gathered.slope[h][k];
+      gathered_.samples[i] = gathered.samples[k];
+      if (!gathered.moments.empty()) gathered_.moments[i] = gathered.moments[k];
+    }
+  }
+  bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
 
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
@@ -75,6 +128,8 @@ class CachedBake {
     // Closed forms do not tell where light comes from, samples do.
     const std::uint32_t first = options_.directional ? 4 * kFirstDirect : kFirstDirect;
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
+    known_now_.glance = direct_.value;
+    if (reuse_) take_known_direct();
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
     std::uint32_t per_half = first;
     for (int round = 0; round < kDirectRounds; ++round) {
@@ -84,6 +139,7 @@ class CachedBake {
       const std::vector<std::uint32_t> list = uncertain_direct(round == 0 ? 0 : kUncertain);
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
+    known_now_.first_direct = direct_.value;
     return {};
   }
 
@@ -98,6 +154,7 @@ class CachedBake {
     };
     std::vector<std::uint32_t> list;
     for (const std::uint32_t i : order_) {
+      if (reuse_ && known_direct_[i]) continue;
       bool any = uncertain(i);
       for (const std::uint32_t j : graph_.of(i)) any |= uncertain(j);
       if (any) list.push_back(i);
@@ -138,11 +195,12 @@ class CachedBake {
   void update_estimate() {
     estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
     DVec3 sum(0);
-    count_ = 0;
+    count_ = baked_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
       sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
       ++count_;
+      baked_ += !keeps(i);
     }
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
@@ -157,12 +215,12 @@ class CachedBake {
     for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
     std::vector<std::uint32_t> by_error;
     for (const std::uint32_t i : order_)
-      if (typical[i] > goal / 4 && samples[i] < most) by_error.push_back(i);
+      if (typical[i] > goal / 4 && samples[i] < most && !keeps(i)) by_error.push_back(i);
     std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
       const double ea = typical[a] / samples[a], eb = typical[b] / samples[b];
       return ea != eb ? ea > eb : a < b;
     });
-    double left = (now - goal) * static_cast<double>(count_);
+    double left = (now - goal) * static_cast<double>(baked_);
     std::size_t taken = 0;
     while (taken < by_error.size() && left > 0) left -= gain * typical[by_error[taken++]];
     by_error.resize(taken);
@@ -173,30 +231,33 @@ class CachedBake {
     return in_order;
   }
 
+  // The mean of relative2() over the texels that are baked: what others keep is not theirs to make up for.
   double mean_squares(const std::vector<Vec3>& variance) {
     double sum = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
-      sum += relative_[i];
+      sum += keeps(i) ? 0 : relative_[i];
     }
-    return count_ > 0 ? sum / static_cast<double>(count_) : 0;
+    return baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
   }
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
 
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
-    ORIEL_TRY_VOID(gather(texels_, around_, order_, per_half, cached_, context_, gathered_, rays_));
+    std::vector<std::uint32_t> list;
+    std::copy_if(order_.begin(), order_.end(), std::back_inserter(list), [&](std::uint32_t i) { return !keeps(i); });
+    ORIEL_TRY_VOID(gather(texels_, around_, list, per_half, cached_, context_, gathered_, rays_));
     update_estimate();
     return {};
   }
 
-  // What texels that have all their samples add to the mean square, where that alone misses the goal: the others cannot
-  // make up for it and are refined to the goal among themselves.
+  // What texels that have all their samples add to the mean square, where that alone misses the
+  // goal: the others cannot make up for it and are refined to the goal among themselves.
   double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
     double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most ? relative_[i] : 0;
-    const double mean = count_ > 0 ? sum / static_cast<double>(count_) : 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most && !keeps(i) ? relative_[i] : 0;
+    const double mean = baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
     return mean > goal ? mean : 0;
   }
 
@@ -253,6 +314,7 @@ class CachedBake {
   void store(Radiosity& result) {
     result.report.filter_drift = estimate_.energy_drift;
     result.report.ended_early = ended_early_;
+    result.report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec3> of_direct = direct_variance();
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
@@ -263,7 +325,8 @@ class CachedBake {
       if (texels_.visible[i] == 0) continue;
       if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
       page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
-      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i]);
+      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
+      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited * edited);
     }
   }
 
@@ -277,13 +340,18 @@ class CachedBake {
   TexelGraph graph_;
   DirectSums direct_;
   HalfSums gathered_;
-  Estimate estimate_;             // of the gathered light
-  std::vector<Vec3> irradiance_;  // what gather rays find at a texel
-  CachedLight cached_;            // the same, as it varies over texels
-  double target_;                 // the error to refine to
-  std::vector<float> relative_;   // by texel: squared relative error of the part being refined
-  DVec3 mean_{0};                 // lux, over texels that see light
-  std::size_t count_ = 0;         // of them
+  Estimate estimate_;               // of the gathered light
+  std::vector<Vec3> irradiance_;    // what gather rays find at a texel
+  CachedLight cached_;              // the same, as it varies over texels
+  std::optional<Reuse> reuse_;      // of the bake before
+  std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
+  Hash128 known_name_;
+  KnownLight known_now_;         // for the next bake
+  double target_;                // the error to refine to
+  std::vector<float> relative_;  // by texel: squared relative error of the part being refined
+  DVec3 mean_{0};                // lux, over texels that see light
+  std::size_t count_ = 0;        // of them
+  std::size_t baked_ = 0;        // of these, those that do not keep their light
   bool ended_early_ = false;
 };
 

@@ -27,6 +27,7 @@ struct Patch {
                                       // sky, emitters behind mirrors
   double area_m2 = 0;
   std::uint32_t x = 0, y = 0;         // of its block
+  std::uint64_t stream = 0;           // of its random numbers: its block's, which no other block's shape changes
   std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it
 };
 
@@ -65,6 +66,7 @@ class Solver {
         number = static_cast<std::uint32_t>(patches_.size());
         patches_.emplace_back();
         patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
+        patches_.back().stream = head[i];
       }
       patches_[number].texels.push_back(i);
       patches_[number].area_m2 += shown_m2(i);
@@ -121,9 +123,9 @@ class Solver {
       const std::uint32_t t = texel_for(patches_[p], k / kSites);
       GatherRay& ray = about[p - first];
       const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
-      batch.push_back(site.ray(Sampler(seed, p, k).next2()));
+      batch.push_back(site.ray(Sampler(seed, patches_[p].stream, k).next2()));
       if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
-      ray.stream = ~std::uint64_t{p};
+      ray.stream = ~patches_[p].stream;
       ray.sample = k;
     }
     Answers answers;

@@ -50,6 +50,19 @@ class Farm : public ::testing::Test {
   }
   std::uint64_t units(const std::string& pack, const char* which) const { return report(pack)["units"][which]; }
 
+  nlohmann::json reuse(const std::string& pack) const { return report(pack)["plan"]["radiosity"]["reuse"]; }
+  // Texts of one length.
+  void replace_in_scene(const std::string& what, const std::string& by) const {
+    Bytes scene = bytes("cornell.glb");
+    const std::string_view text(reinterpret_cast<const char*>(scene.data()), scene.size());
+    const std::size_t at = text.find(what);
+    ASSERT_NE(at, text.npos) << what;
+    ASSERT_EQ(what.size(), by.size());
+    std::copy_n(std::as_bytes(std::span(by)).begin(), by.size(), scene.begin() + static_cast<long>(at));
+    ASSERT_TRUE(write_file_atomically(folder_.path() / "cornell.glb", scene));
+  }
+
+  static constexpr const char *kAlbedo = "0.6100000143051147", *kDarker = "0.5100000143051147";  // of its white
   static constexpr const char* kOptions = " --texel 4cm --mover 'tall block' --probe 30cm --quiet";
   testing::TemporaryFolder folder_;
 };
@@ -73,6 +86,31 @@ TEST_F(Farm, ARepeatedBakeComputesNothingAndAnEditWhatItTouches) {
   EXPECT_GT(units("finer.oriel", "computed"), 0);
   ASSERT_EQ(finish(bake("seed.oriel", " --seed 2")), 0);
   EXPECT_LE(units("seed.oriel", "reused"), 5) << "kernels and the like know no seed";
+}
+
+TEST_F(Farm, AnotherCameraComputesNothing) {
+  ASSERT_EQ(finish(bake("a.oriel", " --only radiosity")), 0);
+  replace_in_scene("0.6860479116439819", "0.4860479116439819");    // its field of view
+  replace_in_scene("0.27300000190734863", "0.29300000190734863");  // its height
+  ASSERT_EQ(finish(bake("b.oriel", " --only radiosity")), 0);
+  EXPECT_EQ(units("b.oriel", "computed"), 0);
+  EXPECT_GT(units("b.oriel", "reused"), 0);
+}
+
+TEST_F(Farm, TilesWhoseLightAnEditLeavesKeepIt) {
+  const std::string reuse = " --only radiosity --reuse-error 2%";
+  ASSERT_EQ(finish(bake("a.oriel", reuse)), 0);
+  EXPECT_EQ(this->reuse("a.oriel")["kept"], 0) << "there was no bake before";
+  replace_in_scene("0.6860479116439819", "0.4860479116439819");
+  ASSERT_EQ(finish(bake("b.oriel", reuse)), 0);
+  EXPECT_GT(this->reuse("b.oriel")["tiles"], 0);
+  EXPECT_EQ(this->reuse("b.oriel")["kept"], this->reuse("b.oriel")["tiles"]);
+  EXPECT_EQ(this->reuse("b.oriel")["relative_error"], 0);
+  EXPECT_EQ(finish("oriel-inspect diff a.oriel b.oriel --tolerance 0"), 0);
+  replace_in_scene(kAlbedo, kDarker);
+  ASSERT_EQ(finish(bake("c.oriel", reuse)), 0);
+  EXPECT_LT(this->reuse("c.oriel")["kept"], this->reuse("c.oriel")["tiles"]) << "less red light";
+  EXPECT_LE(this->reuse("c.oriel")["relative_error"], 0.02);
 }
 
 TEST_F(Farm, WorkersThatDieAndWhoseClocksAreWrongMakeTheSameBytes) {
@@ -101,13 +139,7 @@ TEST_F(Farm, APackIsVerifiedAgainstTheSceneAndStaleOnesAreTold) {
   EXPECT_EQ(finish(verify + options + " --seed 2"), 5) << "other options";
   EXPECT_EQ(finish("oriel-bake verify a.oriel missing.glb" + options), 2);
   EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene cornell.glb"), 0);
-  Bytes scene = bytes("cornell.glb");
-  const std::string albedo = "0.6100000143051147", darker = "0.5100000143051147";
-  std::string_view text(reinterpret_cast<const char*>(scene.data()), scene.size());
-  ASSERT_NE(text.find(albedo), text.npos);
-  std::copy_n(std::as_bytes(std::span(darker)).begin(), darker.size(),
-              scene.begin() + static_cast<long>(text.find(albedo)));
-  ASSERT_TRUE(write_file_atomically(folder_.path() / "cornell.glb", scene));
+  replace_in_scene(kAlbedo, kDarker);
   EXPECT_EQ(finish(verify + options), 5) << "another albedo";
   EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene cornell.glb"), 5);
   EXPECT_EQ(finish("oriel-inspect validate a.oriel --scene missing.glb"), 2);
