@@ -16,6 +16,7 @@ constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel
 constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
 constexpr float kUncertain = 0.1f, kUneven = 0.02f;     // of the direct light
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
+constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
 constexpr double kDirectShare = 0.3;                    // of the squared error asked for
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
 constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
@@ -248,6 +249,10 @@ class CachedBake {
     std::vector<std::uint32_t> list;
     std::copy_if(order_.begin(), order_.end(), std::back_inserter(list), [&](std::uint32_t i) { return !keeps(i); });
     ORIEL_TRY_VOID(gather(texels_, around_, list, per_half, cached_, context_, gathered_, rays_));
+    // In a gap few rays find any light: none of a handful says nothing.
+    std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
+    if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half)
+      ORIEL_TRY_VOID(gather(texels_, around_, list, more, cached_, context_, gathered_, rays_));
     update_estimate();
     return {};
   }

@@ -74,19 +74,28 @@ std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const C
 }
 
 // A quantity spread over each texel's surroundings, `passes` wide. Its sum over texels stays: what a texel gains its
-// neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full.
-template <class V>
-std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
+// neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full. share(i,
+// j): whether these two have a common quantity at all.
+template <class V, class Share>
+std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, const Share& share,
+                      Context& context) {
   std::vector<V> next(values.size());
   for (int pass = 0; pass < passes; ++pass) {
     each_texel(context, values.size(), [&](std::size_t i) {
       V gain(0);
-      for (const std::uint32_t j : graph.of(i)) gain += values[j] - values[i];
+      for (const std::uint32_t j : graph.of(i))
+        if (share(i, j)) gain += values[j] - values[i];
       next[i] = values[i] + gain / static_cast<float>(kMaxNeighbours + 1);
     });
     values.swap(next);
   }
   return values;
+}
+
+template <class V>
+std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
+  return pooled(
+      graph, std::move(values), passes, [](std::size_t, std::size_t) { return true; }, context);
 }
 
 }  // namespace
@@ -110,9 +119,18 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
   const Vec3 floor = Vec3(mean / std::max(1.0, seen)) * 0.01f;
   const auto scale = [&](std::size_t i) { return light[i] * light[i] + floor * floor + Vec3(1e-30f); };
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] /= scale(i); });
-  squares = pooled(graph, std::move(squares), kPoolPasses, context);
-  std::vector<Vec3> wide = pooled(graph, squares, kWidePasses - kPoolPasses, context);
-  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = 0.5f * (squares[i] + wide[i]);
+  const auto spread = [&](const auto& share) {
+    std::vector<Vec3> near = pooled(graph, squares, kPoolPasses, share, context);
+    const std::vector<Vec3> wide = pooled(graph, near, kWidePasses - kPoolPasses, share, context);
+    for (std::size_t i = 0; i < near.size(); ++i) near[i] = 0.5f * (near[i] + wide[i]);
+    return near;
+  };
+  const auto crowded = [&](std::size_t i, std::size_t j) { return texels.has_many[i] && texels.has_many[j]; };
+  std::vector<Vec3> of_all = spread([](std::size_t, std::size_t) { return true; });
+  // What is close to a surface is met by paths: more noise than beside it.
+  const std::vector<Vec3> of_crowded = spread(crowded);
+  for (std::size_t i = 0; i < squares.size(); ++i)
+    squares[i] = texels.has_many[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
   return squares;
 }
@@ -178,8 +196,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
   // Relative to the light that the filter leaves, as the error asked for is.
   beyond = pooled_errors(texels, graph, std::move(beyond), result.value, context);
   of_both = pooled_errors(texels, graph, std::move(of_both), result.value, context);
-  each_texel(context, n,
-             [&](std::size_t i) { result.variance[i] = glm::max(beyond[i], of_both[i]) + glm::max(left[i], Vec3(0)); });
+  each_texel(context, n, [&](std::size_t i) {
+    result.variance[i] = glm::max(beyond[i], of_both[i]);
+    result.variance[i] += glm::max(left[i], Vec3(0));
+  });
   const double before = total(texels, mean), after = total(texels, result.value);
   result.energy_drift = before > 0 ? after / before - 1 : 0;
   return result;

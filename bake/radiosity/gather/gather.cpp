@@ -46,7 +46,7 @@ class GroupGather {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;  // whole texels have no others
+  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;  // most texels have no others
   struct Member {
     std::uint32_t texel = 0;
     std::uint32_t done = 0;  // samples of each half that it has
@@ -58,7 +58,7 @@ class GroupGather {
 
   void fetch_sites(int half, std::uint32_t k, bool all) {
     for (Member& m : members_)
-      for (std::uint32_t i = 0; i < kKeptSites && (all || texels_.visible[m.texel] < 1); ++i)
+      for (std::uint32_t i = 0; i < kKeptSites && (all || texels_.has_many[m.texel]); ++i)
         m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
   }
 

@@ -6,6 +6,7 @@
 #include "bake/jobs/units.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
+#include "bake/trace/warp.h"
 
 namespace oriel {
 namespace {
@@ -15,6 +16,9 @@ constexpr double kRaysATexel = 32;     // about
 constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averaged
 // Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
+constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
+
+constexpr std::uint64_t kNearSeed = 0x4ea5;
 
 class SiteFinder {
  public:
@@ -30,11 +34,13 @@ class SiteFinder {
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
     Vec3 albedo(0);
     int buried = 0;
+    bool crowded = false;
     for (int k = 0; k < kSites; ++k) {
       const auto turn = static_cast<std::uint32_t>(k % kSitesPerHalf);
       const SurfacePoint surface = candidate(texels, i, k / kSitesPerHalf, turn);
       texels.site[i][k] = site_of(surface);
       buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
+      crowded = crowded || meets_near(texels, i, k, stream, rays);
       if (turn < kColored) albedo += albedo_at(surface);
     }
     texels.albedo[i] = albedo / static_cast<float>(kHalves * kColored);
@@ -43,17 +49,20 @@ class SiteFinder {
     if (found.part.covered())
       texels.visible[i] = 0;
     else if (buried > 0 || !found.part.whole())
-      find_unburied(texels, i, stream, found, rays);
+      find_unburied(texels, i, stream, kManyPoints, found, rays);
+    else if (crowded)
+      find_unburied(texels, i, stream, kNearPoints, found, rays);
     return found;
   }
 
   // Again, with many points: their share, and those that are left.
-  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, Found& found, std::uint64_t& rays) const {
+  void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint32_t points, Found& found,
+                     std::uint64_t& rays) const {
     Vec3 albedo(0);
     std::uint32_t tried = 0, total = 0;
     // A handful of points that escaped the probes do not make a texel visible.
     const auto enough = [&] { return total * 16 >= tried && !found.many[0].empty() && !found.many[1].empty(); };
-    for (; tried < kManyPoints || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
+    for (; tried < points || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
@@ -64,8 +73,7 @@ class SiteFinder {
       found.many[half].push_back(site_of(surface));
       ++total;
     }
-    // Never exactly whole: visible == 1 says that there are no many_sites.
-    texels.visible[i] = enough() ? std::min(0.9999f, static_cast<float>(total) / static_cast<float>(tried)) : 0.0f;
+    texels.visible[i] = enough() ? static_cast<float>(total) / static_cast<float>(tried) : 0.0f;
     if (total > 0) texels.albedo[i] = albedo / static_cast<float>(total);
     if (!enough()) found.many = {};
     for (std::size_t k = 0; enough() && k < kSites; ++k) {
@@ -85,6 +93,16 @@ class SiteFinder {
   }
   Vec3 albedo_at(const SurfacePoint& s) const {
     return shade_point(t_.accel.scene(), s.triangle, s.barycentric).diffuse;
+  }
+
+  // Whether a ray from a site finds something nearer than a texel's side.
+  bool meets_near(const Texels& texels, std::size_t i, int k, std::uint64_t stream, std::uint64_t& rays) const {
+    Sampler sampler(seed_ + kNearSeed, stream, static_cast<std::uint32_t>(k));
+    const TexelSite& site = texels.site[i][k];
+    const Vec3 direction =
+        glm::normalize(frame_from_normal(site.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
+    ++rays;
+    return bool(t_.accel.intersect({site.origin, direction, std::sqrt(texels.area_m2[i])}));
   }
 
   static TexelSite site_of(const SurfacePoint& s) {
@@ -177,7 +195,8 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
     }
   }
   const std::size_t n = texels.count();
-  texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n);
+  texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
+      texels.has_many.resize(n);
   place_triangles(atlas, texels);
   const SiteFinder finder(t, atlas, texel_map, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
@@ -187,10 +206,11 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {
-      SiteFinder::Found found = finder.find(texels, i, traced);
-      if (texels.visible[i] != 1) hidden[run].emplace_back(static_cast<std::uint32_t>(i), std::move(found));
       texels.area_m2[i] =
           static_cast<float>(texel_area_m2(t.accel.scene(), atlas, texel_map[texels.page[i]], texels.index[i]));
+      SiteFinder::Found found = finder.find(texels, i, traced);
+      if (texels.visible[i] != 1 || !found.many[0].empty())
+        hidden[run].emplace_back(static_cast<std::uint32_t>(i), std::move(found));
     }
     return traced;
   };
@@ -211,7 +231,9 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
         Texels::Page& page = texels.pages[texels.page[i]];
         page.number[std::size_t{texels.y[i]} * page.width + texels.x[i]] |= Texels::kCut;
       }
-      if (texels.visible[i] > 0) texels.many_sites.emplace(i, std::move(found.many));
+      if (found.many[0].empty()) continue;
+      texels.has_many[i] = true;
+      texels.many_sites.emplace(i, std::move(found.many));
     }
   return texels;
 }

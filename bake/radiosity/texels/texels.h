@@ -37,8 +37,10 @@ struct Texels {
   std::vector<std::uint32_t> x, y;                  // on the page
   std::vector<std::uint32_t> chart;                 // of Atlas
   std::vector<std::array<TexelSite, kSites>> site;  // [half * kSitesPerHalf + k]; not buried, stratified over the texel
-  // Texels that are partly hidden: their light varies more over them, and so they have more sites, by half.
+  // Texels that are partly hidden, or that something stands or hangs close to: their light varies more over them, and
+  // so they have more sites, by half.
   std::unordered_map<std::uint32_t, std::array<std::vector<TexelSite>, kHalves>> many_sites;
+  std::vector<char> has_many;  // whether it is in many_sites
   std::vector<float> visible;  // share of the texel that is not inside other geometry; 0: no site
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
@@ -47,7 +49,7 @@ struct Texels {
 
   // The k-th site of a half, again from the first where there are no more. The texel must be visible.
   const TexelSite& site_for(std::uint32_t i, int half, std::uint32_t k) const {
-    if (visible[i] == 1) return site[i][half * kSitesPerHalf + k % kSitesPerHalf];
+    if (!has_many[i]) return site[i][half * kSitesPerHalf + k % kSitesPerHalf];
     const std::vector<TexelSite>& many = many_sites.at(i)[half];
     return many[k % many.size()];
   }

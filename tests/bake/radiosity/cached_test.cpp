@@ -39,16 +39,19 @@ TEST_P(CachedFurnace, EveryTexelIsTheSeries) {
   else
     parts.box("box", wall, Vec3(-1), Vec3(1), true);
   const Baked b = bake(parts.finish(), 0.15f, cached(1024));
-  double worst = 0, sum = 0;
+  double worst = 0, sum = 0, squares = 0, stated = 0;
   int count = 0;
   b.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
     const double e = page.irradiance[t].g * (1 - albedo) / kPiD;
     const double error = page.standard_error[t].g * (1 - albedo) / kPiD;
     worst = std::max(worst, std::abs(e - 1) - 5 * error);
-    sum += e, ++count;
+    sum += e, squares += (e - 1) * (e - 1), stated += error * error, ++count;
   });
   EXPECT_NEAR(sum / count, 1, 1e-3);
-  EXPECT_LT(worst, 1e-3);  // beyond five standard errors
+  EXPECT_LT(std::sqrt(squares / count), 1e-3 + 1.5 * std::sqrt(stated / count));
+  // Beyond five standard errors, which neighbours share. In the corners, where paths tell what is near, a single texel
+  // may keep its own noise: that of 1024 rays half of which find light of any strength.
+  EXPECT_LT(worst, 0.5 / std::sqrt(1024.0));
   EXPECT_EQ(b.radiosity.report.buried, 0u);
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, CachedFurnace,
@@ -89,6 +92,32 @@ INSTANTIATE_TEST_SUITE_P(Features, CachedAgrees,
                          testing::Values(Feature::kMatt, Feature::kGlossyFloor, Feature::kMirror, Feature::kGlass,
                                          Feature::kCutOut, Feature::kSphere, Feature::kPoint, Feature::kSky,
                                          Feature::kDielectric, Feature::kManyLamps));
+
+// Under a slab 3 cm over the floor texels of 20 cm see little but each other from close by, and none of them stands for
+// what is met: dark below, with a bright rim.
+TEST(Cached, TellsTheLightOfAGapNarrowerThanATexel) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.8f));
+  parts.quad("floor", white, {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  parts.box("slab", white, {-0.33f, 0.03f, -0.37f}, {0.35f, 0.1f, 0.31f});
+  parts.scene().sky = Vec3(1);
+  const Scene scene = parts.finish();
+  RadiosityOptions paths;
+  paths.samples = 8192;
+  paths.dilation = 0;
+  const Baked truth = bake(scene, 0.2f, paths), b = bake(scene, 0.2f, to_error(0.02));
+  double squares = 0;
+  int dark = 0;
+  truth.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
+    const LightmapPage& other = b.radiosity.pages[static_cast<std::size_t>(&page - truth.radiosity.pages.data())];
+    const double light = page.irradiance[t].g;
+    if (light > 0.4 * kPiD) return;
+    squares += std::pow(other.irradiance[t].g / light - 1, 2);
+    ++dark;
+  });
+  ASSERT_GT(dark, 10);
+  EXPECT_LT(std::sqrt(squares / dark), 0.1) << "looked up in texels it is 0.96";
+}
 
 TEST(Cached, OneAndTwoThreadsGiveTheSameBytes) {
   const Scene scene = room(Feature::kDielectric);
