@@ -1,8 +1,8 @@
 #include "player/paths/path_file.h"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "formats/core/file.h"
 
@@ -88,6 +88,14 @@ Result<CameraPath> read_path(const std::filesystem::path& file, const DVec3& ori
     path.keys.push_back(read);
   }
   return path;
+}
+
+Result<CameraPath> choose_path(const std::string& text, std::span<const CameraPath> paths, const DVec3& origin) {
+  if (std::filesystem::path(text).extension() == ".json") return read_path(text, origin);
+  const auto path = std::find_if(paths.begin(), paths.end(), [&](const auto& p) { return p.name == text; });
+  if (path != paths.end()) return *path;
+  return fail(ErrorCode::kUsage, "--path " + text,
+              "found no path of that name, expected one that --list shows or a .json file");
 }
 
 }  // namespace oriel
