@@ -126,8 +126,6 @@ Result<Reference> read_reference(const PlayArguments& arguments) {
   if (is_linear_file(arguments.reference)) {
     ORIEL_TRY(out.layers, read_layered_exr(arguments.reference));
     out.rendered = out.layers.layers.size() > 1;
-    if (arguments.toned)
-      return fail(ErrorCode::kUsage, "--tonemap", "linear light is compared without a tone curve: leave it out");
   } else {
     ORIEL_TRY(const ByteImage shown, read_png(arguments.reference));
     FloatImage picture{shown.width, shown.height, shown.channels, {}};

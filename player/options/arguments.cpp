@@ -237,6 +237,8 @@ void add_options(CLI::App& app, PlayArguments& out) {
 std::string contradiction(const PlayArguments& out) {
   const bool measures = !out.stats.empty() || !out.path.empty();
   const bool compares = !out.reference.empty();
+  if (compares && out.toned && std::filesystem::path(out.reference).extension() == ".exr")
+    return "--compare shows linear light without a tone curve: leave --tonemap out";
   if (compares && !out.offscreen) return "--compare needs --offscreen";
   if (compares && measures) return "--compare draws one frame: leave --path and --stats out";
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
