@@ -233,4 +233,15 @@ void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional
   if (session.key_sheet) draw_key_sheet(session);
 }
 
+bool draw_refusal(const std::string& reason) {
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+  ImGui::Begin("refusal", nullptr, ImGuiWindowFlags_NoDecoration);
+  ImGui::TextUnformatted("This cannot be shown:");
+  ImGui::TextWrapped("%s", reason.c_str());
+  const bool closed = ImGui::Button("Close");
+  ImGui::End();
+  return closed;
+}
+
 }  // namespace oriel

@@ -26,4 +26,7 @@ struct FrameMeter {
 void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
                   Session& session);
 
+// The same for a window with nothing but a reason and a button; true once that is pressed.
+bool draw_refusal(const std::string& reason);
+
 }  // namespace oriel

@@ -69,6 +69,7 @@ std::string next_name(const char* ending) {
   }
 }
 
+constexpr IVec2 kRefusalSize{640, 200};
 constexpr double kMessage_s = 6;
 constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scene
 
@@ -235,6 +236,24 @@ class Loop {
 };
 
 }  // namespace
+
+void show_refusal(const std::string& reason, const std::function<bool()>& stopped) {
+  const auto window = GlfwWindow::open(kRefusalSize.x, kRefusalSize.y);
+  if (!window) return;
+  GLFWwindow* shown = (*window)->get();
+  glfwSetKeyCallback(shown, [](GLFWwindow* w, int, int, int action, int) {
+    if (action == GLFW_PRESS) glfwSetWindowShouldClose(w, GLFW_TRUE);
+  });
+  Gui gui(shown);
+  while (!stopped() && !glfwWindowShouldClose(shown)) {
+    glClear(GL_COLOR_BUFFER_BIT);
+    gui.begin(true);
+    if (draw_refusal(reason)) glfwSetWindowShouldClose(shown, GLFW_TRUE);
+    gui.end();
+    glfwSwapBuffers(shown);
+    glfwWaitEventsTimeout(0.1);
+  }
+}
 
 Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));

@@ -359,6 +359,12 @@ wait $pid
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen --size 16x9 --path oriel-000.json --frames 2"), 0, "2 frames"));
 }
 
+TEST_F(PlayWindow, ABrokenPackSaysWhyInAWindow) {
+  ASSERT_TRUE(write_file_atomically(pack(), Bytes(100)));
+  const Outcome r = in_display(std::string(kStart) + "xdotool key --window \"$window\" space\nwait $pid\n");
+  EXPECT_TRUE(ends(r, 3, "tiny.oriel")) << r.out;
+}
+
 TEST_F(PlayWindow, TheTitleTellsWhatAFrameCosts) {
   const Outcome r = in_display(std::string(kStart) + R"(
 for i in $(seq 50); do xdotool getwindowname "$window" | grep -q ' ms' && break; sleep 0.2; done
