@@ -1,6 +1,9 @@
 #include "formats/image/png.h"
 
+#include <algorithm>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "formats/core/file.h"
 
@@ -22,8 +25,49 @@
 #pragma GCC diagnostic pop
 
 namespace oriel {
+namespace {
 
-Result<Bytes> encode_png(const ByteImage& image) {
+constexpr std::size_t kFirstChunk = 8 + 25;  // after the signature and IHDR
+
+void append(std::string_view text, Bytes& to) {
+  for (const char c : text) to.push_back(static_cast<std::byte>(c));
+}
+
+void append_big_endian(std::uint32_t value, Bytes& to) {
+  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::byte>(value >> shift & 0xff));
+}
+
+// ISO 3309, as PNG's appendix has it.
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+  std::uint32_t crc = 0xffffffff;
+  for (const std::byte b : bytes) {
+    crc ^= std::to_integer<std::uint32_t>(b);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc;
+}
+
+Result<Bytes> text_chunks(const PngTexts& texts) {
+  Bytes out;
+  for (const auto& [keyword, text] : texts) {
+    const bool ascii = std::all_of(keyword.begin(), keyword.end(), [](char c) { return c > ' ' && c <= '~'; });
+    if (keyword.empty() || keyword.size() > 79 || !ascii)
+      return invalid("", "found the keyword \"{}\", expected 1 to 79 ASCII characters", keyword);
+    Bytes chunk;
+    append("iTXt", chunk);
+    append(keyword, chunk);
+    append(std::string_view("\0\0\0\0\0", 5), chunk);  // not compressed; no language, no translated keyword
+    append(text, chunk);
+    append_big_endian(static_cast<std::uint32_t>(chunk.size() - 4), out);
+    out.insert(out.end(), chunk.begin(), chunk.end());
+    append_big_endian(crc32(chunk), out);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Bytes> encode_png(const ByteImage& image, const PngTexts& texts) {
   if (image.channels != 1 && image.channels != 3 && image.channels != 4)
     return invalid("", "found {} channels, expected 1, 3 or 4", image.channels);
   if (image.width == 0 || image.height == 0 || image.width > STBI_MAX_DIMENSIONS || image.height > STBI_MAX_DIMENSIONS)
@@ -31,20 +75,22 @@ Result<Bytes> encode_png(const ByteImage& image) {
   const std::uint64_t expected = std::uint64_t{image.width} * image.height * image.channels;
   if (image.pixels.size() != expected || expected > 0x7fff0000)
     return invalid("", "found {} values, expected {} and less than 2^31", image.pixels.size(), expected);
+  ORIEL_TRY(const Bytes chunks, text_chunks(texts));
   Bytes bytes;
-  const auto append = [](void* to, void* data, int size) {
+  const auto take = [](void* to, void* data, int size) {
     const auto* p = static_cast<const std::byte*>(data);
     static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), p, p + size);
   };
   const int stride = static_cast<int>(image.width * image.channels);
-  if (!stbi_write_png_to_func(append, &bytes, static_cast<int>(image.width), static_cast<int>(image.height),
+  if (!stbi_write_png_to_func(take, &bytes, static_cast<int>(image.width), static_cast<int>(image.height),
                               static_cast<int>(image.channels), image.pixels.data(), stride))
     return fail(ErrorCode::kRuntime, "", "cannot be encoded as PNG");
+  bytes.insert(bytes.begin() + kFirstChunk, chunks.begin(), chunks.end());
   return bytes;
 }
 
-Status write_png(const std::filesystem::path& path, const ByteImage& image) {
-  auto bytes = encode_png(image);
+Status write_png(const std::filesystem::path& path, const ByteImage& image, const PngTexts& texts) {
+  auto bytes = encode_png(image, texts);
   if (!bytes) {
     bytes.error().where = path.string();
     return tl::unexpected<Error>(bytes.error());

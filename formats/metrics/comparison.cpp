@@ -124,10 +124,14 @@ std::string comparison_text(const Comparison& c) {
   return text;
 }
 
-std::string comparison_json(const Comparison& c) {
+std::string comparison_json(const Comparison& c, std::optional<double> max_flip) {
   nlohmann::ordered_json json = {
       {"width", c.width}, {"height", c.height}, {"white_cd_m2", c.white}, {"holes", c.holes}};
   if (c.sharp) json["sharp"] = *c.sharp;
+  if (max_flip) {
+    json["max_flip"] = *max_flip;
+    json["passed"] = c.regions.front().flip <= *max_flip;
+  }
   for (const RegionComparison& r : c.regions) {
     nlohmann::ordered_json& out = json["regions"][r.name];
     out = {{"pixels", r.pixels}, {"psnr_db", psnr_db(r.mse)},

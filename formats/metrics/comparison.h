@@ -45,8 +45,8 @@ struct Comparison {
 // frame holds such.
 Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& reference, float white);
 
-// A table for people; and the same as JSON.
+// A table for people; and the same as JSON, with whether the frame's FLIP is within max_flip, where there is one.
 std::string comparison_text(const Comparison& comparison);
-std::string comparison_json(const Comparison& comparison);
+std::string comparison_json(const Comparison& comparison, std::optional<double> max_flip = {});
 
 }  // namespace oriel

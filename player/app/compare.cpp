@@ -7,7 +7,10 @@
 #include "formats/core/file.h"
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
+#include "formats/metrics/display.h"
+#include "player/app/compare_picture.h"
 #include "player/gpu/headless.h"
+#include "player/output/picture.h"
 #include "player/passes/frame.h"
 #include "player/poses/poses.h"
 
@@ -91,18 +94,85 @@ Result<Camera> choose_camera(const GpuScene& scene, const PlayArguments& argumen
   return parse_camera(arguments.cameras[0], choices);
 }
 
+// [0, 1], one channel as grey.
 Status write_difference(const std::string& path, const FloatImage& picture) {
-  ByteImage bytes{picture.width, picture.height, 3, {}};
+  ByteImage bytes{picture.width, picture.height, picture.channels, {}};
   for (const float v : picture.pixels)
     bytes.pixels.push_back(static_cast<std::uint8_t>(255 * std::clamp(v, 0.0f, 1.0f) + 0.5f));
   return write_png(path, bytes);
 }
 
+// What both kinds of comparison end with.
+Status report(const std::string& text, const std::string& json, const FloatImage& picture, double flip,
+              const PlayArguments& arguments) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!arguments.json.empty()) ORIEL_TRY_VOID(write_file_atomically(arguments.json, std::as_bytes(std::span(json))));
+  if (!arguments.output.empty()) ORIEL_TRY_VOID(write_difference(arguments.output, picture));
+  if (arguments.max_flip && !(flip <= *arguments.max_flip))
+    return fail(ErrorCode::kDifferent, arguments.reference, "found a FLIP of {:.4g}, expected at most {}", flip,
+                *arguments.max_flip);
+  return {};
+}
+
+// A file to compare with: of `oriel-bake render`, or an earlier frame, linear or as shown.
+struct Reference {
+  LayeredImage layers;  // of an earlier frame the one without a name alone
+  bool rendered = false, linear = true;
+  const FloatImage& picture() const { return layers.layers.at(""); }
+};
+
+Result<Reference> read_reference(const PlayArguments& arguments) {
+  Reference out;
+  if (is_linear_file(arguments.reference)) {
+    ORIEL_TRY(out.layers, read_layered_exr(arguments.reference));
+    out.rendered = out.layers.layers.size() > 1;
+  } else {
+    ORIEL_TRY(const ByteImage shown, read_png(arguments.reference));
+    FloatImage picture{shown.width, shown.height, shown.channels, {}};
+    for (const std::uint8_t v : shown.pixels) picture.pixels.push_back(static_cast<float>(v) / 255);
+    out.layers.layers[""] = std::move(picture);
+    out.linear = false;
+  }
+  if (!out.rendered && arguments.sized &&
+      (arguments.width != static_cast<int>(out.picture().width) ||
+       arguments.height != static_cast<int>(out.picture().height)))
+    return fail(ErrorCode::kUsage, "--size", "found {}x{}, expected the earlier frame's {}x{}", arguments.width,
+                arguments.height, out.picture().width, out.picture().height);
+  return out;
+}
+
+Status compare_with_picture(const Reference& reference, GpuScene& scene, Renderer& renderer, const View& view,
+                            FrameOptions options, const PlayArguments& arguments) {
+  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
+  ORIEL_TRY_VOID(renderer.render(scene, view, options));
+  FloatImage frame{static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height), 3, {}};
+  float white = 0;
+  if (reference.linear) {
+    frame.pixels = renderer.read_light();
+    white = arguments.ev100 ? white_of_exposure(*arguments.ev100) : white_of(reference.picture());
+  } else {
+    ORIEL_TRY(const std::optional<float> metered, renderer.meter());
+    ORIEL_TRY(const auto shown,
+              renderer.read_display(arguments.ev100.value_or(metered.value_or(0.0f)), arguments.curve));
+    for (const std::uint8_t v : shown) frame.pixels.push_back(static_cast<float>(v) / 255);
+  }
+  ORIEL_TRY(const PictureDifference found, difference(reference.picture(), frame, white));
+  return report(difference_text(found), difference_json(found, arguments.max_flip), found.picture, found.flip,
+                arguments);
+}
+
+Status compare_with_rendered(const Reference& reference, const PlayedFrame& frame, const PlayArguments& arguments) {
+  ORIEL_TRY(const Comparison comparison,
+            compare(frame, reference.layers, arguments.ev100 ? white_of_exposure(*arguments.ev100) : 0));
+  return report(comparison_text(comparison), comparison_json(comparison, arguments.max_flip), comparison.picture,
+                comparison.regions.front().flip, arguments);
+}
+
 }  // namespace
 
 Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
-  ORIEL_TRY(const LayeredImage reference, read_layered_exr(arguments.reference));
-  const FloatImage& picture = reference.layers.at("");
+  ORIEL_TRY(const Reference reference, read_reference(arguments));
+  const FloatImage& picture = reference.picture();
   ORIEL_TRY(const std::uint32_t n, supersampling(arguments, picture));
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
@@ -114,21 +184,9 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(options.poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
+  if (!reference.rendered) return compare_with_picture(reference, *scene, *renderer, view, options, arguments);
   ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, options, n).draw());
-  ORIEL_TRY(const Comparison comparison,
-            compare(frame, reference, arguments.ev100 ? white_of_exposure(*arguments.ev100) : 0));
-  const std::string text = comparison_text(comparison);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  if (!arguments.json.empty()) {
-    const std::string json = comparison_json(comparison);
-    ORIEL_TRY_VOID(write_file_atomically(arguments.json, std::as_bytes(std::span(json))));
-  }
-  if (!arguments.output.empty()) ORIEL_TRY_VOID(write_difference(arguments.output, comparison.picture));
-  const double flip = comparison.regions.front().flip;
-  if (arguments.max_flip && !(flip <= *arguments.max_flip))
-    return fail(ErrorCode::kDifferent, arguments.reference, "found a FLIP of {:.4f}, expected at most {}", flip,
-                *arguments.max_flip);
-  return {};
+  return compare_with_rendered(reference, frame, arguments);
 }
 
 }  // namespace oriel

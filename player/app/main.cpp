@@ -1,4 +1,6 @@
 // oriel-play: shows a pack in a window or in files.
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
 
@@ -28,7 +30,11 @@ void list_cameras(const Pack& pack) {
 }
 
 Status play(const PlayArguments& arguments) {
-  ORIEL_TRY(DeferredPack pack, read_pack_deferred(arguments.pack));
+  auto read = read_pack_deferred(arguments.pack);
+  // Started from a desktop there is no terminal that would say why.
+  if (!read && !arguments.list && !arguments.offscreen && ::isatty(STDERR_FILENO) == 0)
+    show_refusal(read.error().text(), stop_requested);
+  ORIEL_TRY(DeferredPack pack, std::move(read));
   if (arguments.list) {
     list_cameras(pack.pack);
     return {};

@@ -1,113 +1,27 @@
 #include "player/app/offscreen.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <set>
+#include <optional>
 
-#include "formats/camera/camera_spec.h"
-#include "formats/camera/path.h"
+#include "player/app/panorama_shot.h"
+#include "player/app/shots.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
+#include "player/output/video.h"
 #include "player/passes/frame.h"
 #include "player/poses/poses.h"
+#include "player/session/session.h"
 #include "player/walk/zone.h"
 
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
-
-struct Shot {
-  std::string name;
-  Camera camera;
-  std::string file;
-  float time_s = 0;  // into the path, which the movers' clock follows
-};
-
-bool is_picture(const fs::path& path) {
-  return path.extension() == ".png" || path.extension() == ".exr";
-}
-
-// A camera's name as a file name: what is not a plain character becomes '_'; repeated names are numbered.
-std::string file_name(const std::string& camera, std::set<std::string>& taken) {
-  std::string name;
-  for (const char c : camera) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                       c == '_' || (c == '.' && !name.empty());
-    name += plain ? c : '_';
-  }
-  if (name.empty()) name = "camera";
-  std::string unique = name;
-  for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}-{}", name, i);
-  return unique;
-}
-
-Status make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) return fail(ErrorCode::kIo, path.string(), "cannot make the folder: {}", error.message());
-  return {};
-}
-
-// Frames at even times over the path; files only where a folder was given.
-Result<std::vector<Shot>> path_shots(const GpuScene& scene, const PlayArguments& arguments) {
-  const auto& paths = scene.pack().paths;
-  const auto path = std::find_if(paths.begin(), paths.end(), [&](const auto& p) { return p.name == arguments.path; });
-  if (path == paths.end()) {
-    return fail(ErrorCode::kUsage, "--path " + arguments.path, "found no path of that name; --list shows them");
-  }
-  if (!arguments.output.empty()) ORIEL_TRY_VOID(make_folder(arguments.output));
-  const int count = arguments.frames > 0 ? arguments.frames : 60;
-  std::vector<Shot> shots;
-  for (int i = 0; i < count; ++i) {
-    const float time = path_duration_s(*path) * static_cast<float>(i) / static_cast<float>(std::max(count - 1, 1));
-    Shot shot{fmt::format("{}@{:.3f}", path->name, time), camera_on_path(*path, time), {}, time};
-    if (!arguments.output.empty()) {
-      shot.file = fs::path(arguments.output) / fmt::format("{:04}.{}", i, arguments.format);
-    }
-    shots.push_back(std::move(shot));
-  }
-  return shots;
-}
-
-Result<std::vector<Shot>> choose_shots(const GpuScene& scene, const PlayArguments& arguments) {
-  const Pack& pack = scene.pack();
-  const CameraChoices choices{pack.cameras, pack.paths, pack.mesh.origin};
-  std::vector<Shot> shots;
-  for (const std::string& text : arguments.cameras) {
-    if (text == "all") {
-      if (pack.cameras.empty()) return fail(ErrorCode::kUsage, "--camera all", "found no cameras in the pack");
-      for (const Camera& camera : pack.cameras) shots.push_back({camera.name, camera, {}, 0});
-      continue;
-    }
-    ORIEL_TRY(Camera camera, parse_camera(text, choices));
-    shots.push_back({camera.name.empty() || text.find('@') != std::string::npos ? text : camera.name, camera, {}, 0});
-  }
-  if (arguments.cameras.empty()) {
-    const Camera camera = initial_camera(choices, scene.bounds().lower, scene.bounds().upper);
-    shots.push_back({camera.name.empty() ? "start" : camera.name, camera, {}, 0});
-  }
-  const fs::path output = arguments.output;
-  if (output.empty()) return shots;  // nothing but times
-  if (shots.size() == 1 && is_picture(output)) {
-    shots[0].file = output;
-    return shots;
-  }
-  if (shots.size() == 1 && output.has_extension() && !fs::is_directory(output)) {
-    return fail(ErrorCode::kUsage, "-o " + arguments.output, "found '{}', expected .png, .exr or a folder",
-                output.extension().string());
-  }
-  if (shots.size() > 1 && is_picture(output)) {
-    return fail(ErrorCode::kUsage, "-o " + arguments.output, "found one file for {} cameras, expected a folder",
-                shots.size());
-  }
-  ORIEL_TRY_VOID(make_folder(output));
-  std::set<std::string> taken;
-  for (Shot& shot : shots) shot.file = output / (file_name(shot.name, taken) + "." + arguments.format);
-  return shots;
-}
 
 class Studio {
  public:
@@ -118,6 +32,7 @@ class Studio {
         options_(arguments.frame),
         zone_(planned_zone(scene.pack())) {
     options_.timed = !arguments.stats.empty();
+    session_.shown_ev100 = arguments.ev100.value_or(0.0f);
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
@@ -152,19 +67,32 @@ class Studio {
     return {};
   }
 
-  // Into its file, if it has one; says so.
-  Status keep(const Shot& shot, const FrameRecord& record) {
-    float ev100 = arguments_.ev100.value_or(0.0f);
-    if (!shot.file.empty()) {
+  // The exposure of the frame that was drawn last. Along a path it follows the light as eyes do.
+  Result<float> expose(const Shot& shot) {
+    if (!arguments_.ev100) {
       ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
-      if (!arguments_.ev100) ev100 = metered.value_or(0.0f);
-      ORIEL_TRY_VOID(
-          write_picture(renderer_, shot.file, arguments_.width, arguments_.height, ev100, arguments_.curve, shot.name));
+      adapt_exposure(metered, shot.since_last_s, session_);
     }
+    return session_.shown_ev100;
+  }
+
+  // Into its file, if it has one, and as the next frame of a film.
+  Status keep(const Shot& shot, VideoWriter* film) {
+    if (shot.file.empty() && film == nullptr) return {};
+    ORIEL_TRY(const float ev100, expose(shot));
+    const PictureNotes notes{shot.camera, scene_.pack().mesh.origin, shot.name, ev100, arguments_.curve};
+    if (!shot.file.empty())
+      ORIEL_TRY_VOID(write_picture(renderer_, shot.file, arguments_.width, arguments_.height, notes));
+    if (film == nullptr) return {};
+    ORIEL_TRY(std::vector<std::uint8_t> pixels, renderer_.read_display(ev100, arguments_.curve));
+    return film->add({static_cast<std::uint32_t>(arguments_.width), static_cast<std::uint32_t>(arguments_.height), 3,
+                      std::move(pixels)});
+  }
+
+  void tell(const Shot& shot, const FrameRecord& record) const {
     fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file.empty() ? "frame" : shot.file,
-               arguments_.width, arguments_.height, record.ms, ev100, describe(record.stats, record.in_zone),
-               shot.name);
-    return {};
+               arguments_.width, arguments_.height, record.ms, session_.shown_ev100,
+               describe(record.stats, record.in_zone), shot.name);
   }
 
  private:
@@ -172,12 +100,81 @@ class Studio {
   Renderer& renderer_;
   const PlayArguments& arguments_;
   FrameOptions options_;
+  Session session_;  // for its exposure
   const Zone zone_;
 };
 
+// How far a long work is: a line on a terminal that changes, elsewhere one for each tenth.
+class Progress {
+ public:
+  explicit Progress(std::size_t total) : total_(total) {}
+  void step() {
+    ++done_;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double rate = static_cast<double>(done_) / std::max(seconds, 1e-9);
+    const std::size_t tenths = 10 * done_ / total_;
+    if (!terminal_ && tenths == 10 * (done_ - 1) / total_) return;
+    fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {}/{}, {:.1f} frames/s, {:.0f} s left{}", terminal_ ? "\r" : "", "",
+               2 * tenths, "", 2 * (10 - tenths), done_, total_, rate, static_cast<double>(total_ - done_) / rate,
+               terminal_ && done_ < total_ ? "  " : "\n");
+  }
+
+ private:
+  const std::size_t total_;
+  const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::size_t done_ = 0;
+};
+
+// A film's frames become pictures in a folder where nothing can encode them.
+PlayArguments without_film(PlayArguments arguments) {
+  const fs::path film = std::exchange(arguments.video, {});
+  arguments.output = (film.parent_path() / (film.stem().string() + "-frames")).string();
+  fmt::print(stderr,
+             "oriel-play: ffmpeg is not installed: the frames go to {0}. It makes the film of them: "
+             "ffmpeg -framerate {1} -i {0}/%04d.png -pix_fmt yuv420p {2}\n",
+             arguments.output, arguments.fps, film.string());
+  return arguments;
+}
+
+// Draws all shots in order; their records.
+Result<std::vector<FrameRecord>> draw_shots(const std::vector<Shot>& shots, const PlayArguments& arguments,
+                                            Studio& studio) {
+  std::vector<FrameRecord> records;
+  for (const Shot& shot : shots) {
+    ORIEL_TRY(FrameRecord record, studio.draw(shot, std::max(arguments.frames, 1)));
+    ORIEL_TRY_VOID(studio.keep(shot, nullptr));
+    studio.tell(shot, record);
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+Result<std::vector<FrameRecord>> draw_path(const std::vector<Shot>& shots, const PlayArguments& arguments,
+                                           Studio& studio, const Renderer& renderer, FlickerMeter& flicker) {
+  std::unique_ptr<VideoWriter> film;
+  if (!arguments.video.empty()) {
+    ORIEL_TRY(film, VideoWriter::create(arguments.video, arguments.width, arguments.height, arguments.fps));
+  }
+  std::vector<FrameRecord> records;
+  Progress progress(shots.size());
+  for (const Shot& shot : shots) {
+    ORIEL_TRY(FrameRecord record, studio.draw(shot, 1));
+    ORIEL_TRY_VOID(studio.keep(shot, film.get()));
+    flicker.add(renderer.read_light());
+    records.push_back(std::move(record));
+    progress.step();
+  }
+  if (film) ORIEL_TRY_VOID(film->finish());
+  fmt::print("{}: {} frames, median {:.1f} ms, flicker {:.4f}, worst {:.4f} at frame {}\n", arguments.path,
+             records.size(), median_record(records).ms, flicker.mean(), flicker.worst(), flicker.worst_frame());
+  return records;
+}
+
 }  // namespace
 
-Status play_offscreen(DeferredPack pack, const PlayArguments& arguments) {
+Status play_offscreen(DeferredPack pack, const PlayArguments& asked) {
+  const PlayArguments arguments = !asked.video.empty() && !has_ffmpeg() ? without_film(asked) : asked;
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
@@ -185,19 +182,11 @@ Status play_offscreen(DeferredPack pack, const PlayArguments& arguments) {
   const bool along_path = !arguments.path.empty();
   ORIEL_TRY(const auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
+  if (arguments.panorama) return draw_panoramas(shots, arguments, *scene, *renderer);
   Studio studio(*scene, *renderer, arguments);
-  std::vector<FrameRecord> records;
   FlickerMeter flicker;
-  for (const Shot& shot : shots) {
-    ORIEL_TRY(const FrameRecord record, studio.draw(shot, along_path ? 1 : std::max(arguments.frames, 1)));
-    ORIEL_TRY_VOID(studio.keep(shot, record));
-    if (along_path) flicker.add(renderer->read_light());
-    records.push_back(record);
-  }
-  if (along_path) {
-    fmt::print("{}: {} frames, median {:.1f} ms, flicker {:.4f}, worst {:.4f} at frame {}\n", arguments.path,
-               records.size(), median_record(records).ms, flicker.mean(), flicker.worst(), flicker.worst_frame());
-  }
+  ORIEL_TRY(const auto records, along_path ? draw_path(shots, arguments, studio, *renderer, flicker)
+                                           : draw_shots(shots, arguments, studio));
   if (arguments.stats.empty()) return {};
   return write_stats(arguments.stats, arguments, device.renderer, records, along_path ? &flicker : nullptr);
 }

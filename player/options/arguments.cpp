@@ -17,12 +17,17 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --offscreen --camera mirror -o mirror.png\n"
     "  oriel-play gallery.oriel --offscreen --camera all -o pictures\n"
     "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
-    "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n";
+    "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n"
+    "  oriel-play gallery.oriel --offscreen --path oriel-000.json --smooth 0.3 --video walk.mp4\n"
+    "  oriel-play gallery.oriel --offscreen --camera mirror --panorama -o around.png\n";
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
     "            4 failed at run time (no OpenGL 3.3, no display), 5 further from the reference than --max-flip,\n"
     "            130 stopped by the user";
+
+constexpr double kFilmFps = 30;
+constexpr int kPanoramaWidth = 2048;
 
 std::string parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
@@ -141,15 +146,40 @@ void add_mover_options(CLI::App& app, PlayArguments& out) {
 }
 
 void add_compare_options(CLI::App& app, PlayArguments& out) {
-  app.add_option("--compare", out.reference,
-                 "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
-                 "reflectors; -o is then the picture of reference, frame and FLIP side by side")
-      ->excludes(app.get_option("--tonemap"))
-      ->type_name("FILE.exr");
+  app.add_option(
+         "--compare", out.reference,
+         "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
+         "reflectors; -o is then the picture of reference, frame and FLIP side by side. Or with an earlier frame: "
+         "how many pixels have changed, and how much; -o is then FLIP's")
+      ->type_name("FILE.exr|png");
   app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
   app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("X");
+}
+
+void add_path_options(CLI::App& app, PlayArguments& out) {
+  CLI::Option* path =
+      app.add_option("--path", out.path,
+                     "A path of the pack, or a walk that F9 has recorded. Offscreen: frames along it instead of "
+                     "cameras; prints how they flicker. In the window: what P plays")
+          ->type_name("NAME|FILE.json");
+  app.add_option("--fps", out.fps, "Offscreen: so many frames a second of --path, from its start; --video: 30")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->needs(path)
+      ->excludes(app.get_option("--frames"))
+      ->type_name("N");
+  app.add_option("--smooth", out.smooth_s,
+                 "Average --path over time by a Gaussian of this standard deviation, which takes the jerks out")
+      ->check(CLI::Range(0.0f, 60.0f))
+      ->needs(path)
+      ->type_name("SECONDS");
+  app.add_option("--video", out.video,
+                 "Offscreen: --path as a film, by ffmpeg; without it its frames become pictures in the folder "
+                 "NAME-frames")
+      ->needs(path)
+      ->excludes(app.get_option("--frames"))
+      ->type_name("NAME.mp4");
 }
 
 void add_options(CLI::App& app, PlayArguments& out) {
@@ -190,9 +220,13 @@ void add_options(CLI::App& app, PlayArguments& out) {
       ->check(CLI::PositiveNumber)
       ->excludes(app.get_option("--compare"))
       ->type_name("N");
-  app.add_option("--path", out.path,
-                 "Offscreen: frames along this path of the pack instead of cameras; prints how they flicker")
-      ->type_name("NAME");
+  add_path_options(app, out);
+  app.add_flag("--panorama", out.panorama,
+               "Offscreen: all that is seen from the camera's eye, latitude and longitude, 2048x1024 unless --size "
+               "tells; the middle is the camera's heading")
+      ->excludes(app.get_option("--compare"))
+      ->excludes(app.get_option("--path"))
+      ->excludes(app.get_option("--frames"));
   app.add_option("--stats", out.stats, "Offscreen: time each pass and write times, counts and the options as JSON")
       ->type_name("FILE");
   app.add_flag("--panel", out.panel,
@@ -203,6 +237,8 @@ void add_options(CLI::App& app, PlayArguments& out) {
 std::string contradiction(const PlayArguments& out) {
   const bool measures = !out.stats.empty() || !out.path.empty();
   const bool compares = !out.reference.empty();
+  if (compares && out.toned && std::filesystem::path(out.reference).extension() == ".exr")
+    return "--compare shows linear light without a tone curve: leave --tonemap out";
   if (compares && !out.offscreen) return "--compare needs --offscreen";
   if (compares && measures) return "--compare draws one frame: leave --path and --stats out";
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
@@ -214,8 +250,18 @@ std::string contradiction(const PlayArguments& out) {
   if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
     return "--offscreen draws into files: -o FILE is missing";
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
-  if (!out.offscreen && measures) return "--path and --stats need --offscreen";
-  if (!out.path.empty() && !out.cameras.empty()) return "found both --path and --camera, expected one of them";
+  if (!out.offscreen && !out.stats.empty()) return "--stats needs --offscreen";
+  if (!out.offscreen && (!out.video.empty() || out.fps > 0 || out.smooth_s > 0 || out.panorama))
+    return "--video, --fps, --smooth and --panorama need --offscreen";
+  if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";
+  if (!out.video.empty() && !std::filesystem::path(out.video).has_extension())
+    return "--video takes the kind of film from its name: expected an extension, as .mp4";
+  if (out.panorama && !out.stats.empty()) return "--panorama is not timed: leave --stats out";
+  if (out.panorama && out.width != 2 * out.height)
+    return "found --size " + std::to_string(out.width) + "x" + std::to_string(out.height) +
+           ", expected twice as wide as high of --panorama";
+  if (out.offscreen && !out.path.empty() && !out.cameras.empty())
+    return "found both --path and --camera, expected one of them";
   if (!out.offscreen && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all"))) {
     return "several cameras need --offscreen";
   }
@@ -235,6 +281,9 @@ std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* ar
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorCode::kUsage);
   }
+  if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
+  if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
+  out.toned = app.get_option("--tonemap")->count() > 0;
   const std::string complaint = contradiction(out);
   if (!complaint.empty()) {
     std::fprintf(stderr, "oriel-play: %s\nRun with --help for more information.\n", complaint.c_str());

@@ -27,11 +27,17 @@ struct PlayArguments {
   FrameOptions frame;
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
-  std::string reference;       // compare with this file of `oriel-bake render` instead of drawing into files
-  std::string json;            // file for the comparison's numbers
+  bool toned = false;          // --tonemap was given
+  std::string
+      reference;     // compare with this file of `oriel-bake render`, or earlier frame, instead of drawing into files
+  std::string json;  // file for the comparison's numbers
   std::optional<double> max_flip;
-  int frames = -1;    // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
-  std::string path;   // offscreen: frames along it instead of cameras
+  int frames = -1;     // the window closes after so many, -1: never; offscreen: drawn of each camera or the path
+  std::string path;    // of the pack by name, or a .json file. Offscreen: frames along it instead of cameras
+  double fps = 0;      // of frames along it; 0: `frames` from end to end
+  float smooth_s = 0;  // standard deviation that the path is smoothed with
+  std::string video;   // film of the path
+  bool panorama = false;
   std::string stats;  // a file for what the frames cost
   bool panel = false;
   bool gl_debug = false;

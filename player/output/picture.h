@@ -4,12 +4,29 @@
 #include <string>
 
 #include "formats/core/result.h"
+#include "formats/image/image.h"
 #include "player/passes/frame.h"
 
 namespace oriel {
 
-// The frame that a renderer drew last, as a picture file: .png as shown, .exr linear.
-Status write_picture(Renderer& renderer, const std::string& path, int width, int height, float ev100, ToneCurve curve,
-                     const std::string& camera);
+// What a picture's file tells of how it was made, beside the light.
+struct PictureNotes {
+  Camera camera;       // pack space
+  DVec3 origin{0};     // of pack space, world metres
+  std::string name{};  // of the camera
+  float ev100 = 0;
+  ToneCurve curve = ToneCurve::kAces;
+};
+
+// The frame that a renderer drew last, as a picture file: .png as shown, .exr linear. Both hold the notes: name, eye
+// and direction in world metres, field of view, exposure.
+Status write_picture(Renderer& renderer, const std::string& path, int width, int height, const PictureNotes& notes);
+
+// A picture in linear light (cd/m²) as .exr, or one as shown as .png, with its notes.
+Status write_light(const std::string& path, const FloatImage& light, const PictureNotes& notes);
+Status write_shown(const std::string& path, const ByteImage& shown, const PictureNotes& notes);
+
+// Whether a file of that name is for linear light: .exr.
+bool is_linear_file(const std::string& path);
 
 }  // namespace oriel

@@ -78,11 +78,13 @@ void draw_reflections(FrameOptions& frame) {
 
 void draw_places(const Pack& pack, Session& session) {
   if (ImGui::Button("home")) perform({Action::kHome, 0}, pack, session);
-  if (!pack.paths.empty()) {
+  if (!session.path.keys.empty()) {
     ImGui::SameLine();
     if (ImGui::Button(session.path_time_s >= 0 ? "stop the path" : "play the path"))
       perform({Action::kPlayPath, 0}, pack, session);
   }
+  ImGui::SameLine();
+  if (ImGui::Button(session.recording ? "end the walk" : "record")) perform({Action::kRecord, 0}, pack, session);
   ImGui::SameLine();
   ImGui::Checkbox("fly", &session.move.fly);
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) {
@@ -197,14 +199,16 @@ void draw_key_sheet(Session& session) {
   ImGui::End();
 }
 
-void draw_zone_word() {
+// A line at the left edge of the frame, at the top (0) or the bottom (1).
+void draw_line(const char* id, const std::string& line, float down) {
   const float margin = scaled(kMargin);
-  ImGui::SetNextWindowPos(ImVec2(margin, ImGui::GetIO().DisplaySize.y - margin), ImGuiCond_Always, ImVec2(0, 1));
+  ImGui::SetNextWindowPos(ImVec2(margin, margin + down * (ImGui::GetIO().DisplaySize.y - 2 * margin)), ImGuiCond_Always,
+                          ImVec2(0, down));
   ImGui::SetNextWindowBgAlpha(0.6f);
-  ImGui::Begin("zone", nullptr,
+  ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::TextUnformatted("reflections were planned for other places");
+  text(line);
   ImGui::End();
 }
 
@@ -221,9 +225,23 @@ float FrameMeter::mean_ms() const {
 
 void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
                   Session& session) {
-  if (!meter.in_zone && meter.stats.reflectors > 0) draw_zone_word();
+  if (!meter.in_zone && meter.stats.reflectors > 0) draw_line("zone", "reflections were planned for other places", 1);
+  if (!meter.message.empty()) draw_line("message", meter.message, 0);
+  if (session.recording)
+    draw_line("recording", fmt::format("recording, {:.0f} s; F9 ends it", session.recording->keys.back().time_s), 0.5f);
   if (session.panel) draw_panel(pack, meter, picked, session);
   if (session.key_sheet) draw_key_sheet(session);
+}
+
+bool draw_refusal(const std::string& reason) {
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+  ImGui::Begin("refusal", nullptr, ImGuiWindowFlags_NoDecoration);
+  ImGui::TextUnformatted("This cannot be shown:");
+  ImGui::TextWrapped("%s", reason.c_str());
+  const bool closed = ImGui::Button("Close");
+  ImGui::End();
+  return closed;
 }
 
 }  // namespace oriel

@@ -14,7 +14,8 @@ struct FrameMeter {
   std::deque<float> ms;  // of the last frames, the newest last
   FrameStats stats;      // of the newest; with passes' times of the last one that was timed
   bool in_zone = true;
-  std::string device;  // its name
+  std::string device;   // its name
+  std::string message;  // for the user, while it is news
 
   static constexpr std::size_t kKept = 120;
   void add(float frame_ms);
@@ -24,5 +25,8 @@ struct FrameMeter {
 // Between Gui::begin and Gui::end. Changes the session as the user does. picked: what lies under the pointer.
 void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
                   Session& session);
+
+// The same for a window with nothing but a reason and a button; true once that is pressed.
+bool draw_refusal(const std::string& reason);
 
 }  // namespace oriel

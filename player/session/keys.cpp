@@ -17,6 +17,7 @@ constexpr Binding kBindings[] = {
     {"1 to 9", "the scene's cameras", Action::kCamera},
     {"Home", "back to where it began", Action::kHome},
     {"P", "play the path, or stop it", Action::kPlayPath},
+    {"F9", "record a walk, or end it into a file", Action::kRecord},
     {"+", "brighter", Action::kBrighter},
     {"-", "darker", Action::kDarker},
     {"X", "automatic exposure", Action::kAutoExposure},
@@ -24,6 +25,8 @@ constexpr Binding kBindings[] = {
     {"Tab", "panel", Action::kPanel},
     {"F1", "this sheet", Action::kKeySheet},
     {"F12", "screenshot into this folder", Action::kScreenshot},
+    {"Shift-F12", "the same in linear light, as EXR", Action::kLightScreenshot},
+    {"F5", "the pack's file again, seen from here", Action::kReload},
     {"Esc, Ctrl-Q", "quit"},
 };
 

@@ -14,15 +14,19 @@ enum class Action {
   kFly,
   kHome,
   kPlayPath,
+  kRecord,
   kBrighter,
   kDarker,
   kAutoExposure,
   kMoversBack,
   kScreenshot,
+  kLightScreenshot,
+  kReload,
   kCamera,
 };
 
-// keys: their names, parted by spaces: a letter, a sign, "F1", "Home", "Backspace". "1 to 9" are the cameras'.
+// keys: their names, parted by spaces: a letter, a sign, "F1", "Home", "Backspace", with "Shift-" before it where
+// that is held. "1 to 9" are the cameras'.
 struct Binding {
   const char* keys;
   const char* does;

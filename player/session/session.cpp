@@ -1,8 +1,10 @@
 #include "player/session/session.h"
 
 #include <cmath>
+#include <utility>
 
 #include "formats/camera/path.h"
+#include "player/paths/recorder.h"
 
 namespace oriel {
 namespace {
@@ -17,7 +19,37 @@ void look_from(const Camera& camera, Session& session) {
   session.walking = false;
 }
 
+// The walk that ends is the one that plays next.
+void record_or_end(Session& session) {
+  if (!session.recording) {
+    session.recording = start_recording(session.camera);
+    return;
+  }
+  session.path = *session.recording;
+  session.recorded = std::exchange(session.recording, std::nullopt);
+}
+
+// Along the path while it plays, else by hand.
+void move_camera_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session) {
+  if (session.path_time_s < 0) {
+    const Vec3 from = session.camera.eye;
+    session.camera = move_camera(session.camera, session.move, input, dt_s);
+    if (session.move.fly) return;
+    if (session.camera.eye != from) session.walking = true;
+    if (session.walking) session.camera.eye = floors.walk(from, session.camera.eye, dt_s, session.move.fall_m_s);
+    return;
+  }
+  session.path_time_s += dt_s;
+  session.camera = camera_on_path(session.path, static_cast<float>(session.path_time_s));
+  if (session.path_time_s > path_duration_s(session.path)) session.path_time_s = -1;
+}
+
 }  // namespace
+
+void take_path(const Pack& pack, Session& session) {
+  session.path = pack.paths.empty() ? CameraPath() : pack.paths.front();
+  session.path_time_s = -1;
+}
 
 void perform(const Command& command, const Pack& pack, Session& session) {
   switch (command.action) {
@@ -40,7 +72,10 @@ void perform(const Command& command, const Pack& pack, Session& session) {
       look_from(session.home, session);
       break;
     case Action::kPlayPath:
-      session.path_time_s = session.path_time_s >= 0 || pack.paths.empty() ? -1 : 0;
+      session.path_time_s = session.path_time_s >= 0 || session.path.keys.empty() ? -1 : 0;
+      break;
+    case Action::kRecord:
+      record_or_end(session);
       break;
     case Action::kBrighter:
       session.manual_ev100 = session.shown_ev100 - kExposureStep;
@@ -57,24 +92,21 @@ void perform(const Command& command, const Pack& pack, Session& session) {
     case Action::kScreenshot:
       session.screenshot = true;
       break;
+    case Action::kLightScreenshot:
+      session.light_screenshot = true;
+      break;
+    case Action::kReload:
+      session.reload = true;
+      break;
     case Action::kCamera:
       if (command.camera < pack.cameras.size()) look_from(pack.cameras[command.camera], session);
       break;
   }
 }
 
-void move_on(const MoveInput& input, const Pack& pack, const Floors& floors, float dt_s, Session& session) {
-  if (session.path_time_s < 0) {
-    const Vec3 from = session.camera.eye;
-    session.camera = move_camera(session.camera, session.move, input, dt_s);
-    if (session.move.fly) return;
-    if (session.camera.eye != from) session.walking = true;
-    if (session.walking) session.camera.eye = floors.walk(from, session.camera.eye, dt_s, session.move.fall_m_s);
-    return;
-  }
-  session.path_time_s += dt_s;
-  session.camera = camera_on_path(pack.paths[0], static_cast<float>(session.path_time_s));
-  if (session.path_time_s > path_duration_s(pack.paths[0])) session.path_time_s = -1;
+void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session) {
+  move_camera_on(input, floors, dt_s, session);
+  if (session.recording) record(session.camera, dt_s, *session.recording);
 }
 
 void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Session& session) {

@@ -25,8 +25,12 @@ struct Session {
   std::optional<float> manual_ev100;  // nothing: automatic
   float shown_ev100 = 0;
   bool metered = false;
-  double path_time_s = -1;  // into the first path; negative: not playing
-  bool screenshot = false;  // asked for
+  CameraPath path;          // that plays when asked for; none without keys
+  double path_time_s = -1;  // into it; negative: not playing
+  std::optional<CameraPath> recording;
+  std::optional<CameraPath> recorded;  // a whole one, until somebody keeps it
+  // Asked for, until somebody does it.
+  bool screenshot = false, light_screenshot = false, reload = false;
   bool panel = false, key_sheet = false;
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged
@@ -37,10 +41,14 @@ struct Command {
   std::size_t camera = 0;  // of kCamera
 };
 
+// What a pack offers becomes the session's: its first path.
+void take_path(const Pack& pack, Session& session);
+
 void perform(const Command& command, const Pack& pack, Session& session);
 
 // Along the path while it plays, else as the user flies, or walks on the floors.
-void move_on(const MoveInput& input, const Pack& pack, const Floors& floors, float dt_s, Session& session);
+// Records that, if asked to.
+void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session);
 
 // Towards the exposure that was metered (none: nothing was seen), over a third of a second, as eyes do; at once on the
 // first frame. A manual one holds.

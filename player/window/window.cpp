@@ -4,10 +4,12 @@
 #include <filesystem>
 
 #include "formats/camera/camera_spec.h"
+#include "formats/camera/path.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
 #include "player/panel/gui.h"
 #include "player/panel/panel.h"
+#include "player/paths/path_file.h"
 #include "player/poses/poses.h"
 #include "player/walk/zone.h"
 #include "player/window/window_input.h"
@@ -59,22 +61,26 @@ class GlfwWindow {
   GLFWwindow* window_ = nullptr;
 };
 
-std::string next_screenshot() {
+// The first free one: ending ".png", ".exr", ".json".
+std::string next_name(const char* ending) {
   for (int i = 0;; ++i) {
-    const std::string name = fmt::format("oriel-{:03}.png", i);
+    const std::string name = fmt::format("oriel-{:03}{}", i, ending);
     if (!std::filesystem::exists(name)) return name;
   }
 }
 
+constexpr IVec2 kRefusalSize{640, 200};
+constexpr double kMessage_s = 6;
 constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scene
 
 class Loop {
  public:
-  Loop(GlfwWindow& window, GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, const Camera& camera,
-       const gpu::Device& device)
+  Loop(GlfwWindow& window, std::unique_ptr<GpuScene> scene, Renderer& renderer, const PlayArguments& arguments,
+       const Camera& camera, const CameraPath& path, const gpu::Device& device)
       : window_(window),
-        scene_(scene),
+        scene_(std::move(scene)),
         renderer_(renderer),
+        device_(device),
         arguments_(arguments),
         input_(window.get()),
         gui_(window.get()) {
@@ -84,6 +90,7 @@ class Loop {
     session_.moves = session_.moves_at_start = arguments.moves;
     session_.manual_ev100 = arguments.ev100;
     session_.panel = arguments.panel;
+    session_.path = path;
     meter_.device = device.renderer;
   }
 
@@ -115,10 +122,12 @@ class Loop {
       input.clicked = false;
       input.move.wheel = 0;
     }
-    for (const Command& command : input.commands) perform(command, scene_.pack(), session_);
-    move_on(input.move, scene_.pack(), floors_, dt_s, session_);
+    for (const Command& command : input.commands) perform(command, scene_->pack(), session_);
+    if (std::exchange(session_.reload, false)) reload();
+    move_on(input.move, floors_, dt_s, session_);
+    if (const auto walk = std::exchange(session_.recorded, std::nullopt)) keep(*walk);
     const Dragged dragged = drag_movers({input.pointer, pointer_, input.clicked, input.holding, input.turning},
-                                        scene_.pack(), view_, kFarthest * scene_.bounds().radius(), session_);
+                                        scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
     if (dragged.missed) input_.grab(true);
     if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
     pointer_ = input.pointer;
@@ -127,27 +136,65 @@ class Loop {
   Status draw(int width, int height, float dt_s) {
     session_.frame.timed = numbers_are_due();  // only that one: timing waits for the device
     session_.frame.white = white_of_exposure(session_.shown_ev100);
-    ORIEL_TRY(session_.frame.poses, poses_at(scene_.pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
-    view_ = make_view(session_.camera, width, height, bounds_with_movers(scene_, session_.frame.poses));
-    ORIEL_TRY(const FrameStats stats, renderer_.render(scene_, view_, session_.frame));
+    ORIEL_TRY(session_.frame.poses,
+              poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
+    view_ = make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+    ORIEL_TRY(const FrameStats stats, renderer_.render(*scene_, view_, session_.frame));
     ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
     adapt_exposure(metered, dt_s, session_);
-    if (std::exchange(session_.screenshot, false)) keep_screenshot(width, height);
+    if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
+    if (std::exchange(session_.light_screenshot, false)) keep_screenshot(next_name(".exr"), width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     renderer_.display(session_.shown_ev100, session_.curve);
     note(stats);
     gui_.begin(!input_.grabbed());
-    draw_overlay(scene_.pack(), meter_, picked_, session_);
+    if (seconds_since(said_) > kMessage_s) meter_.message.clear();
+    draw_overlay(scene_->pack(), meter_, picked_, session_);
     gui_.end();
     glfwSwapBuffers(window_.get());
     return {};
   }
 
-  void keep_screenshot(int width, int height) {
-    const std::string name = next_screenshot();
-    const Status written =
-        write_picture(renderer_, name, width, height, session_.shown_ev100, session_.curve, session_.camera.name);
-    fmt::print(stderr, "oriel-play: {}\n", written ? name : written.error().text());
+  void keep_screenshot(const std::string& name, int width, int height) {
+    const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
+                             session_.curve};
+    const Status written = write_picture(renderer_, name, width, height, notes);
+    say(written ? name : written.error().text());
+  }
+
+  void keep(const CameraPath& walk) {
+    const std::string name = next_name(".json");
+    const Status written = write_path(name, walk, scene_->pack().mesh.origin);
+    say(written ? fmt::format("{}: a walk of {:.1f} s; P plays it", name, path_duration_s(walk))
+                : written.error().text());
+  }
+
+  // The pack's file as it is now, seen from where the user is. Where it cannot be shown the old one stays.
+  void reload() {
+    Result<DeferredPack> pack = read_pack_deferred(arguments_.pack);
+    auto scene = pack ? GpuScene::create(std::move(*pack), device_)
+                      : Result<std::unique_ptr<GpuScene>>(tl::unexpect, pack.error());
+    if (!scene) return say("not loaded again: " + scene.error().text());
+    auto poses = poses_at((*scene)->pack(), session_.moves, 0);
+    if (!poses) return say("not loaded again: " + poses.error().text());
+    session_.frame.poses = std::move(*poses);
+    const DVec3 moved = scene_->pack().mesh.origin - (*scene)->pack().mesh.origin;
+    for (Camera* camera : {&session_.camera, &session_.home}) camera->eye = Vec3(DVec3(camera->eye) + moved);
+    session_.recording.reset();  // it is in the old pack's space
+    scene_ = std::move(*scene);
+    take_path(scene_->pack(), session_);
+    session_.grip.reset();
+    picked_.reset();
+    floors_ = Floors(scene_->pack().walk_grids);
+    zone_ = planned_zone(scene_->pack());
+    say(arguments_.pack + ": loaded again");
+  }
+
+  // On the terminal, and for some seconds over the frame.
+  void say(const std::string& text) {
+    fmt::print(stderr, "oriel-play: {}\n", text);
+    meter_.message = text;
+    said_ = Clock::now();
   }
 
   bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
@@ -160,7 +207,7 @@ class Loop {
     meter_.in_zone = zone_.holds(session_.camera.eye);
     ++frames_;
     if (!session_.frame.timed) return;
-    if (session_.panel && !input_.grabbed()) picked_ = pick_surface(scene_.pack(), ray_through(view_, pointer_));
+    if (session_.panel && !input_.grabbed()) picked_ = pick_surface(scene_->pack(), ray_through(view_, pointer_));
     const std::string title =
         fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack, frames_ / seconds_since(numbers_start_),
                     session_.shown_ev100, describe(stats, meter_.in_zone));
@@ -170,38 +217,61 @@ class Loop {
   }
 
   GlfwWindow& window_;
-  GpuScene& scene_;
+  std::unique_ptr<GpuScene> scene_;
   Renderer& renderer_;
+  const gpu::Device& device_;
   const PlayArguments& arguments_;
   WindowInput input_;
   Gui gui_;  // after the input, to whose callbacks it passes on
   Session session_;
   FrameMeter meter_;
   std::optional<PickedSurface> picked_;
-  const Floors floors_{scene_.pack().walk_grids};
-  const Zone zone_ = planned_zone(scene_.pack());
+  Floors floors_{scene_->pack().walk_grids};
+  Zone zone_ = planned_zone(scene_->pack());
   View view_;        // of the last frame
   Vec2 pointer_{0};  // then
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point numbers_start_ = Clock::now();
+  Clock::time_point numbers_start_ = Clock::now(), said_ = start_;
   int frames_ = 0;  // since
 };
 
 }  // namespace
 
+void show_refusal(const std::string& reason, const std::function<bool()>& stopped) {
+  const auto window = GlfwWindow::open(kRefusalSize.x, kRefusalSize.y);
+  if (!window) return;
+  GLFWwindow* shown = (*window)->get();
+  glfwSetKeyCallback(shown, [](GLFWwindow* w, int, int, int action, int) {
+    if (action == GLFW_PRESS) glfwSetWindowShouldClose(w, GLFW_TRUE);
+  });
+  Gui gui(shown);
+  while (!stopped() && !glfwWindowShouldClose(shown)) {
+    glClear(GL_COLOR_BUFFER_BIT);
+    gui.begin(true);
+    if (draw_refusal(reason)) glfwSetWindowShouldClose(shown, GLFW_TRUE);
+    gui.end();
+    glfwSwapBuffers(shown);
+    glfwWaitEventsTimeout(0.1);
+  }
+}
+
 Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
-  ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+  ORIEL_TRY(auto scene, GpuScene::create(std::move(pack), device));
   const Pack& shown = scene->pack();
   const CameraChoices choices{shown.cameras, shown.paths, shown.mesh.origin};
   Camera camera = initial_camera(choices, scene->bounds().lower, scene->bounds().upper);
   if (!arguments.cameras.empty()) {
     ORIEL_TRY(camera, parse_camera(arguments.cameras[0], choices));
   }
+  CameraPath path = shown.paths.empty() ? CameraPath() : shown.paths.front();
+  if (!arguments.path.empty()) {
+    ORIEL_TRY(path, choose_path(arguments.path, shown.paths, shown.mesh.origin));
+  }
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  return Loop(*window, *scene, *renderer, arguments, camera, device).run(stopped);
+  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device).run(stopped);
 }
 
 }  // namespace oriel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "formats/pack/deferred.h"
 #include "player/options/arguments.h"
@@ -11,5 +12,8 @@ namespace oriel {
 // Shows the pack until the user closes the window. Errors: kRuntime (no display, no OpenGL 3.3), kUsage, kStopped once
 // `stopped` says so.
 Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped);
+
+// A window that says why there is nothing to see, until the user closes it or presses a key. Nothing without a display.
+void show_refusal(const std::string& reason, const std::function<bool()>& stopped);
 
 }  // namespace oriel

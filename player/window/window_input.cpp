@@ -19,6 +19,8 @@ int code_of(std::string_view name) {
   if (name == "Home") return GLFW_KEY_HOME;
   if (name == "Tab") return GLFW_KEY_TAB;
   if (name == "F1") return GLFW_KEY_F1;
+  if (name == "F5") return GLFW_KEY_F5;
+  if (name == "F9") return GLFW_KEY_F9;
   if (name == "F12") return GLFW_KEY_F12;
   if (name == "+") return GLFW_KEY_EQUAL;
   return name.size() == 1 ? name[0] : GLFW_KEY_UNKNOWN;
@@ -31,7 +33,13 @@ int plain(int code) {
   return code;
 }
 
-Command command_of(int code) {
+// shifted: Shift is down, which changes those keys alone that have a line of their own for it.
+Command command_of(int code, bool shifted) {
+  constexpr std::string_view kShift = "Shift-";
+  if (shifted)
+    for (const Binding& b : key_bindings())
+      if (const std::string_view keys = b.keys; keys.starts_with(kShift) && code_of(keys.substr(kShift.size())) == code)
+        return {b.action, 0};
   if (code >= GLFW_KEY_1 && code <= GLFW_KEY_9) return {Action::kCamera, static_cast<std::size_t>(code - GLFW_KEY_1)};
   if (code == GLFW_KEY_0) return {Action::kCamera, 9};
   for (const Binding& b : key_bindings())
@@ -86,7 +94,7 @@ void WindowInput::key(int code, int action, int mods) {
     return;
   }
   if (code == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0) quit_ = true;
-  const Command command = command_of(plain(code));
+  const Command command = command_of(plain(code), (mods & GLFW_MOD_SHIFT) != 0);
   // Exposure keys repeat while held; others count once.
   const bool repeats = command.action == Action::kBrighter || command.action == Action::kDarker;
   if (action == GLFW_PRESS || repeats) commands_.push_back(command);

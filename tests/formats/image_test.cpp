@@ -111,6 +111,28 @@ TEST(Png, BytesComeBack) {
   }
 }
 
+// The checksum is zlib's of the same bytes.
+TEST(Png, TextsAreChunksOfTheirOwn) {
+  const ByteImage image{2, 2, 3, std::vector<std::uint8_t>(12, 7)};
+  const auto bytes = encode_png(image, {{"oriel.a", "b"}});
+  ASSERT_TRUE(bytes);
+  const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string chunk(
+      "\0\0\0\x0d"
+      "iTXtoriel.a\0\0\0\0\0b"
+      "\x50"
+      "\x74"
+      "\x80"
+      "\x1e",
+      25);
+  EXPECT_EQ(text.find(chunk), 33u);
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_file_atomically(folder.path() / "a.png", *bytes));
+  EXPECT_EQ(read_png(folder.path() / "a.png")->pixels, image.pixels);
+  for (const std::string& keyword : {std::string(), std::string(80, 'k'), std::string("a\nb")})
+    EXPECT_FALSE(encode_png(image, {{keyword, ""}})) << keyword;
+}
+
 TEST(Png, BadShapesAndFiles) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.png";

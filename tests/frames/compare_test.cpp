@@ -39,7 +39,7 @@ TEST(CompareFrames, CornellAgreesWithItsReference) {
   EXPECT_EQ(run("oriel-play a.oriel --compare a.exr"), 1) << "not in a window";
   EXPECT_EQ(run("oriel-play a.oriel --offscreen --compare missing.exr"), 2);
   ASSERT_EQ(run("oriel-play a.oriel --offscreen --camera 0 --size 64x64 -o plain.exr"), 0);
-  EXPECT_EQ(run("oriel-play a.oriel --offscreen --compare plain.exr"), 3) << "it has no layers";
+  EXPECT_EQ(run("oriel-play a.oriel --offscreen --compare plain.exr --max-flip 0"), 0) << "an earlier frame";
   if (!testing::Test::HasFailure()) fs::remove_all(folder);
 }
 

@@ -95,6 +95,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
   m["player/scene"] =
       plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps", "player/view"});
+  m["player/paths"] = plus(assets, {"formats/camera"});  // walks: files, recorded, smoothed
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
@@ -102,9 +103,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/passes"] =
       plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
-  m["player/session"] = plus(m["player/passes"], {"player/passes", "player/poses", "player/walk", "formats/camera"});
+  m["player/session"] =
+      plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});
   m["player/options"] = plus(m["player/session"], {"player/session"});
-  m["player/output"] = plus(m["player/options"], {"player/options", "formats/image"});
+  m["player/output"] = plus(m["player/options"], {"player/options", "formats/image", "formats/camera"});
   m["player/panel"] = plus(m["player/options"], {"player/options", "player/survey"});
   m["player/window"] = plus(m["player/output"], {"player/output", "player/panel"});
   m["player/app"] = plus(m["player/window"], {"player/window", "formats/metrics"});

@@ -161,6 +161,88 @@ TEST_F(Play, WithoutADisplayTheWindowSaysWhatToDo) {
   EXPECT_TRUE(ends(run("tiny.oriel"), 4, "--offscreen"));
 }
 
+constexpr const char* kWalk = R"({"oriel_path": 1, "name": "walk", "vertical_fov_deg": 60, "keys": [
+  {"t": 0, "eye": [1000000, 4.5, -249997], "forward": [0, -0.3, -1]},
+  {"t": 0.25, "eye": [1000001, 4.5, -249997], "forward": [0, -0.3, -1]}]})";
+
+TEST_F(Play, AWalkDrawsTheSameFramesAgain) {
+  std::ofstream(folder() / "walk.json") << kWalk;
+  const std::string along = "tiny.oriel --offscreen --size 33x17 --path walk.json --fps 8 --smooth 0.1 ";
+  ASSERT_TRUE(ends(run(along + "-o once"), 0, "3/3"));
+  ASSERT_TRUE(ends(run(along + "-o twice"), 0, "3 frames"));
+  for (const char* name : {"0000.png", "0001.png", "0002.png"})
+    EXPECT_EQ(*read_file(folder() / "once" / name), *read_file(folder() / "twice" / name)) << name;
+  EXPECT_NE(*read_file(folder() / "once/0000.png"), *read_file(folder() / "once/0002.png"));
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen --path absent.json -o out"), 2, "absent.json"));
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen --path nowhere -o out"), 1, "nowhere"));
+  EXPECT_EQ(run("tiny.oriel --offscreen --path walk.json --video a.mp4 -o out").code, 1);
+  EXPECT_EQ(run("tiny.oriel --path walk.json --video a.mp4").code, 1) << "not in a window";
+}
+
+TEST_F(Play, WithoutFfmpegAFilmIsPictures) {
+  std::ofstream(folder() / "walk.json") << kWalk;
+  fs::create_directory(folder() / "empty");
+  const Outcome r = run("tiny.oriel --offscreen --size 32x18 --path walk.json --fps 8 --video walk.mp4",
+                        "env -u DISPLAY PATH='" + (folder() / "empty").string() + "'");
+  EXPECT_TRUE(ends(r, 0, "ffmpeg is not installed"));
+  EXPECT_TRUE(fs::exists(folder() / "walk-frames/0002.png"));
+  EXPECT_FALSE(fs::exists(folder() / "walk.mp4"));
+}
+
+// A stand-in that keeps what it is given; and one that fails.
+TEST_F(Play, AFilmGetsEveryFrameOrIsNotThere) {
+  std::ofstream(folder() / "walk.json") << kWalk;
+  fs::create_directory(folder() / "bin");
+  const fs::path ffmpeg = folder() / "bin/ffmpeg";
+  const std::string film = "tiny.oriel --offscreen --size 33x17 --path walk.json --fps 8 --video walk.mp4";
+  const std::string environment = "env -u DISPLAY PATH='" + (folder() / "bin").string() + "':\"$PATH\"";
+  std::ofstream(ffmpeg) << "#!/bin/sh\nfor last; do :; done\nexec cat > \"${last#file:}\"\n";
+  fs::permissions(ffmpeg, fs::perms::owner_all);
+  ASSERT_TRUE(ends(run(film, environment), 0, "3 frames"));
+  EXPECT_EQ(fs::file_size(folder() / "walk.mp4"), 3u * 33 * 17 * 3);
+  fs::remove(folder() / "walk.mp4");
+  std::ofstream(ffmpeg) << "#!/bin/sh\ncat > /dev/null\nexit 1\n";
+  EXPECT_TRUE(ends(run(film, environment), 4, "ffmpeg: failed"));
+  for (const auto& entry : fs::directory_iterator(folder())) EXPECT_NE(entry.path().extension(), ".mp4");
+}
+
+TEST_F(Play, CompareSeesOneChangedPixel) {
+  for (const std::string file : {"a.png", "a.exr"}) {
+    ASSERT_EQ(run("tiny.oriel --offscreen --size 33x17 --camera 0 -o " + file).code, 0);
+    const std::string compare = "tiny.oriel --offscreen --camera 0 --max-flip 0 --json a.json --compare " + file;
+    EXPECT_TRUE(ends(run(compare), 0, " 0 pixels changed")) << file;
+    EXPECT_TRUE(ends(shell("cat a.json"), 0, "\"passed\": true"));
+    EXPECT_EQ(run(compare + " --size 66x34").code, 1);
+    if (file == "a.png") {
+      auto picture = *read_png(folder() / file);
+      picture.pixels[3 * 100] ^= 128;
+      ASSERT_TRUE(write_png(folder() / file, picture));
+    } else {
+      auto picture = *read_exr(folder() / file);
+      picture.pixels[3 * 100] += 100;
+      ASSERT_TRUE(write_exr(folder() / file, picture));
+    }
+    EXPECT_TRUE(ends(run(compare), 5, " 1 pixels changed")) << file;
+    EXPECT_TRUE(ends(shell("cat a.json"), 0, "\"passed\": false"));
+  }
+}
+
+TEST_F(Play, PicturesTellTheirCamera) {
+  ASSERT_EQ(run("tiny.oriel --offscreen --size 16x9 --camera 1000000,4.5,-249996,1000000,4.5,-250000 -o a.png").code,
+            0);
+  const Bytes bytes = *read_file(folder() / "a.png");
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const char* found : {"iTXtoriel.eye", "1000000,4.5,-249996", "oriel.ev100", "oriel.tonemap"})
+    EXPECT_NE(text.find(found), std::string::npos) << found;
+}
+
+TEST_F(Play, Panoramas) {
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen --size 64x32 --camera all --panorama -o around"), 0, "64x32"));
+  ASSERT_EQ(run("tiny.oriel --offscreen --size 64x32 --camera 0 --panorama -o a.exr").code, 0);
+  EXPECT_EQ(read_exr(folder() / "a.exr")->width, 64u);
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen --size 64x33 --panorama -o a.exr"), 1, "twice"));
+}
+
 class PlayWindow : public Play {
  protected:
   void SetUp() override {
@@ -255,6 +337,32 @@ wait $pid
   ASSERT_EQ(std::sscanf(r.out.c_str() + second, "--move \"door=%lf,%lf,%lf,%lf\"", &turned_x, &y, &z, &yaw), 4);
   EXPECT_EQ(turned_x, x);
   EXPECT_NEAR(yaw, 22.5, 1) << "10 of 160 pixels of a full turn";
+}
+
+// A walk into a file; the pack replaced by a broken one, then by a whole one, while it is open.
+TEST_F(PlayWindow, RecordsAndLoadsAgain) {
+  const Outcome r = in_display(std::string(kStart) + R"(
+key() { xdotool key --window "$window" "$@"; sleep 0.5; }
+key F9
+xdotool keydown --window "$window" w; sleep 0.5; xdotool keyup --window "$window" w
+key F9; key shift+F12
+cp tiny.oriel whole; head -c 100 whole > half; mv half tiny.oriel; key F5
+mv whole tiny.oriel; key F5
+xdotool windowsize "$window" 1 1; sleep 0.3
+key Escape
+wait $pid
+)");
+  EXPECT_TRUE(ends(r, 0, "oriel-000.json: a walk of"));
+  EXPECT_TRUE(ends(r, 0, "not loaded again: tiny.oriel"));
+  EXPECT_TRUE(ends(r, 0, "tiny.oriel: loaded again"));
+  EXPECT_TRUE(fs::exists(folder() / "oriel-000.exr")) << r.out;
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen --size 16x9 --path oriel-000.json --frames 2"), 0, "2 frames"));
+}
+
+TEST_F(PlayWindow, ABrokenPackSaysWhyInAWindow) {
+  ASSERT_TRUE(write_file_atomically(pack(), Bytes(100)));
+  const Outcome r = in_display(std::string(kStart) + "xdotool key --window \"$window\" space\nwait $pid\n");
+  EXPECT_TRUE(ends(r, 3, "tiny.oriel")) << r.out;
 }
 
 TEST_F(PlayWindow, TheTitleTellsWhatAFrameCosts) {

@@ -51,12 +51,34 @@ TEST_F(SessionTest, StagesComeRound) {
 
 TEST_F(SessionTest, ThePathEndsAndACameraStopsIt) {
   press(Action::kPlayPath);
+  EXPECT_LT(session_.path_time_s, 0) << "there is none yet";
+  take_path(pack_, session_);
+  press(Action::kPlayPath);
   EXPECT_GE(session_.path_time_s, 0);
-  move_on({}, pack_, Floors({}), 1e6f, session_);
+  move_on({}, Floors({}), 1e6f, session_);
   EXPECT_LT(session_.path_time_s, 0);
   press(Action::kPlayPath);
   press(Action::kCamera);
   EXPECT_LT(session_.path_time_s, 0);
+}
+
+TEST_F(SessionTest, ARecordedWalkPlays) {
+  session_.camera.eye = {0, 1, 0};
+  press(Action::kRecord);
+  session_.move.fly = true;
+  MoveInput ahead;
+  ahead.forward = true;
+  for (int i = 0; i < 4; ++i) move_on(ahead, Floors({}), 0.25f, session_);
+  const Vec3 end = session_.camera.eye;
+  ASSERT_NE(end, Vec3(0, 1, 0));
+  press(Action::kRecord);
+  ASSERT_TRUE(session_.recorded);
+  EXPECT_FALSE(session_.recording);
+  EXPECT_EQ(session_.recorded->keys.back().eye, end);
+  press(Action::kHome);
+  press(Action::kPlayPath);
+  move_on({}, Floors({}), 0.5f, session_);
+  EXPECT_LT(glm::length(session_.camera.eye - 0.5f * (Vec3(0, 1, 0) + end)), 1e-3f);
 }
 
 // At once on the first frame, then e-fold in 0.3 s; steps of a third from where it stands; X gives it back.

@@ -1,0 +1,8 @@
+# cmake -DPROGRAM=FILE -DNAME=NAME -DOUTPUT=FILE -P man.cmake: a manual page of what --help says.
+execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "^[^\n]*" summary "${help}")
+string(REPLACE "\\" "\\e" help "${help}")
+string(REPLACE "-" "\\-" help "${help}")
+string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\&\\2" help "${help}")
+string(TOUPPER ${NAME} title)
+file(WRITE ${OUTPUT} ".TH ${title} 1\n.SH NAME\n${NAME} \\- ${summary}\n.SH DESCRIPTION\n.nf\n${help}.fi\n")
