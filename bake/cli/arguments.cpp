@@ -16,7 +16,7 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake plan house.glb                                what that would do and cost, and what looks wrong
 
 Exit codes: 0 done (after one interrupt with what was there), 1 usage, 2 a file cannot be read or written, 3 invalid input,
-4 failed at run time, 5 findings with plan --strict, 130 stopped by the user before there was a first estimate, or by a
+4 failed at run time, 5 findings with plan --strict or other bytes with verify, 130 stopped by the user before there was a first estimate, or by a
 second interrupt (nothing half-written is left).)";
 
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for

@@ -107,6 +107,15 @@ std::string light_line(const RadiosityReport& r) {
   return line;
 }
 
+std::string ledger_line(const Ledger& l) {
+  const auto share = [&](double lm) { return 100 * lm / l.emitted_lm(); };
+  return fmt::format(
+      "ledger: of {:.4g} lm {:.3g} % are absorbed, {:.3g} % escape, {:.3g} % are lost behind surfaces; off by "
+      "{:.2g} % ± {:.2g} %",
+      l.emitted_lm(), share(l.absorbed.value), share(l.escaped.value), share(l.lost_behind.value), 100 * l.closure(),
+      100 * l.closure_error());
+}
+
 // The first few; the pack's plan and the report hold them all.
 void print_omissions(const std::vector<std::string>& omissions, ProgressPrinter& printer) {
   constexpr std::size_t kShown = 8;
@@ -128,7 +137,7 @@ Status run_lux(const Arguments& args, Context& context) {
 }
 
 void print_share(const UnitShare& share, const std::filesystem::path& folder, ProgressPrinter& printer) {
-  printer.note(fmt::format("reused {} of {} units ({:.0f} % of the work) of {}", share.reused, share.units(),
+  printer.note(fmt::format("reused {} of {} units ({:.0f} % of the work) in {}", share.reused, share.units(),
                            100 * share.work(), folder.string()));
 }
 
@@ -159,7 +168,7 @@ Status run_verify(const Arguments& args, Context& context, ProgressPrinter& prin
   CheckingStore checking(*cache, args.verify.sample, std::random_device()());
   context.units = &checking;
   ORIEL_TRY(const BakeResult again, bake(args.bake, context));
-  printer.note(fmt::format("{} of {} units were taken from {}; {} that are there were computed again: {} differ",
+  printer.note(fmt::format("{} of {} units were found in {}; {} that are there were computed again: {} differ",
                            again.units.reused - checking.checked(), again.units.units(), cache->folder().string(),
                            checking.checked(), checking.differing()));
   if (before.provenance != again.pack.provenance)
@@ -188,6 +197,7 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
     printer.note("ended early: the pack holds what was there, with the error that is stated");
   print_omissions(result.omissions, printer);
   printer.note(light_line(result.radiosity));
+  if (result.ledger.emitted_lm() > 0) printer.note(ledger_line(result.ledger));
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
   if (!args.report.empty()) {
     const std::string report = report_json(result);

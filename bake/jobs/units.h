@@ -20,7 +20,7 @@ struct KeptUnit {
 // What of a bake's units was found and what was computed.
 struct UnitShare {
   std::uint64_t reused = 0, computed = 0;
-  double reused_s = 0, computed_s = 0;  // CPU time that it took, or once took
+  double reused_s = 0, computed_s = 0;  // wall clock of each unit, added up over threads: what they take or once took
 
   std::uint64_t units() const { return reused + computed; }
   double work() const { return reused_s + computed_s > 0 ? reused_s / (reused_s + computed_s) : 0; }

@@ -273,6 +273,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   result.report.rays = rays;
   for (std::size_t p = 0; options.hidden == Hidden::kBlack && p < texel_map.size(); ++p) {
     darken_hidden(texel_map[p], result.visible[p], result.pages[p]);
+    std::fill(result.visible[p].begin(), result.visible[p].end(), 1.0f);
     dilate(options.dilation, result.pages[p]);
   }
   return result;

@@ -100,7 +100,7 @@ struct RadiosityReport {
 struct Radiosity {
   std::vector<LightmapPage> pages;
   // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other
-  // geometry nor behind a wall on the texel (TexelPart).
+  // geometry nor behind a wall on the texel (TexelPart). With Hidden::kBlack all 1: the light has it in it.
   std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };

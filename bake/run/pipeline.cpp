@@ -19,6 +19,7 @@ constexpr double kMostForMaps = 0.5;        // of the time that is left when the
 constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
 constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
 constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
+constexpr double kLedgerRays = 0.01;        // of the lightmap's
 constexpr double kWritten_per_s = 25e6;     // bytes of maps and lightmaps that a pack takes in
 constexpr double kLate_s = 2, kLate = 0.1;  // by which --time may be missed
 
@@ -182,6 +183,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   result.radiosity = radiosity.report;
   context.finishable = true;
   warn_about_error(options, radiosity.report, deadline, context);
+  ORIEL_TRY(result.ledger, timed("ledger", [&](std::uint64_t& rays) {
+              const auto at_most = static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity.report.rays));
+              auto ledger = keep_ledger({accel, lights, path_options(options)}, atlas, prepared.texel_map, radiosity,
+                                        at_most, context);
+              if (ledger) rays = ledger->rays;
+              return ledger;
+            }));
+  ORIEL_TRY_VOID(check_ledger(result.ledger, context));
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
   AssembledMesh mesh = assemble_mesh(scene, atlas);
@@ -205,9 +214,9 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   if (!options.with_material) leave_out_kernels(materials, result.omissions);
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan =
-      plan_json({scene, atlas, prepared.sides, radiosity.report, pack, result.omissions, lights.power(), reflections,
-                 mover_reports, options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
+  pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
+                         lights.power(), reflections, mover_reports, options.radiosity.estimator == Estimator::kCached,
+                         options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   if (context.units) result.units = context.units->share();

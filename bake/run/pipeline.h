@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/jobs/units.h"
+#include "bake/ledger/ledger.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/stopwatch.h"
 #include "formats/pack/pack.h"
@@ -12,6 +13,7 @@ struct BakeResult {
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;
+  Ledger ledger;
   UnitShare units;                     // not in the pack either: empty without a store of units
   std::vector<std::string> omissions;  // what was not modelled, and why
 };

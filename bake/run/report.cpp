@@ -99,7 +99,9 @@ double largest_compression_error(const BakeFacts& f) {
 // What is off by how much, part by part: asked for, stated by the estimate itself, measured on what it did not know.
 Json errors_json(const BakeFacts& f) {
   const Certificate& c = f.radiosity.certificate;
-  Json diffuse = {{"component", "D"}, {"asked", f.asked}, {"stated", f.radiosity.relative_error}};
+  Json diffuse = {{"component", "D"}};
+  if (f.asked > 0) diffuse["asked"] = f.asked;
+  diffuse["stated"] = f.radiosity.relative_error;
   if (c.texels > 0) {
     diffuse["measured"] = c.relative_error;
     diffuse["measured_95_interval"] = {c.error_low, c.error_high};
@@ -145,6 +147,30 @@ Json movers_json(std::span<const MoverReport> movers) {
 Json reuse_json(const ReuseReport& r) {
   if (r.asked <= 0) return Json();
   return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.kept}, {"relative_error", r.error}};
+}
+
+Json lumens_json(const Lumens& lumens) {
+  return {{"lm", lumens.value}, {"standard_error", lumens.error}};
+}
+
+Json ledger_json(const Ledger& l) {
+  if (l.particles == 0) return Json();
+  return {{"particles", l.particles},
+          {"rays", l.rays},
+          {"emitted_lm", l.emitted_lm()},
+          {"by_lamps_lm", l.lamps_lm},
+          {"by_sky_and_sun", lumens_json(l.from_afar)},
+          {"absorbed", lumens_json(l.absorbed)},
+          {"escaped", lumens_json(l.escaped)},
+          {"lost_behind_surfaces", lumens_json(l.lost_behind)},
+          {"lost_on_long_paths", lumens_json(l.lost_guard)},
+          {"closure", l.closure()},
+          {"closure_standard_error", l.closure_error()},
+          {"kept_by_texels",
+           {{"by_particles", lumens_json(l.on_texels)},
+            {"by_lightmap_lm", l.lightmap_lm},
+            {"apart", l.disagreement()},
+            {"standard_error", l.disagreement_error()}}}};
 }
 
 Json light_field_json(const LightField& field) {
@@ -193,6 +219,7 @@ std::string plan_json(const BakeFacts& f) {
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},
         {"incident_lm", rgb(f.radiosity.incident_lm)}}},
+      {"ledger", ledger_json(f.ledger)},
       {"radiance",
        {{"reflectors", reflectors_json(f)},
         {"maps", f.pack.radiance_maps.size()},
@@ -232,8 +259,8 @@ std::string report_json(const BakeResult& result) {
                      {"units",
                       {{"reused", result.units.reused},
                        {"computed", result.units.computed},
-                       {"reused_cpu_s", result.units.reused_s},
-                       {"computed_cpu_s", result.units.computed_s}}}};
+                       {"reused_s", result.units.reused_s},
+                       {"computed_s", result.units.computed_s}}}};
   return text_of(json) + "\n";
 }
 

@@ -14,6 +14,7 @@ struct BakeFacts {
   const Atlas& atlas;
   const SidesReport& sides;
   const RadiosityReport& radiosity;
+  const Ledger& ledger;
   const Pack& pack;
   const std::vector<std::string>& omissions;
   DVec3 emitted_lm{0};

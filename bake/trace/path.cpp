@@ -1,71 +1,16 @@
 #include "bake/trace/path.h"
 
 #include "bake/trace/albedo.h"
+#include "bake/trace/shading.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-// Straight passes through cut-outs and glass that one path segment may make; a stack of more is taken as black.
-constexpr int kMaxPasses = 256;
-
 float balance(float pdf, float other) {
   return pdf / (pdf + other);
 }
-
-// z along the normal, x along the tangent where there is one.
-Mat3 frame_of(const SurfacePoint& surface) {
-  const Vec3 across = surface.tangent - glm::dot(surface.tangent, surface.normal) * surface.normal;
-  const float size2 = length2(across);
-  if (!(size2 > 1e-12f)) return frame_from_normal(surface.normal);
-  const Vec3 x = across / std::sqrt(size2);
-  return {x, glm::cross(surface.normal, x), surface.normal};
-}
-
-// The scattering of a surface in world space. A shading normal tilts the lobe, and a part of it falls below the
-// geometric surface; that part is mirrored back above it, in evaluation, pdf and sampling alike. So no energy is lost
-// at smooth normals (a closed sphere of triangles stays an exact furnace), and light never leaks through.
-class Shading {
- public:
-  Shading(const SurfacePoint& surface, const Vec3& wo_world)
-      : surface_(surface),
-        frame_(frame_of(surface)),
-        wo_(glm::transpose(frame_) * wo_world),
-        tilted_(glm::dot(surface.normal, surface.geometric_normal) < 1 - 1e-6f) {}
-
-  Vec3 fold(const Vec3& w) const { return w - 2 * glm::dot(w, surface_.geometric_normal) * surface_.geometric_normal; }
-
-  // Sum of g over w and its mirror image; w above the geometric surface, g takes local directions.
-  template <class G>
-  auto both(const Vec3& w, const G& g) const {
-    auto value = g(local(w));
-    if (tilted_) value += g(local(fold(w)));
-    return value;
-  }
-  Vec3 eval(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf_eval(surface_.shade, wo_, w); });
-  }
-  float pdf(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf_pdf(surface_.shade, wo_, w); });
-  }
-  static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
-  float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
-
-  Vec3 local(const Vec3& w) const { return glm::transpose(frame_) * w; }
-  // A sampled local direction as a world direction above the geometric surface.
-  Vec3 above(const Vec3& w) const {
-    const Vec3 world = glm::normalize(frame_ * w);
-    return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
-  }
-  const Vec3& wo() const { return wo_; }
-
- private:
-  const SurfacePoint& surface_;
-  Mat3 frame_;
-  Vec3 wo_;
-  bool tilted_;
-};
 
 // Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
 // which the other strategy would have chosen that direction.

@@ -6,6 +6,7 @@
 
 #include "formats/camera/camera.h"
 #include "formats/export/glb.h"
+#include "formats/export/ktx2.h"
 #include "formats/export/shown_page.h"
 #include "formats/image/png.h"
 #include "formats/metrics/display.h"
@@ -78,13 +79,16 @@ class SceneWriter {
     Json pages = Json::array();
     for (std::size_t page = 0; page < pack_.lightmaps.size(); ++page)
       pages.push_back({{"page", page},
-                       {"file", lightmap_file(options_.lightmap_stem, page)},
+                       {"file", lightmap_file(options_.lightmap_stem, page, "exr")},
                        {"width", pack_.lightmaps[page].width},
                        {"height", pack_.lightmaps[page].height},
                        {"texcoord", 1},
                        {"quantity", "irradiance"},
                        {"unit", "lux"},
-                       {"scale", 1}});
+                       {"scale", 1},
+                       {"ktx2",
+                        {{"file", lightmap_file(options_.lightmap_stem, page, "ktx2")},
+                         {"scale", ktx2_scale(pack_.lightmaps[page])}}}});
     glb_.json["asset"]["extras"] = {{"oriel", {{"lightmaps", std::move(pages)}}}};
   }
 
@@ -236,8 +240,8 @@ class SceneWriter {
 
 }  // namespace
 
-std::string lightmap_file(const std::string& stem, std::size_t page) {
-  return fmt::format("{}_{:03}.exr", stem, page);
+std::string lightmap_file(const std::string& stem, std::size_t page, const char* extension) {
+  return fmt::format("{}_{:03}.{}", stem, page, extension);
 }
 
 Result<GlbScene> scene_glb(const Pack& pack, const GlbOptions& options) {

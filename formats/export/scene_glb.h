@@ -10,12 +10,12 @@
 namespace oriel {
 
 // kEmissive: the light as emissive textures, which any viewer shows as it is. kLightmap: the materials, and the
-// lightmap coordinates with `extras` that name the EXR files.
+// lightmap coordinates with `extras` that name the EXR and KTX2 files.
 enum class LightAs { kEmissive, kLightmap };
 
 struct GlbOptions {
   LightAs light = LightAs::kEmissive;
-  std::string lightmap_stem;             // of the EXR files' names: see lightmap_file
+  std::string lightmap_stem;             // of the lightmaps' names: see lightmap_file
   std::uint32_t longest_texture = 4096;  // pixels a side, where the page itself is not longer
 };
 
@@ -25,8 +25,8 @@ struct GlbScene {
   std::vector<std::string> left_out;  // what of the pack is not in it
 };
 
-// "stem_000.exr".
-std::string lightmap_file(const std::string& stem, std::size_t page);
+// "stem_000.exr"; extension: "exr" or "ktx2".
+std::string lightmap_file(const std::string& stem, std::size_t page, const char* extension);
 
 // TEXCOORD_0 is that of base colour textures, TEXCOORD_1 that of lightmaps. Cameras are nodes. pack: one that
 // validate() finds no error in. Errors: kInvalid for a scene of 4 GiB or more, kRuntime.

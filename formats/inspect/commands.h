@@ -51,7 +51,7 @@ int diff(const std::filesystem::path& before, const std::filesystem::path& after
 // The pack as one HTML page to look at (formats/report).
 int page(const std::filesystem::path& path, const std::filesystem::path& output);
 
-// The scene as binary glTF with its light as emissive textures or, as_lightmap, with EXR files beside it
+// The scene as binary glTF with its light as emissive textures or, as_lightmap, with EXR and KTX2 files beside it
 // (formats/export).
 int export_scene(const std::filesystem::path& path, const std::filesystem::path& output, bool as_lightmap);
 

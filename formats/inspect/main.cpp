@@ -96,7 +96,7 @@ void add_writers(CLI::App& app, Arguments& a) {
   export_command->add_option("-o,--output", a.output, "The .glb file to write")->required();
   export_command
       ->add_option("--as", a.light,
-                   "emissive: any viewer shows the light as it is; lightmap: EXR files in lux beside the scene")
+                   "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene")
       ->check(CLI::IsMember({"emissive", "lightmap"}))
       ->capture_default_str();
 }

@@ -69,14 +69,38 @@ std::string components_html(const Json& plan) {
          table.html();
 }
 
+std::string with_error(const Json& value, const Json& error) {
+  if (!value.is_number()) return {};
+  const std::string text = number_text(value.get<double>());
+  return error.is_number() && error.get<double>() > 0 ? text + " ± " + number_text(error.get<double>()) : text;
+}
+
+// Emitted and what became of it, by particles from the lights, beside the lightmap.
+void add_balance(const Json& ledger, Table& table) {
+  const auto row = [&](const char* what, const Json& of) {
+    table.row({what, with_error(at(of, {"lm"}), at(of, {"standard_error"}))});
+  };
+  table.row({"emitted", with_error(at(ledger, {"emitted_lm"}), {})});
+  row("absorbed", at(ledger, {"absorbed"}));
+  row("escaped", at(ledger, {"escaped"}));
+  row("lost behind one-sided surfaces", at(ledger, {"lost_behind_surfaces"}));
+  row("lost on long paths", at(ledger, {"lost_on_long_paths"}));
+  row("kept by surfaces with texels, by particles", at(ledger, {"kept_by_texels", "by_particles"}));
+  table.row({"the same, by the lightmap", with_error(at(ledger, {"kept_by_texels", "by_lightmap_lm"}), {})});
+}
+
 std::string ledger_html(const Json& plan) {
   const auto emitted = lumens(at(plan, {"scene", "emitted_lm"})),
              incident = lumens(at(plan, {"radiosity", "incident_lm"}));
-  if (!emitted && !incident) return {};
+  const Json ledger = at(plan, {"ledger"});
+  if (!emitted && !incident && !ledger.is_object()) return {};
   Table table({"light", "lm"});
   if (emitted) table.row({"emitted by surfaces and lamps", number_text(*emitted)});
   if (incident) table.row({"received by surfaces, over all bounces", number_text(*incident)});
-  return "<h2>Light</h2>\n" + table.html();
+  if (ledger.is_object()) add_balance(ledger, table);
+  const std::string off = percent(at(ledger, {"closure"}));
+  const std::string closure = off.empty() ? "" : "<p class=\"quiet\">The ledger closes within " + off + ".</p>\n";
+  return "<h2>Light</h2>\n" + table.html() + closure;
 }
 
 std::string omissions_html(const Json& plan, const Limits& limits) {

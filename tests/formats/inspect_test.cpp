@@ -252,6 +252,7 @@ TEST_F(Inspect, ReportsAndExports) {
   ASSERT_EQ(run("export --as lightmap " + pack_.string() + " -o " + glb.string()).code, 0);
   const auto exr = read_exr(folder_.path() / "tiny_lightmap_000.exr");
   ASSERT_TRUE(exr) << exr.error().text();
+  EXPECT_EQ(slurp(folder_.path() / "tiny_lightmap_000.ktx2").substr(1, 6), "KTX 20");
   EXPECT_EQ(exr->pixels[9], read_pack(pack_)->lightmaps[0].irradiance[3].r);
   EXPECT_EQ(run("export --as photo " + pack_.string() + " -o " + glb.string()).code, 1);
   EXPECT_EQ(run("report " + pack_.string()).code, 1);

@@ -73,9 +73,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
-  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
-                               "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                               "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
+  m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
+  m["bake/run"] =
+      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
+                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                   "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
   m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each

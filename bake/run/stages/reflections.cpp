@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
@@ -146,6 +147,11 @@ OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const Outgoin
   };
 }
 
+// Of the units found so far, what computing them once took, over all threads.
+double reused_s(const Context& context) {
+  return context.units ? context.units->share().reused_s : 0;
+}
+
 }  // namespace
 
 Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel,
@@ -176,11 +182,12 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
   BakeOptions fewer = options;
   for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
     const Deadline clock(0);
+    const double reused_before = reused_s(context);
     fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
     planned.all.found.reflectors = found;
     ORIEL_TRY(planned.plan, plan_maps(fewer, accel, planned.all.eyes, context, planned.all.found.reflectors));
-    planned.seconds = clock.spent();
-    seconds -= planned.seconds;
+    seconds -= clock.spent();
+    planned.seconds = clock.spent() + (reused_s(context) - reused_before) / thread_count(context);
     if (divisor == 1 || kFewer * planned.seconds > seconds) break;
   }
   return planned;
@@ -219,10 +226,12 @@ void shrink_maps(double seconds, PlannedReflections& planned) {
   std::uint32_t halved = 0;
   const double judging = kJudging * planned.seconds;
   while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
+    const double before = planned.pixels();
     for (RadianceMap& map : planned.plan.maps)
       map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
     for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
-    planned.capture_s = judging + (planned.capture_s - judging) / 4;
+    if (planned.pixels() >= before) break;  // all are as small as they may be
+    planned.capture_s = judging + (planned.capture_s - judging) * planned.pixels() / before;
     ++halved;
   }
   if (halved > 0)

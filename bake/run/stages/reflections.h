@@ -38,7 +38,7 @@ struct ReflectionReport {
 struct PlannedReflections {
   FoundReflections all;
   ViewPlan plan;          // of the planar reflectors; without pixels
-  double seconds = 0;     // that planning took
+  double seconds = 0;     // that planning takes where nothing of it is known already
   double capture_s = 0;   // that the rest is likely to take; 0 unless asked for
   double pixels() const;  // of all maps
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }

@@ -79,6 +79,8 @@ TEST(SceneGlb, MaterialsOfLightmapsAreThePacks) {
   const auto json = json_of(exported->file);
   const auto& page = json["asset"]["extras"]["oriel"]["lightmaps"][0];
   EXPECT_EQ(page["file"], "tiny_lightmap_000.exr");
+  EXPECT_EQ(page["ktx2"]["file"], "tiny_lightmap_000.ktx2");
+  EXPECT_EQ(page["ktx2"]["scale"], 1);
   EXPECT_EQ(page["unit"], "lux");
   EXPECT_EQ(page["texcoord"], 1);
   EXPECT_EQ(json["meshes"][0]["primitives"][0]["extras"]["oriel"]["lightmap_page"], 0);

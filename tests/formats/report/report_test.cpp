@@ -38,6 +38,8 @@ Pack full_pack() {
   Pack pack = oriel::testing::tiny_mapped_pack();
   pack.provenance = R"({"tool": "oriel-bake", "options": {"seed": 7}})";
   pack.plan = R"({"scene": {"emitted_lm": [100, 100, 100]}, "radiosity": {"incident_lm": [250, 250, 250]},
+    "ledger": {"emitted_lm": 120, "absorbed": {"lm": 90, "standard_error": 0.5}, "escaped": {"lm": 30, "standard_error": 0},
+               "closure": 0.001},
     "errors": [{"component": "D", "asked": 0.02, "stated": 0.021, "measured": 0.025,
                 "measured_95_interval": [0.02, 0.03]}], "omitted": ["nothing much"]})";
   return pack;
@@ -45,13 +47,28 @@ Pack full_pack() {
 
 TEST(Report, ShowsAllThatAPackHolds) {
   const std::string html = page_of(full_pack());
-  for (const char* text : {"<!doctype html>",   "<h2>Errors</h2>",    "2.5 %",
-                           "2 % to 3 %",        "<td>100</td>",       "<td>250</td>",
-                           "nothing much",      "<h2>Lightmaps</h2>", "8 × 4, 8 baked texels",
-                           "<h2>Surfaces</h2>", "<td>floor</td>",     "Radiance maps",
-                           "6 × 4, residual",   "Surround maps",      "Kernels",
-                           "Reflectances",      "<polyline",          "<h2>Sizes</h2>",
-                           "lightmap page (1)", "options.seed"})
+  for (const char* text : {"<!doctype html>",
+                           "<h2>Errors</h2>",
+                           "2.5 %",
+                           "2 % to 3 %",
+                           "<td>100</td>",
+                           "<td>250</td>",
+                           "<td>90 ± 0.5</td>",
+                           "closes within 0.1 %",
+                           "nothing much",
+                           "<h2>Lightmaps</h2>",
+                           "8 × 4, 8 baked texels",
+                           "<h2>Surfaces</h2>",
+                           "<td>floor</td>",
+                           "Radiance maps",
+                           "6 × 4, residual",
+                           "Surround maps",
+                           "Kernels",
+                           "Reflectances",
+                           "<polyline",
+                           "<h2>Sizes</h2>",
+                           "lightmap page (1)",
+                           "options.seed"})
     EXPECT_THAT(html, HasSubstr(text));
   const Pack pack = full_pack();
   EXPECT_EQ(count(html, "<img "),

@@ -1,0 +1,55 @@
+// The scattering of a surface in world space.
+#pragma once
+
+#include "bake/trace/path.h"
+
+namespace oriel {
+
+// Straight passes through cut-outs and glass that one path segment may make; a stack of more is taken as black.
+inline constexpr int kMaxPasses = 256;
+
+// A shading normal tilts the lobe, and a part of it falls below the geometric surface; that part is mirrored back above
+// it, in evaluation, pdf and sampling alike. So no energy is lost at smooth normals (a closed sphere of triangles stays
+// an exact furnace), and light never leaks through.
+//
+// Refers to the surface. wo, wi: unit, world, away from the surface on its side of wo.
+class Shading {
+ public:
+  Shading(const SurfacePoint& surface, const Vec3& wo_world);
+
+  Vec3 fold(const Vec3& w) const { return w - 2 * glm::dot(w, surface_.geometric_normal) * surface_.geometric_normal; }
+
+  // Sum of g over w and its mirror image; w above the geometric surface, g takes local directions.
+  template <class G>
+  auto both(const Vec3& w, const G& g) const {
+    auto value = g(local(w));
+    if (tilted_) value += g(local(fold(w)));
+    return value;
+  }
+  // f cosθ, delta lobes excluded.
+  Vec3 eval(const Vec3& wi) const {
+    return both(wi, [&](const Vec3& w) { return bsdf_eval(surface_.shade, wo_, w); });
+  }
+  // Per steradian, of what bsdf_sample() and above() choose; delta lobes excluded.
+  float pdf(const Vec3& wi) const {
+    return both(wi, [&](const Vec3& w) { return bsdf_pdf(surface_.shade, wo_, w); });
+  }
+  static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
+  float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
+
+  Vec3 local(const Vec3& w) const { return glm::transpose(frame_) * w; }
+  // A sampled local direction as a world direction above the geometric surface.
+  Vec3 above(const Vec3& w) const {
+    const Vec3 world = glm::normalize(frame_ * w);
+    return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
+  }
+  const Vec3& wo() const { return wo_; }  // local
+
+ private:
+  const SurfacePoint& surface_;
+  Mat3 frame_;
+  Vec3 wo_;
+  bool tilted_;
+};
+
+}  // namespace oriel
