@@ -136,14 +136,10 @@ struct Kind {
   const char* name;
   Status (Extraction::*write)();
 };
-constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},
-                           {"radiance_map", &Extraction::radiance_maps},
-                           {"surround_map", &Extraction::surround_maps},
-                           {"brdf_kernel", &Extraction::kernels},
-                           {"fresnel_map", &Extraction::fresnel_maps},
-                           {"texture", &Extraction::textures},
-                           {"walk_grid", &Extraction::walk_grids},
-                           {"mesh", &Extraction::mesh}};
+constexpr Kind kKinds[] = {{"lightmap", &Extraction::lightmaps},         {"radiance_map", &Extraction::radiance_maps},
+                           {"surround_map", &Extraction::surround_maps}, {"brdf_kernel", &Extraction::kernels},
+                           {"fresnel_map", &Extraction::fresnel_maps},   {"texture", &Extraction::textures},
+                           {"walk_grid", &Extraction::walk_grids},       {"mesh", &Extraction::mesh}};
 
 }  // namespace
 
