@@ -25,7 +25,7 @@ void set_sampling(GLenum target, const TextureOptions& options) {
 }  // namespace
 
 Texture::Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options)
-    : width_(width), height_(height), levels_(options.levels) {
+    : format_(format), width_(width), height_(height), levels_(options.levels) {
   GLuint name = 0;
   glGenTextures(1, &name);
   handle_ = Handle<ObjectKind::kTexture>(name);
@@ -39,6 +39,13 @@ Texture::Texture(const TextureFormat& format, int width, int height, const void*
   }
   set_sampling(GL_TEXTURE_2D, options);
   if (options.make_mipmaps && levels_ > 1) glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture::upload(int level, const void* pixels) const {
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, std::max(1, width_ >> level), std::max(1, height_ >> level),
+                  format_.format, format_.type, pixels);
 }
 
 void Texture::bind(int unit) const {

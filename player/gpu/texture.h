@@ -47,6 +47,8 @@ class Texture {
   // height in [1, limits().texture_size].
   Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
 
+  // All of a level.
+  void upload(int level, const void* pixels) const;
   void bind(int unit) const;
   GLuint name() const { return handle_.name(); }
   int width() const { return width_; }
@@ -57,6 +59,7 @@ class Texture {
 
  private:
   Handle<ObjectKind::kTexture> handle_;
+  TextureFormat format_;
   int width_ = 0, height_ = 0, levels_ = 1;
   std::size_t bytes_ = 0;
 };

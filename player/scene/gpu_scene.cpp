@@ -155,8 +155,11 @@ void GpuScene::upload_images() {
   no_lightmap_.texture = gpu::Texture(gpu::kRgba8, 1, 1, white.data());
   const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
   flat_ = gpu::Texture(gpu::kRgba8, 1, 1, flat.data());
-  for (const Texture& texture : pack_.textures) albedos_.push_back(upload_texture(texture, gpu::kSrgbAlpha8));
-  for (const Texture& texture : pack_.normal_textures) normal_maps_.push_back(upload_texture(texture, gpu::kRgba8));
+  std::vector<std::vector<Material>> users(pack_.textures.size());
+  for (const Material& m : pack_.materials)
+    if (m.base_color_texture >= 0) users[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
+  for (std::size_t i = 0; i < users.size(); ++i) albedos_.push_back(upload_color_texture(pack_.textures[i], users[i]));
+  for (const Texture& texture : pack_.normal_textures) normal_maps_.push_back(upload_normal_texture(texture));
   for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
   radiance_maps_.resize(pack_.radiance_maps.size());

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "formats/core/half.h"
 #include "formats/lobes/lobe_light.h"
+#include "player/scene/cutout_mips.h"
 
 namespace oriel {
 namespace {
@@ -21,18 +23,54 @@ GLenum gl_wrap(Wrap wrap) {
   return GL_REPEAT;
 }
 
-}  // namespace
-
-gpu::Texture upload_texture(const Texture& texture, const gpu::TextureFormat& format) {
+// Of a texture with all its mip levels; the caller says who fills them.
+gpu::TextureOptions mipmapped(const Texture& texture) {
   gpu::TextureOptions options;
-  const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
-  options.levels = gpu::mip_levels(width, height);
-  options.make_mipmaps = true;
+  options.levels = gpu::mip_levels(static_cast<int>(texture.width), static_cast<int>(texture.height));
   options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   options.mag_filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
   options.wrap_s = gl_wrap(texture.wrap_s);
   options.wrap_t = gl_wrap(texture.wrap_t);
-  return {format, width, height, texture.texels.data(), options};
+  return options;
+}
+
+gpu::Texture upload_all_of_it(const Texture& texture, const gpu::TextureFormat& format) {
+  gpu::TextureOptions options = mipmapped(texture);
+  options.make_mipmaps = true;
+  return {format, static_cast<int>(texture.width), static_cast<int>(texture.height), texture.texels.data(), options};
+}
+
+// The texture's alpha that a material's cutoff asks for; 0: it is blended; nothing: all of the texture is shown. The
+// first of several with cutoffs counts.
+std::optional<float> cutoff_in_texture(std::span<const Material> used_by) {
+  std::optional<float> out;
+  for (const Material& m : used_by) {
+    if (m.alpha_mode == AlphaMode::kOpaque) return std::nullopt;
+    if (m.alpha_mode == AlphaMode::kBlend) {
+      out = out.value_or(0.0f);
+    } else if (!out || *out <= 0) {
+      out = m.alpha > 0 ? m.alpha_cutoff / m.alpha : 0.0f;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+gpu::Texture upload_normal_texture(const Texture& texture) {
+  return upload_all_of_it(texture, gpu::kRgba8);
+}
+
+gpu::Texture upload_color_texture(const Texture& texture, std::span<const Material> used_by) {
+  const std::optional<float> cutoff = cutoff_in_texture(used_by);
+  bool opaque = true;
+  for (std::size_t i = 3; i < texture.texels.size(); i += 4) opaque = opaque && texture.texels[i] == 255;
+  if (!cutoff || opaque) return upload_all_of_it(texture, gpu::kSrgbAlpha8);
+  const int width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
+  gpu::Texture out(gpu::kSrgbAlpha8, width, height, nullptr, mipmapped(texture));
+  const auto levels = cutout_mips(texture, *cutoff);
+  for (std::size_t i = 0; i < levels.size(); ++i) out.upload(static_cast<int>(i), levels[i].data());
+  return out;
 }
 
 LightmapTexture upload_lightmap(const LightmapPage& page) {

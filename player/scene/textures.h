@@ -1,14 +1,19 @@
 // The pack's images on the GPU.
 #pragma once
 
+#include <span>
+
 #include "formats/pack/pack.h"
 #include "player/gpu/texture.h"
 #include "player/scene/kernel_taps.h"
 
 namespace oriel {
 
-// With mipmaps. format: kSrgbAlpha8 for colours, kRgba8 for normals.
-gpu::Texture upload_texture(const Texture& texture, const gpu::TextureFormat& format);
+// With mipmaps.
+gpu::Texture upload_normal_texture(const Texture& texture);
+// The same. Where all materials that use it cut parts of it away or blend it, these parts take no share in the colours
+// of coarser levels (cutout_mips).
+gpu::Texture upload_color_texture(const Texture& texture, std::span<const Material> used_by);
 
 // Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that
 // the relative error stays 2^-11 down to a billionth of it. 0: the page is black.
