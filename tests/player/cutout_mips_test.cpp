@@ -32,9 +32,8 @@ double passing(const std::vector<std::uint8_t>& level, float cutoff) {
 
 TEST(CutoutMips, WhatIsCutAwayHasNoShareInAnyLevelsColour) {
   for (const float cutoff : {0.5f, 0.0f}) {  // 0: blended
-    const Texture t = make_texture(64, 32, [](std::uint32_t x, std::uint32_t y) {
-      return x % 7 == 0 && y % 3 != 0 && x < 40 ? kLeaf : kAway;
-    });
+    const Texture t = make_texture(
+        64, 32, [](std::uint32_t x, std::uint32_t y) { return x % 7 == 0 && y % 3 != 0 && x < 40 ? kLeaf : kAway; });
     const auto levels = cutout_mips(t, cutoff);
     ASSERT_EQ(levels.size(), 7u);
     EXPECT_EQ(levels[0], t.texels);
@@ -46,9 +45,8 @@ TEST(CutoutMips, WhatIsCutAwayHasNoShareInAnyLevelsColour) {
 }
 
 TEST(CutoutMips, AsMuchPassesTheCutoffInEachLevel) {
-  const Texture t = make_texture(128, 128, [](std::uint32_t x, std::uint32_t y) {
-    return std::hypot(x - 50.3, y - 70.9) < 40 ? kLeaf : kAway;
-  });
+  const Texture t = make_texture(
+      128, 128, [](std::uint32_t x, std::uint32_t y) { return std::hypot(x - 50.3, y - 70.9) < 40 ? kLeaf : kAway; });
   for (const float cutoff : {0.1f, 0.5f, 0.9f}) {
     const auto levels = cutout_mips(t, cutoff);
     const double wanted = passing(levels[0], cutoff);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "bake/direct/polygon_light.h"
 #include "bake/jobs/parallel.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kStraight = 1e-4;    // sine of the angle at a corner that is none
 constexpr double kLeastShare = 1e-4;  // of a reflector's light from lamps: less is not worth an emitter
+constexpr double kMostParted = 0.25;  // see LightOnReflector, of its worth
 constexpr float kInwards = 0.02f;     // by which border nodes move in, in cells: off the walls around a reflector
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
@@ -91,7 +93,8 @@ Nodes lay_out(const Accel& accel, const FoundReflector& found, float node_m, std
 struct LightOnReflector {
   std::size_t light = 0;
   std::vector<Emitter> polygons;
-  double worth = 0;  // luminous irradiance on the covered nodes, visibility counted
+  double worth = 0;   // luminous irradiance on the covered nodes, visibility counted
+  double parted = 0;  // of it, what lobes that see less than the whole lamp may get wrong
 };
 
 Vec3 point_of(const Emitter& polygon, Vec2 u) {
@@ -139,17 +142,27 @@ class VisibilityBaker {
     return shares;
   }
 
-  double worth(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, const LightOnReflector& on) const {
+  // lobe_width: α of the reflector's lobe.
+  void weigh(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, double lobe_width,
+             LightOnReflector& on) const {
     std::vector<double> mean(nodes.points.size(), 0.0);
     for (std::size_t p = 0; p < on.polygons.size(); ++p) {
       const std::vector<float> seen = shares(on.polygons[p], nodes, normal, on.light * kMaxReflectorEmitters + p);
       for (std::size_t i = 0; i < seen.size(); ++i) mean[i] += seen[i] / static_cast<double>(on.polygons.size());
     }
-    double sum = 0;
-    for (std::size_t i = 0; i < nodes.points.size(); ++i)
-      if (nodes.covered[i])
-        sum += mean[i] * luminance(light.radiance) * polygon_irradiance(light, {nodes.points[i], normal, normal});
-    return sum;
+    // Of the mirror direction at normal incidence: one over the lobe's density there, D / 4 = 1 / (4 π α²).
+    const double lobe = 4 * std::numbers::pi * lobe_width * lobe_width;
+    for (std::size_t i = 0; i < nodes.points.size(); ++i) {
+      if (!nodes.covered[i]) continue;
+      const Vec3& node = nodes.points[i];
+      const double light_here = luminance(light.radiance) * polygon_irradiance(light, {node, normal, normal});
+      on.worth += mean[i] * light_here;
+      const Vec3 towards = glm::normalize(light.center - node);
+      const double lamp = polygon_irradiance(light, {node, towards, towards});
+      // A lobe that the lamp fills sees all or nothing of it: with the share m as its mean that is 2 m (1 - m) off on
+      // average. A lobe that holds the lamp averages over it as the share does.
+      if (lamp > 0) on.parted += 2 * mean[i] * (1 - mean[i]) * light_here * lamp / (lamp + lobe);
+    }
   }
 
  private:
@@ -184,15 +197,16 @@ void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
 struct LeftIn {
   std::size_t too_fine = 0;   // of more triangles than a reflector may list polygons
   std::size_t too_faint = 0;  // beyond those that light it most, whose visibility is computed
+  std::size_t parted = 0;     // of which narrow lobes see other shares than the points do
   std::size_t too_many = 0;   // beyond the polygons that it may list
 
-  std::size_t total() const { return too_fine + too_faint + too_many; }
+  std::size_t total() const { return too_fine + too_faint + parted + too_many; }
 };
 
 // The lights that would light the reflector most if nothing were in the way, by what they are worth.
 Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
-                                                const Nodes& nodes, const Vec3& normal, const EmitterOptions& options,
-                                                Context& context, LeftIn& left_in) {
+                                                const Nodes& nodes, const Vec3& normal, double lobe_width,
+                                                const EmitterOptions& options, Context& context, LeftIn& left_in) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     double sum = 0;
@@ -210,7 +224,7 @@ Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<co
     const PolygonLight& light = lights[order[i].second];
     out[i].light = order[i].second;
     out[i].polygons = polygons_of(light);
-    out[i].worth = baker.worth(nodes, normal, light, out[i]);
+    baker.weigh(nodes, normal, light, lobe_width, out[i]);
   }));
   std::stable_sort(out.begin(), out.end(),
                    [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
@@ -237,23 +251,28 @@ Status bake_visibility(const Accel& accel, const FoundReflector& found,
 
 }  // namespace
 
-Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy, const EmitterOptions& options,
+Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
                           Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
                           std::vector<std::string>& omitted) {
   const std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
   std::map<std::size_t, std::uint32_t> first_emitter;  // of a light that is listed
   for (FoundReflector& found : reflectors) {
     Reflector& r = found.reflector;
-    if (!is_glossy[r.material]) continue;
+    const double lobe_width = lobe_widths[r.material];
+    if (!(lobe_width > 0)) continue;
     const Nodes nodes = lay_out(accel, found, options.choice_node_m, options.max_choice_nodes);
     LeftIn left_in;
     ORIEL_TRY(std::vector<LightOnReflector> on,
-              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), options, context, left_in));
+              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), lobe_width, options, context, left_in));
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
     std::vector<std::pair<Emitter, std::uint64_t>> chosen;
     for (const LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
+      if (l.parted > kMostParted * l.worth) {
+        ++left_in.parted;
+        continue;
+      }
       if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
         ++left_in.too_many;
         continue;
@@ -272,12 +291,12 @@ Status leave_out_emitters(const Accel& accel, const std::vector<bool>& is_glossy
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} lamps stay in its radiance maps and are blurred with them: {} of more than {} triangles, {} beyond "
-          "the {} that light it most, {} beyond {} polygons in all",
+          "the {} that light it most, {} larger than its lobe and hidden in part, {} beyond {} polygons in all",
           r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
-          left_in.too_many, kMaxReflectorEmitters));
+          left_in.parted, left_in.too_many, kMaxReflectorEmitters));
   }
   const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
-                                      [&](const FoundReflector& f) { return is_glossy[f.reflector.material]; });
+                                      [&](const FoundReflector& f) { return lobe_widths[f.reflector.material] > 0; });
   if (any_glossy && !all_emission_is_plain(accel.scene()))
     omitted.emplace_back(
         "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");

@@ -29,11 +29,13 @@ std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSumma
   return out;
 }
 
-// Those whose kernel blurs: closed forms need its lobe.
-std::vector<bool> glossy_materials(const MaterialMaps& maps) {
-  std::vector<bool> out;
-  for (const std::int32_t kernel : maps.kernel)
-    out.push_back(kernel >= 0 && maps.kernels[static_cast<std::size_t>(kernel)].size > 1);
+// α by material, of those whose kernel blurs: closed forms need its lobe. 0: no kernel, or a mirror's.
+std::vector<float> lobe_widths(const MaterialMaps& maps) {
+  std::vector<float> out;
+  for (const std::int32_t index : maps.kernel) {
+    const BrdfKernel* kernel = index >= 0 ? &maps.kernels[static_cast<std::size_t>(index)] : nullptr;
+    out.push_back(kernel != nullptr && kernel->size > 1 ? kernel->alpha : 0.0f);
+  }
   return out;
 }
 
@@ -111,14 +113,14 @@ std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<con
 }
 
 // leave_out_emitters() as a unit of work.
-Status leave_out_lamps(const Accel& accel, const std::vector<bool>& is_glossy, Context& context,
+Status leave_out_lamps(const Accel& accel, const std::vector<float>& lobe_widths, Context& context,
                        std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
                        std::vector<std::string>& omissions) {
-  const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, is_glossy, reflectors);
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, lobe_widths, reflectors);
   std::vector<std::string> omitted;
   ORIEL_TRY_VOID(one_unit(
       context, "emitters", [](Archive&) {},
-      [&] { return leave_out_emitters(accel, is_glossy, {}, context, reflectors, emitters, omitted); },
+      [&] { return leave_out_emitters(accel, lobe_widths, {}, context, reflectors, emitters, omitted); },
       [&](Archive& archive) { archive(reflectors, emitters, omitted); }));
   append(omissions, omitted);
   return {};
@@ -262,7 +264,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
     for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
     ORIEL_TRY_VOID(
-        leave_out_lamps(accel, glossy_materials(materials), context, reflectors, pack.emitters, report.omissions));
+        leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
   const Surroundings surroundings(accel, reflectors, options.sight);
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};

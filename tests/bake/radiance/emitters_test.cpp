@@ -42,9 +42,9 @@ struct LampRoom {
     reflectors = find_reflectors(accel, materials, options).reflectors;
     ASSERT_EQ(reflectors.size(), expected_reflectors);
     Context context;
-    std::vector<bool> is_glossy(scene.materials.size());
-    is_glossy[0] = glossy;
-    ASSERT_TRUE(leave_out_emitters(accel, is_glossy, {}, context, reflectors, emitters, omitted));
+    std::vector<float> lobe_widths(scene.materials.size());
+    lobe_widths[0] = glossy ? scene.materials[0].roughness * scene.materials[0].roughness : 0;
+    ASSERT_TRUE(leave_out_emitters(accel, lobe_widths, {}, context, reflectors, emitters, omitted));
   }
   float visibility(std::size_t emitter, const Vec2& at) const {
     const Reflector& r = reflectors[0].reflector;
@@ -99,6 +99,26 @@ TEST(Emitters, VisibilityIsTheShareThatIsSeen) {
   EXPECT_EQ(room.visibility(0, {-1, 0}), 1);
   EXPECT_EQ(room.visibility(0, {1, 0}), 0);
   EXPECT_NEAR(room.visibility(0, {0.5f, 1}), 0, 0.04f);
+}
+
+// Slats at half the lamp's height hide half of it from everywhere. A lobe narrower than the lamp sees slats and gaps:
+// that is the maps' to show. One that holds all of the lamp sees the mean.
+TEST(Emitters, AHalfHiddenLampStaysInTheMapsOfANarrowLobe) {
+  for (const float roughness : {0.15f, 0.5f}) {
+    LampRoom room(roughness);
+    for (int i = -40; i < 40; ++i)
+      room.parts.quad("slat", 2, {0.1f * static_cast<float>(i), 1, -4}, {0.05f, 0, 0}, {0, 0, 8});
+    room.scene = room.parts.finish();
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    room.run(*accel);
+    const bool narrow = roughness < 0.2f;
+    EXPECT_EQ(room.reflectors[0].emitters.empty(), narrow);
+    ASSERT_EQ(room.omitted.size(), narrow ? 1u : 0u);
+    if (narrow) {
+      EXPECT_NE(room.omitted[0].find("1 larger than its lobe and hidden in part"), std::string::npos);
+    }
+  }
 }
 
 TEST(Emitters, TheMapsOfTheReflectorDoNotShowThem) {
