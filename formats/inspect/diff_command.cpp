@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/core/file.h"
 #include "formats/diff/pack_diff.h"
+#include "formats/diff/texel_diff.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
@@ -73,7 +75,23 @@ std::string shortened(const std::string& text) {
   return text.empty() ? "-" : text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
 }
 
-void print_markdown(const PackDiff& diff, const std::map<std::string, Kind>& kinds, const DiffOptions& options) {
+void print_texels(const TexelDiff& t) {
+  fmt::print(
+      "\n## Texels\n\nThe atlas is the same: {} texels, relative to the first pack's light (its mean: {:.4g} lux).\n\n",
+      t.texels, t.mean_lux);
+  fmt::print("| | % |\n|---|---|\n");
+  const auto row = [](const char* what, double share) { fmt::print("| {} | {:.3g} |\n", what, 100 * share); };
+  row("difference (relRMSE)", t.difference);
+  row("noise of the first", t.noise);
+  row("error that the second states", t.stated);
+  row("net of the first's noise", t.net);
+  row("net, without the worst hundredth", t.net_without_worst);
+  row("net, relative to the brighter of both", t.net_of_brighter);
+  row("bias of the mean", t.bias);
+}
+
+void print_markdown(const PackDiff& diff, const std::optional<TexelDiff>& texels,
+                    const std::map<std::string, Kind>& kinds, const DiffOptions& options) {
   fmt::print("## Light\n\nMean of the first pack: {:.4g} lux. Largest change of a surface: {:.2f} %.\n\n",
              diff.mean_lux, 100 * diff.largest());
   fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
@@ -90,6 +108,7 @@ void print_markdown(const PackDiff& diff, const std::map<std::string, Kind>& kin
   if (changed > listed) fmt::print("\n{} more changed less.\n", changed - listed);
   if (diff.surfaces.size() > changed)
     fmt::print("\n{} surfaces did not change by more than their noise.\n", diff.surfaces.size() - changed);
+  if (texels) print_texels(*texels);
   fmt::print("\n## Sections\n\n| kind | before | after | bytes before | bytes after |\n|---|---|---|---|---|\n");
   for (const auto& [name, kind] : kinds)
     fmt::print("| {} | {} | {} | {} | {} |\n", name, kind.sections[0], kind.sections[1], kind.bytes[0], kind.bytes[1]);
@@ -99,7 +118,8 @@ void print_markdown(const PackDiff& diff, const std::map<std::string, Kind>& kin
     fmt::print("| {} | {} | {} |\n", o.name, shortened(o.before), shortened(o.after));
 }
 
-void print_json(const PackDiff& diff, const std::map<std::string, Kind>& kinds, bool good) {
+void print_json(const PackDiff& diff, const std::optional<TexelDiff>& texels, const std::map<std::string, Kind>& kinds,
+                bool good) {
   nlohmann::ordered_json out;
   out["schema"] = kJsonSchema;
   out["within_tolerance"] = good;
@@ -120,6 +140,16 @@ void print_json(const PackDiff& diff, const std::map<std::string, Kind>& kinds, 
                                {"change", diff.share(s)},
                                {"before_error_lux", s.before_error_lux},
                                {"after_error_lux", s.after_error_lux}});
+  if (texels)
+    out["texels"] = {{"count", texels->texels},
+                     {"mean_lux", texels->mean_lux},
+                     {"difference", texels->difference},
+                     {"noise", texels->noise},
+                     {"stated", texels->stated},
+                     {"net", texels->net},
+                     {"net_without_worst_hundredth", texels->net_without_worst},
+                     {"net_of_brighter", texels->net_of_brighter},
+                     {"bias", texels->bias}};
   for (const auto& [name, kind] : kinds)
     out["sections"][name] = {{"before", {{"sections", kind.sections[0]}, {"bytes", kind.bytes[0]}}},
                              {"after", {{"sections", kind.sections[1]}, {"bytes", kind.bytes[1]}}}};
@@ -137,12 +167,13 @@ int diff(const std::filesystem::path& before, const std::filesystem::path& after
   const auto b = open(after);
   if (!b) return report(b.error());
   const PackDiff diff = diff_packs(a->pack, b->pack);
+  const std::optional<TexelDiff> texels = diff_texels(a->pack, b->pack);
   const bool good = within(diff, options.tolerance);
   const auto kinds = kinds_of(a->index, b->index);
   if (options.json)
-    print_json(diff, kinds, good);
+    print_json(diff, texels, kinds, good);
   else
-    print_markdown(diff, kinds, options);
+    print_markdown(diff, texels, kinds, options);
   return good ? 0 : static_cast<int>(ErrorCode::kDifferent);
 }
 

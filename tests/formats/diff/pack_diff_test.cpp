@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/diff/pack_diff.h"
+#include "formats/diff/texel_diff.h"
 
 namespace oriel {
 namespace {
@@ -110,6 +111,42 @@ TEST(PackDiff, EmptyAndDegeneratePacks) {
   const Pack black = two_rooms(4, 0, 0, 0);
   EXPECT_EQ(diff_packs(black, black).largest(), 0);
   EXPECT_GT(diff_packs(black, two_rooms(4, 1, 0, 0)).largest(), 0.99);
+}
+
+// The bright room is 10 % off, the dark one, of a tenth of the mean, by half of its light; both states 3 lux of error.
+TEST(TexelDiff, RelativeErrorsOverBothRooms) {
+  const auto off = [](double share, double lux, double mean) { return share * lux / std::hypot(lux, 0.01 * mean); };
+  const auto diff = diff_texels(two_rooms(10, 100, 5, 0), two_rooms(10, 110, 7.5f, 3));
+  ASSERT_TRUE(diff);
+  EXPECT_EQ(diff->texels, 200u);
+  EXPECT_NEAR(diff->mean_lux, 52.5, 1e-4);
+  EXPECT_NEAR(diff->bias, 58.75 / 52.5 - 1, 1e-6);
+  const double bright = off(0.1, 100, 52.5), dark = off(0.5, 5, 52.5);
+  EXPECT_NEAR(diff->difference, std::sqrt((bright * bright + dark * dark) / 2), 1e-5);
+  EXPECT_EQ(diff->noise, 0);
+  EXPECT_NEAR(diff->net, diff->difference, 1e-9);
+  EXPECT_NEAR(diff->stated, std::sqrt((std::pow(off(0.03, 100, 52.5), 2) + std::pow(off(0.6, 5, 52.5), 2)) / 2), 1e-5);
+  // Two of 200 texels go, of the dark room.
+  EXPECT_NEAR(diff->net_without_worst, std::sqrt((100 * bright * bright + 98 * dark * dark) / 198), 1e-5);
+  EXPECT_LT(diff->net_of_brighter, diff->net);
+}
+
+TEST(TexelDiff, TheReferencesNoiseIsTakenOff) {
+  const auto diff = diff_texels(two_rooms(10, 100, 100, 6), two_rooms(10, 110, 110, 0));
+  ASSERT_TRUE(diff);
+  EXPECT_NEAR(diff->net, 0.08 / std::hypot(1, 0.01), 1e-6);
+  EXPECT_EQ(diff_texels(two_rooms(10, 100, 100, 60), two_rooms(10, 110, 110, 0))->net, 0);
+}
+
+TEST(TexelDiff, AnotherAtlasNoTexelOrNoLight) {
+  EXPECT_FALSE(diff_texels(two_rooms(10, 100, 100, 0), two_rooms(11, 100, 100, 0)));
+  Pack moved = two_rooms(10, 100, 100, 0);
+  moved.mesh.lightmap_uvs[0].x = 0.5f;
+  EXPECT_FALSE(diff_texels(two_rooms(10, 100, 100, 0), moved));
+  EXPECT_FALSE(diff_texels(Pack(), Pack()));
+  const auto dark = diff_texels(two_rooms(10, 0, 0, 0), two_rooms(10, 1, 1, 0));
+  ASSERT_TRUE(dark);
+  EXPECT_EQ(dark->net, 0);
 }
 
 }  // namespace
