@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bake/atlas/chart/surface_mesh.h"
 #include "bake/jobs/parallel.h"
 
 namespace oriel {
@@ -10,6 +11,11 @@ namespace {
 constexpr std::uint32_t kMaxPages = 4096;
 constexpr double kSnapTexels = 1e-3;   // a chart so little longer than whole texels is fitted into them
 constexpr double kLeastTexels = 0.25;  // a chart is drawn at least so long: thinner, floats would lose its shape
+
+// A texel of a curved chart turns by no more than kTurn along either axis, as long as it need not be drawn kFinest
+// times finer for it: a moulding whose front and reveal shared a texel would show each side the light of the other.
+constexpr double kTurn = 30 * kPi / 180;
+constexpr double kFinest = 4;
 
 // How a chart's axis is drawn: texel = metres * scale + offset, within a row of `size` texels.
 struct Axis {
@@ -34,6 +40,39 @@ struct Frame {
   Axis x, y;
   DVec2 to_texels(const DVec2& metres) const { return {metres.x * x.scale + x.offset, metres.y * y.scale + y.offset}; }
 };
+
+// By how much a chart's normals turn from one end of each of its axes to the other, radians: of the linear function of
+// the position that fits them best (least squares over the area).
+DVec2 turn_of(const Scene& scene, const ChartSet& set, const Chart& chart) {
+  double area = 0;
+  DVec2 middle(0);
+  DVec3 mean(0);
+  std::vector<TriangleFrame> frames;
+  const auto centre = [&](std::uint32_t i) { return (set.points[i][0] + set.points[i][1] + set.points[i][2]) / 3.0; };
+  for (std::uint32_t i = chart.first; i < chart.first + chart.count; ++i) {
+    const TriangleFrame f = frames.emplace_back(triangle_frame(scene, set.triangles[i]));
+    area += f.area;
+    middle += f.area * centre(i);
+    mean += f.area * f.normal;
+  }
+  if (!(area > 0)) return DVec2(0);
+  middle /= area;
+  mean /= area;
+  double xx = 0, xy = 0, yy = 0;
+  DVec3 nx(0), ny(0);
+  for (std::uint32_t k = 0; k < chart.count; ++k) {
+    const DVec2 p = centre(chart.first + k) - middle;
+    const DVec3 n = frames[k].area * (frames[k].normal - mean);
+    xx += frames[k].area * p.x * p.x, xy += frames[k].area * p.x * p.y, yy += frames[k].area * p.y * p.y;
+    nx += n * p.x, ny += n * p.y;
+  }
+  const double determinant = xx * yy - xy * xy;
+  // Triangles in a row tell of one axis only.
+  if (!(determinant > 1e-9 * xx * yy))
+    return {xx > 0 ? glm::length(nx) / xx * chart.size.x : 0, yy > 0 ? glm::length(ny) / yy * chart.size.y : 0};
+  return {glm::length(nx * yy - ny * xy) / determinant * chart.size.x,
+          glm::length(ny * xx - nx * xy) / determinant * chart.size.y};
+}
 
 // The texels that a triangle touches, or would if each corner were moved by `slack`.
 void draw(const Triangle2& t, double slack, TexelMask& mask) {
@@ -67,10 +106,10 @@ DVec2 turned(const DVec2& p, std::uint32_t turns, std::uint32_t width, std::uint
 
 class Layout {
  public:
-  Layout(std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
-      : sets_(sets), options_(options), context_(context), inset_(options.side * 0x1p-24) {
+  Layout(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
+      : options_(options), context_(context), inset_(options.side * 0x1p-24) {
     for (const ChartSet& set : sets)
-      for (const Chart& chart : set.charts) charts_.push_back({&set, &chart});
+      for (const Chart& chart : set.charts) charts_.push_back({&set, &chart, turn_of(scene, set, chart)});
   }
 
   Status pack() { return options_.one_page ? pack_one_page() : pack_at(options_.texel_m); }
@@ -82,21 +121,31 @@ class Layout {
   struct Entry {
     const ChartSet* set;
     const Chart* chart;
+    DVec2 turn;  // turn_of
   };
 
   // The texel of a chart: the asked one, or as much coarser as the page needs.
   double chart_texel(const Chart& chart, double texel_m) const {
     return std::max(texel_m, chart.size.x / (options_.side - 2 * inset_));  // x is the longer side
   }
-  Frame frame(const Chart& chart, double texel_m) const {
+  Frame plain_frame(const Chart& chart, double texel_m) const {
     const double texel = chart_texel(chart, texel_m);
     return {fit_axis(chart.size.x, texel, inset_), fit_axis(chart.size.y, texel, inset_)};
+  }
+  // The same with the texels that the chart's turn asks for.
+  Frame frame(const Entry& entry, double texel_m) const {
+    const double texel = chart_texel(*entry.chart, texel_m), side = options_.side - 2 * inset_;
+    const auto axis = [&](double metres, double turn) {
+      const double texels = std::min(std::max(metres / texel, std::min(turn / kTurn, kFinest * metres / texel)), side);
+      return fit_axis(metres, texels > 0 ? metres / texels : texel, inset_);
+    };
+    return {axis(entry.chart->size.x, entry.turn.x), axis(entry.chart->size.y, entry.turn.y)};
   }
   // Texels of all charts' boxes and their padding.
   double box_area(double texel_m) const {
     double sum = 0;
     for (const Entry& e : charts_) {
-      const Frame f = frame(*e.chart, texel_m);
+      const Frame f = frame(e, texel_m);
       sum += static_cast<double>(f.x.size + options_.padding) * (f.y.size + options_.padding);
     }
     return sum;
@@ -112,7 +161,7 @@ class Layout {
     masks_.assign(charts_.size(), {});
     return parallel_for(context_, "", charts_.size(), [&](std::size_t i) {
       const Entry& e = charts_[i];
-      const Frame f = frame(*e.chart, texel_m);
+      const Frame f = frame(e, texel_m);
       masks_[i] = TexelMask(f.x.size, f.y.size);
       for (std::uint32_t k = e.chart->first; k < e.chart->first + e.chart->count; ++k) {
         const Triangle2& t = e.set->points[k];
@@ -124,7 +173,6 @@ class Layout {
   Status pack_one_page();
   Status check_memory(double texel_m, double texels) const;
 
-  std::span<const ChartSet> sets_;
   const LayoutOptions& options_;
   Context& context_;
   double inset_;
@@ -231,9 +279,9 @@ void Layout::write(Atlas& atlas) const {
   const auto first_page = static_cast<std::uint32_t>(atlas.pages.size());
   for (const PackedPage& page : pages_) atlas.pages.push_back({page.width, page.height, false});
   for (std::size_t c = 0; c < charts_.size(); ++c) {
-    const auto& [set, chart] = charts_[c];
+    const auto& [set, chart, turn] = charts_[c];
     const PackedChart& at = placed_[c];
-    const Frame f = frame(*chart, texel_m_);
+    const Frame f = frame(charts_[c], texel_m_);
     const DVec2 page_size(pages_[at.page].width, pages_[at.page].height);
     for (std::uint32_t i = chart->first; i < chart->first + chart->count; ++i) {
       const std::uint32_t t = set->triangles[i];
@@ -248,12 +296,13 @@ void Layout::write(Atlas& atlas) const {
   }
 }
 
-// In double and before coordinates are rounded to the page's floats, which would be most of what is seen of triangles
-// much smaller than a texel.
+// As if no chart were drawn finer for its turn: what is measured is how charts were laid flat. In double and before
+// coordinates are rounded to the page's floats, which would be most of what is seen of triangles much smaller than a
+// texel.
 void Layout::measure(const Scene& scene, AtlasReport& report) const {
   StretchSum sum;
-  for (const auto& [set, chart] : charts_) {
-    const Frame f = frame(*chart, texel_m_);
+  for (const auto& [set, chart, turn] : charts_) {
+    const Frame f = plain_frame(*chart, texel_m_);
     for (std::uint32_t i = chart->first; i < chart->first + chart->count; ++i) {
       const Triangle2& t = set->points[i];
       sum.add(triangle_corners(scene, set->triangles[i]), {f.to_texels(t[0]), f.to_texels(t[1]), f.to_texels(t[2])});
@@ -269,7 +318,7 @@ void Layout::measure(const Scene& scene, AtlasReport& report) const {
 
 Status lay_out(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context,
                Atlas& atlas) {
-  Layout layout(sets, options, context);
+  Layout layout(scene, sets, options, context);
   ORIEL_TRY_VOID(layout.pack());
   if (context.stopped()) return fail(ErrorCode::kStopped, "atlas", "stopped");
   layout.warn_coarsened();

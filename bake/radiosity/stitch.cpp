@@ -13,6 +13,9 @@ constexpr double kLeast = 0.01;  // relative error of any texel: it shows a mean
 constexpr double kFree = 0.2;    // relative error of a texel without surface
 constexpr double kDark = 0.01;   // of the mean light: what is darker counts as that
 constexpr int kAround = 2;       // texels to each side over which errors are pooled
+constexpr double kOwn = 1;       // the largest change of a texel: of its standard error,
+constexpr double kPooled = 0.3;  // or, if more, of its light, as far as three times the errors around it go,
+constexpr double kSlack = 3;     // so many times kLeast beside, and twice kFree
 constexpr int kRounds = 4;
 constexpr double kHeld = 1e-6;  // relative error of a texel that must not move
 constexpr std::uint32_t kNone = ~0u;
@@ -106,13 +109,17 @@ class Stitcher {
   // False where there is nothing to solve, or rounding left no solution.
   bool solve() {
     if (rows_.empty()) return false;
+    for (Texel& t : texels_) {
+      t.baked = light(t);
+      t.most = static_cast<float>(largest_change(t));
+    }
     Columns change;
     for (int round = 0; round < kRounds; ++round) {
       change = least_squares();
       if (change.rows() == 0 || !change.allFinite()) return false;
-      if (!hold_negative(change)) break;
+      if (!hold_at_limits(change)) break;
     }
-    for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = glm::max(Vec3(0), changed(i, change));
+    for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = within_limits(texels_[i], changed(i, change));
     return true;
   }
 
@@ -122,6 +129,8 @@ class Stitcher {
     double light;  // sum over the rows that read it: of both sides of the seam, which favours neither
     int rows;
     bool held = false;
+    Vec3 baked{0};                                 // lux
+    float most = 0;                                // lux: largest change
     double scale() const { return light / rows; }  // lux
   };
   struct Row {
@@ -141,15 +150,22 @@ class Stitcher {
     return light(t) + Vec3(t.scale() * DVec3(change(row, 0), change(row, 1), change(row, 2)));
   }
 
-  // Texels that would become negative stay at zero, and the others are to be solved for again (an active set that only
-  // grows). True where there were any.
-  bool hold_negative(const Columns& change) {
+  // What a texel may become: no more than largest_change() away, and not negative. A chart of a texel or two cannot
+  // meet all the light along its outline; without limits it and its neighbours are torn between the sides of it.
+  Vec3 within_limits(const Texel& t, const Vec3& to) {
+    return glm::max(Vec3(0), glm::clamp(to, t.baked - t.most, t.baked + t.most));
+  }
+
+  // Texels that would go beyond their limits stay there, and the others are to be solved for again (an active set that
+  // only grows). True where there were any.
+  bool hold_at_limits(const Columns& change) {
     bool any = false;
     for (std::size_t i = 0; i < texels_.size(); ++i) {
-      const Vec3 to = changed(i, change);
-      if (texels_[i].held || glm::min(to.r, glm::min(to.g, to.b)) >= 0) continue;
-      light(texels_[i]) = glm::max(Vec3(0), to);
-      any = texels_[i].held = true;
+      Texel& t = texels_[i];
+      const Vec3 to = changed(i, change), bounded = within_limits(t, to);
+      if (t.held || to == bounded) continue;
+      light(t) = bounded;
+      any = t.held = true;
     }
     return any;
   }
@@ -206,6 +222,16 @@ class Stitcher {
     const double noise = noise_around(t) / t.scale();
     const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
     return std::sqrt(noise * noise + kLeast * kLeast + free * free);
+  }
+
+  // In lux: what a texel may be off by without being seen to be. Errors around it count as far as its light goes: dark
+  // texels beside bright ones stay dark.
+  double largest_change(const Texel& t) const {
+    const LightmapPage& page = pages_[t.page];
+    const double own = luminance(page.irradiance[t.texel]), error = luminance(page.standard_error[t.texel]);
+    const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
+    return std::max(kOwn * error, std::min(kSlack * noise_around(t), kPooled * own)) +
+           (kSlack * kLeast + 2 * free) * own;
   }
 
   void fill_row(const Row& row, Eigen::Index r, Rows& jacobian, Columns& steps) const {

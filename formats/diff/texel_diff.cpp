@@ -33,8 +33,8 @@ std::vector<Pair> valid_pairs(const Pack& a, const Pack& b) {
     const LightmapPage &first = a.lightmaps[p], &second = b.lightmaps[p];
     for (std::size_t i = 0; i < first.irradiance.size(); ++i)
       if (first.state[i] == TexelState::kValid && second.state[i] == TexelState::kValid)
-        pairs.push_back({luminance(first.irradiance[i]), luminance(second.irradiance[i]), error_of(first, i),
-                         error_of(second, i)});
+        pairs.push_back(
+            {luminance(first.irradiance[i]), luminance(second.irradiance[i]), error_of(first, i), error_of(second, i)});
   }
   return pairs;
 }

@@ -8,8 +8,8 @@
 
 namespace oriel {
 
-// Over texels that are valid in both packs, of luminance: root mean squares of relative differences, as shares. "Net" is
-// without what the first pack's standard errors alone make of it (its square is taken off), 0 at least.
+// Over texels that are valid in both packs, of luminance: root mean squares of relative differences, as shares. "Net"
+// is without what the first pack's standard errors alone make of it (its square is taken off), 0 at least.
 struct TexelDiff {
   std::uint64_t texels = 0;
   double mean_lux = 0;    // of the first pack

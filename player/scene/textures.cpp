@@ -6,7 +6,7 @@
 
 #include "formats/core/half.h"
 #include "formats/lobes/lobe_light.h"
-#include "player/scene/cutout_mips.h"
+#include "player/textures/cutout_mips.h"
 
 namespace oriel {
 namespace {

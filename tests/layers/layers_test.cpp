@@ -94,9 +94,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
+  m["player/textures"] = assets;
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] =
-      plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps", "player/view"});
+  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps",
+                                              "player/textures", "player/view"});
   m["player/paths"] = plus(assets, {"formats/camera"});  // walks: files, recorded, smoothed
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves

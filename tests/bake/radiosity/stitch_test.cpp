@@ -47,6 +47,15 @@ TEST(Stitch, TexelsMoveByTheirSquaredErrors) {
   EXPECT_EQ(two.pages[0].irradiance[1], Vec3(1)) << "the seam does not read the second column";
 }
 
+// Such as the inside of a crack that shares an edge with a lit wall: what is certainly dark is not torn towards the
+// light.
+TEST(Stitch, ADarkTexelBesideABrightOneStaysDark) {
+  TwoPages two(Vec3(1), Vec3(100), 0.01f, 20);
+  (void)stitch(two.seams, two.map, two.pages);
+  EXPECT_LE(two.pages[0].irradiance[0].g, 1.34f);
+  EXPECT_GE(two.pages[1].irradiance[0].g, 65) << "nor is the lit one";
+}
+
 TEST(Stitch, DarkPlacesAreTreatedAsBrightOnes) {
   for (const float scale : {1e-12f, 1e12f}) {
     TwoPages one(Vec3(1), Vec3(1.2f), 0.05f, 0.1f), other(Vec3(scale), Vec3(1.2f * scale), 0.05f * scale, 0.1f * scale);

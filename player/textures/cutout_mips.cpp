@@ -1,4 +1,4 @@
-#include "player/scene/cutout_mips.h"
+#include "player/textures/cutout_mips.h"
 
 #include <algorithm>
 #include <cmath>
