@@ -9,6 +9,7 @@
 #include "bake/run/stages/inputs.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
+#include "bake/run/stages/visibility.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -156,6 +157,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
                 return plan_reflections(options, accel, lights, materials, kMostForViews * deadline.left(), context);
               }));
   }
+  AssembledMesh mesh = assemble_mesh(scene, atlas);
+  VisibilityReport visibility;
+  ORIEL_TRY(pack.visible_sets, timed("visibility", [&](std::uint64_t& rays) {
+              auto sets = bake_visibility(options, accel, planned.all.region.grids, mesh, context, visibility,
+                                          result.omissions);
+              rays += visibility.lines;
+              return sets;
+            }));
   std::vector<MoverReport> mover_reports;
   if (!movers.empty()) {
     ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
@@ -193,7 +202,6 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   ORIEL_TRY_VOID(check_ledger(result.ledger, context));
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
-  AssembledMesh mesh = assemble_mesh(scene, atlas);
   ReflectionReport reflections;
   if (options.with_radiance) {
     ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
@@ -215,8 +223,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
-                         lights.power(), reflections, mover_reports, options.radiosity.estimator == Estimator::kCached,
-                         options.radiosity.error});
+                         lights.power(), reflections, mover_reports, visibility,
+                         options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   if (context.units) result.units = context.units->share();
