@@ -16,6 +16,7 @@ namespace oriel {
 namespace {
 
 constexpr double kMostForViews = 0.2;       // of the time that is left, for choosing viewpoints
+constexpr double kMostForSets = 0.2;        // of the same, for visible sets
 constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins
 constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
 constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
@@ -160,8 +161,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   VisibilityReport visibility;
   ORIEL_TRY(pack.visible_sets, timed("visibility", [&](std::uint64_t& rays) {
-              auto sets = bake_visibility(options, accel, planned.all.region.grids, mesh, context, visibility,
-                                          result.omissions);
+              auto sets = bake_visibility(options, accel, planned.all.region.grids, mesh,
+                                          kMostForSets * deadline.left(), context, visibility, result.omissions);
               rays += visibility.lines;
               return sets;
             }));

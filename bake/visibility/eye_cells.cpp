@@ -6,7 +6,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kFromWall_m = 0.01f;  // an eye stays so far from what ends its way
+constexpr float kFromWall_m = 0.01f;                       // an eye stays so far from what ends its way
 constexpr std::uint64_t kStream = std::uint64_t{1} << 62;  // of random numbers, apart from those of texels
 
 // The eye, or where the way to it ends.
@@ -42,8 +42,8 @@ Result<std::vector<CellOfEyes>> eyes_by_cell(const Accel& accel, std::span<const
     }
     for (std::uint32_t e = 0; e < count; ++e) {
       Sampler sampler(context.seed, kStream + i, e);
-      const auto& s = standing[i][std::min(static_cast<std::size_t>(sampler.next1() * static_cast<float>(standing[i].size())),
-                                           standing[i].size() - 1)];
+      const auto& s = standing[i][std::min(
+          static_cast<std::size_t>(sampler.next1() * static_cast<float>(standing[i].size())), standing[i].size() - 1)];
       // Every fourth may stand beside.
       const Vec2 aside = (2.0f * sampler.next2() - 1.0f) * (e % 4 == 3 ? 1.5f : 0.5f) * s.cell_m;
       const float up = glm::mix(-kEyeBelow_m, kEyeAbove_m, sampler.next1());

@@ -11,7 +11,7 @@ namespace oriel {
 inline constexpr float kEyeBelow_m = 0.4f, kEyeAbove_m = 0.2f;
 
 struct CellOfEyes {
-  std::vector<Vec3> eyes;  // scene space
+  std::vector<Vec3> eyes;   // scene space
   Vec3 lower{0}, upper{0};  // of all eyes that the cell stands for
 };
 

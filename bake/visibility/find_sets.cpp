@@ -1,8 +1,8 @@
 #include "bake/visibility/find_sets.h"
 
 #include <algorithm>
-#include <atomic>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <set>
 
@@ -14,11 +14,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kEyes = 256;          // of a cell
-constexpr std::uint32_t kAllAround = 4096;    // lines from a cell in all directions
-constexpr std::size_t kBatch = 64;            // lines between looks at whether a group was seen
-constexpr float kNear_m = 0.3f;               // groups and cells so near are neighbours
-constexpr float kPixel_rad = 0.002f;          // of a frame of some 500 rows
+constexpr std::uint32_t kEyes = 256;        // of a cell
+constexpr std::uint32_t kAllAround = 4096;  // lines from a cell in all directions
+constexpr std::size_t kBatch = 64;          // lines between looks at whether a group was seen
+constexpr float kNear_m = 0.3f;             // groups and cells so near are neighbours
+constexpr float kPixel_rad = 0.002f;        // of a frame of some 500 rows
 constexpr int kMostRounds = 64;
 
 struct Box {
@@ -67,9 +67,7 @@ class Numbers {
  public:
   explicit Numbers(std::uint64_t key) : key_(mix64(key)) {}
   float next() { return static_cast<float>(mix64(key_ + ++count_) >> 40) * 0x1p-24f; }
-  std::size_t below(std::size_t n) {
-    return std::min(static_cast<std::size_t>(next() * static_cast<float>(n)), n - 1);
-  }
+  std::size_t below(std::size_t n) { return std::min(static_cast<std::size_t>(next() * static_cast<float>(n)), n - 1); }
 
  private:
   std::uint64_t key_, count_ = 0;
@@ -92,14 +90,20 @@ class Finder {
  public:
   Finder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
          std::uint64_t seed)
-      : scene_(scene), geometry_(scene.accel.scene()), lines_(scene.accel), cells_(cells), options_(options), seed_(seed) {
+      : scene_(scene),
+        geometry_(scene.accel.scene()),
+        lines_(scene.accel),
+        cells_(cells),
+        options_(options),
+        seed_(seed) {
     groups_.resize(scene.groups);
     for (std::uint32_t t = 0; t < scene.group.size(); ++t) {
       Group& group = groups_[scene.group[t]];
       for (int corner = 0; corner < 3; ++corner) {
         const Vec3& p = geometry_.positions[geometry_.triangles[t][corner]];
-        group.box = group.triangles.empty() && corner == 0 ? Box{p, p}
-                                                           : Box{glm::min(group.box.lower, p), glm::max(group.box.upper, p)};
+        group.box = group.triangles.empty() && corner == 0
+                        ? Box{p, p}
+                        : Box{glm::min(group.box.lower, p), glm::max(group.box.upper, p)};
       }
       group.areas.push_back((group.areas.empty() ? 0 : group.areas.back()) + triangle_area(geometry_, t));
       group.triangles.push_back(t);
@@ -158,12 +162,17 @@ class Finder {
     }
   }
 
-  // By group: seen from the cell; or joined to one that is and turned to it, as it may show by a sliver.
+  // By group: seen from the cell; or turned to it, and either joined to one that is seen, as it may show by a sliver,
+  // or seen from a cell beside.
   std::vector<bool> may_see(std::size_t cell) const {
     std::vector<bool> out(scene_.groups);
-    const auto seen = [&](std::uint32_t g) { return found_[cell][g].seen(); };
-    for (std::uint32_t g = 0; g < scene_.groups; ++g)
-      out[g] = seen(g) || (std::any_of(joined_[g].begin(), joined_[g].end(), seen) && may_be_seen(cell, g));
+    for (std::uint32_t g = 0; g < scene_.groups; ++g) {
+      const auto joins = [&](std::uint32_t other) { return found_[cell][other].seen(); };
+      const auto sees = [&](std::uint32_t beside) { return found_[beside][g].seen(); };
+      out[g] = found_[cell][g].seen() || ((std::any_of(joined_[g].begin(), joined_[g].end(), joins) ||
+                                           std::any_of(near_cells_[cell].begin(), near_cells_[cell].end(), sees)) &&
+                                          may_be_seen(cell, g));
+    }
     return out;
   }
 
@@ -225,7 +234,8 @@ class Finder {
   void ask(std::size_t cell, std::uint32_t g, std::uint32_t count, std::span<const Witness> hints,
            std::vector<Witness>& found) {
     if (!may_be_seen(cell, g)) return;
-    Numbers random(seed_ ^ mix64(cell * std::uint64_t{scene_.groups} + g + (hints.empty() ? 0 : std::uint64_t{1} << 60)));
+    Numbers random(seed_ ^
+                   mix64(cell * std::uint64_t{scene_.groups} + g + (hints.empty() ? 0 : std::uint64_t{1} << 60)));
     const Group& group = groups_[g];
     std::vector<SightLines::Line> lines;
     for (std::uint32_t i = 0; i < count && !found[g].seen();) {
@@ -271,10 +281,12 @@ Status follow_suspects(Finder& finder, std::size_t cells, Context& context) {
     // All look at what was known before the round.
     std::vector<std::vector<Witness>> found(cells);
     ORIEL_TRY_VOID(parallel_for(context, round == 0 ? "sight lines" : "", cells, [&](std::size_t c) {
+      if (suspects[c].empty()) return;
       found[c] = finder.found(c);
       finder.look_again(c, suspects[c], found[c]);
     }));
-    for (std::size_t c = 0; c < cells; ++c) finder.set_found(c, std::move(found[c]));
+    for (std::size_t c = 0; c < cells; ++c)
+      if (!suspects[c].empty()) finder.set_found(c, std::move(found[c]));
   }
   return {};
 }

@@ -8,11 +8,11 @@
 namespace oriel {
 
 struct VisibilityOptions {
-  float cell_m = 1;               // side of an eye cell; a whole number of walk cells, more where there would be too many
+  float cell_m = 1;  // side of an eye cell; a whole number of walk cells, more where there would be too many
   std::uint32_t most_cells = 4096;
   std::uint32_t group_triangles = 256;  // of a group at most; more where there would be too many
   std::uint32_t most_groups = 4096;
-  std::uint32_t first_lines = 64;  // from a cell to a group, at first
+  std::uint32_t first_lines = 64;                      // from a cell to a group, at first
   std::uint32_t least_lines = 128, most_lines = 1024;  // from a cell to a group that may be seen though those missed it
 };
 

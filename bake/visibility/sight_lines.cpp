@@ -7,7 +7,7 @@ namespace oriel {
 namespace {
 
 constexpr float kNear = 1e-3f, kNear_m = 1e-4f;  // a target, of a line's length and in metres
-constexpr int kMostLayers = 64;                      // that hide nothing, along a line
+constexpr int kMostLayers = 64;                  // that hide nothing, along a line
 constexpr std::size_t kBatch = 64;
 
 }  // namespace

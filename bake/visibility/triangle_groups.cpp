@@ -8,8 +8,8 @@ namespace {
 
 using Items = std::span<std::uint32_t>;
 
-// Cuts items at the middle of the longest side of their places' box, and on until `whole` is content with a piece, which
-// is then `kept`. The same for the same places in the same order.
+// Cuts items at the middle of the longest side of their places' box, and on until `whole` is content with a piece,
+// which is then `kept`. The same for the same places in the same order.
 void halve(Items items, const std::vector<Vec3>& places, const std::function<bool(Items)>& whole,
            const std::function<void(Items)>& kept) {
   if (items.size() <= 1 || whole(items)) return kept(items);

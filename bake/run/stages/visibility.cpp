@@ -1,6 +1,7 @@
 #include "bake/run/stages/visibility.h"
 
 #include "bake/jobs/units.h"
+#include "bake/run/stages/deadline.h"
 #include "bake/run/stages/inputs.h"
 #include "bake/visibility/eye_cells.h"
 #include "bake/visibility/triangle_groups.h"
@@ -52,7 +53,7 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
 }
 
 Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
-                                    AssembledMesh& mesh, Context& context, VisibilityReport& report,
+                                    AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
                                     std::vector<std::string>& omissions) {
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), grids);
   if (!why_not.empty()) {
@@ -71,7 +72,10 @@ Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& acc
   sets.below_m = kEyeBelow_m;
   sets.above_m = kEyeAbove_m;
   const StageInputs inputs(context, SurfacesOf{accel.scene()});
-  ORIEL_TRY_VOID(one_unit(
+  const Deadline clock(0);
+  const auto late = [&] { return clock.spent() > seconds; };
+  const Interruptible until(context, late);
+  const Status done = one_unit(
       context, "visibility",
       [&](Archive& key) {
         for (const WalkGrid& grid : grids)
@@ -79,16 +83,22 @@ Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& acc
         key(group, sets.side, o.first_lines, o.least_lines, o.most_lines);
       },
       [&]() -> Status {
-        ORIEL_TRY(sets.seen, find_visible_sets({accel, group, groups.count}, grids, sets.side, o, context, report.lines));
+        ORIEL_TRY(sets.seen,
+                  find_visible_sets({accel, group, groups.count}, grids, sets.side, o, context, report.lines));
         return {};
       },
-      [&](Archive& archive) { archive(sets.seen, report.lines); }));
+      [&](Archive& archive) { archive(sets.seen, report.lines); });
+  if (!done && done.error().code == ErrorCode::kStopped && !context.stop && late()) {
+    omissions.push_back(fmt::format("visible sets: left out, they would take more than {:.3g} s of --time", seconds));
+    return VisibleSets();
+  }
+  ORIEL_TRY_VOID(done);
   report.cells = static_cast<std::uint32_t>(sets.seen.size() / sets.set_bytes());
   report.groups = sets.groups;
   report.seen = mean_share(sets, group, report.cells);
   if (options.visible_sets == VisibleSetsWanted::kAuto && report.seen > kMostSeen) {
-    omissions.push_back(fmt::format("visible sets: {:.0f} % of the triangles are seen from where people walk, on the mean",
-                                    100 * report.seen));
+    omissions.push_back(fmt::format(
+        "visible sets: {:.0f} % of the triangles are seen from where people walk, on the mean", 100 * report.seen));
     return VisibleSets();
   }
   sort_triangles(groups.order, mesh);

@@ -16,10 +16,11 @@ struct VisibilityReport {
 // Why no sets are to be found; empty where they are.
 std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangles, std::span<const WalkGrid> grids);
 
-// Sets for the eyes of the grids; where they pay, mesh's triangles are sorted by group within its parts. Where they do
-// not, mesh stays as it is, the sets are empty and `omissions` says why. Error kStopped.
+// Sets for the eyes of the grids, unless that takes more than `seconds`; where they pay, mesh's triangles are sorted by
+// group within its parts. Where they do not, mesh stays as it is, the sets are empty and `omissions` says why. Error
+// kStopped.
 Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
-                                    AssembledMesh& mesh, Context& context, VisibilityReport& report,
+                                    AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
                                     std::vector<std::string>& omissions);
 
 }  // namespace oriel

@@ -145,8 +145,8 @@ TEST(FindSets, EyeCellsStayFew) {
   EXPECT_EQ(eye_cell_side(std::vector{first_room()}, options), 1u);
 }
 
-// Pillars and boards at random, by surface of a few triangles: what an eye sees on an even grid of directions must be in
-// the sets of its place.
+// Pillars and boards at random, by surface of a few triangles: what an eye sees on an even grid of directions must be
+// in the sets of its place.
 TEST(FindSets, RandomEyesSeeNothingElse) {
   SceneParts parts = two_rooms(true);
   const auto wall = parts.diffuse(Vec3(0.5f));
