@@ -19,8 +19,9 @@ class House : public ::testing::Test {
     folder_ = fs::temp_directory_path() / ("oriel-visible-" + std::to_string(::getpid()));
     fs::create_directories(folder_);
     ASSERT_EQ(test::run(folder_, "oriel-scenes house --triangles 12000 --reflectors 0 -o house.glb"), 0);
-    ASSERT_EQ(test::run(folder_, "oriel-bake house.glb -o house.oriel --pvs on --texel 2m --samples 1 --verify off "
-                                 "--max-reflectors 0 --no-cache"),
+    ASSERT_EQ(test::run(folder_,
+                        "oriel-bake house.glb -o house.oriel --pvs on --texel 2m --samples 1 --verify off "
+                        "--max-reflectors 0 --no-cache"),
               0);
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
@@ -37,9 +38,11 @@ class House : public ::testing::Test {
 
 TEST_F(House, FramesAreTheSameAndLessIsDrawn) {
   for (const std::string pvs : {"on", "off"})
-    ASSERT_EQ(test::run(folder_, "oriel-play house.oriel --offscreen --path walk --frames 9 --size 180x120 --exposure 10 --pvs " +
-                                     pvs + " -o " + pvs + " --stats " + pvs + ".json"),
-              0);
+    ASSERT_EQ(
+        test::run(folder_,
+                  "oriel-play house.oriel --offscreen --path walk --frames 9 --size 180x120 --exposure 10 --pvs " +
+                      pvs + " -o " + pvs + " --stats " + pvs + ".json"),
+        0);
   int pictures = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "on")) {
     const auto with = read_file(entry.path()), without = read_file(folder_ / "off" / entry.path().filename());

@@ -28,7 +28,8 @@ Frustum between(float low, float high) {
 
 std::vector<std::size_t> starts(const DrawBatch& batch) {
   std::vector<std::size_t> out;
-  for (const void* offset : batch.offsets) out.push_back(reinterpret_cast<std::uintptr_t>(offset) / sizeof(std::uint32_t));
+  for (const void* offset : batch.offsets)
+    out.push_back(reinterpret_cast<std::uintptr_t>(offset) / sizeof(std::uint32_t));
   return out;
 }
 

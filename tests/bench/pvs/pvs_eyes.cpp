@@ -1,8 +1,9 @@
-// pvs_eyes PACK [--eyes N] [--seed S]: from random eyes over a pack's walk grids, which triangles of more than four pixels
-// the pack's visible sets miss. Draws all opaque triangles with their numbers and asks of each that covers pixels whether
-// its group is in the set. Exit code 5 where one is missing, 3 where the pack has no sets.
+// pvs_eyes PACK [--eyes N] [--seed S]: from random eyes over a pack's walk grids, which triangles of more than four
+// pixels the pack's visible sets miss. Draws all opaque triangles with their numbers and asks of each that covers
+// pixels whether its group is in the set. Exit code 5 where one is missing, 3 where the pack has no sets.
 //
-// Cut-outs and see-through surfaces are not drawn: what lies behind them counts as seen, they themselves are not judged.
+// Cut-outs and see-through surfaces are not drawn: what lies behind them counts as seen, they themselves are not
+// judged.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -67,8 +68,8 @@ class Numbers {
  public:
   static Result<Numbers> create(const Pack& pack) {
     Numbers out(pack);
-    ORIEL_TRY(out.program_, gpu::Program::create_from("numbers", {"numbers.vert", kVertex, {}},
-                                                      {"numbers.frag", kFragment, {}}));
+    ORIEL_TRY(out.program_,
+              gpu::Program::create_from("numbers", {"numbers.vert", kVertex, {}}, {"numbers.frag", kFragment, {}}));
     out.color_ = gpu::Texture(gpu::kRgba8, kWidth, kHeight, nullptr);
     out.depth_ = gpu::Texture(gpu::kDepth32f, kWidth, kHeight, nullptr);
     ORIEL_TRY(out.target_, gpu::Framebuffer::create("numbers", &out.color_, &out.depth_));
