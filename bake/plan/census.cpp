@@ -182,6 +182,16 @@ StageCensus mover_stage(const CensusInput& in) {
           {{"movers", count}, {"vertices", vertices}}};
 }
 
+StageCensus visibility_stage(const CensusInput& in) {
+  const std::size_t triangles = in.prepared.scene().triangles.size();
+  const std::string why_not = why_not_visible_sets(in.options, triangles, in.reflections.region.grids);
+  return {
+      "visibility",
+      why_not.empty(),
+      why_not.empty() ? "what is seen from where people walk, if it is not nearly all" : "no visible sets: " + why_not,
+      {{"triangles", triangles}}};
+}
+
 }  // namespace
 
 const char* name_of(LobeKind lobe) {
@@ -217,7 +227,8 @@ Census take_census(const CensusInput& in) {
               surround_stage(in, c.lights.dark),
               kernel_stage(in, c.materials),
               fresnel_stage(in),
-              mover_stage(in)};
+              mover_stage(in),
+              visibility_stage(in)};
   c.omissions = in.prepared.omissions;
   if (in.options.with_radiance)
     c.omissions.insert(c.omissions.end(), in.reflections.omissions.begin(), in.reflections.omissions.end());

@@ -4,6 +4,7 @@
 #include "bake/run/options.h"
 #include "bake/run/stages/prepare.h"
 #include "bake/run/stages/reflections.h"
+#include "bake/run/stages/visibility.h"
 
 namespace oriel {
 
@@ -51,7 +52,7 @@ struct ReflectorCensus {
 
 // A part of the bake: whether it runs, and on how much.
 struct StageCensus {
-  std::string name;  // "radiosity", "directional", "radiance", "surround", "kernels", "fresnel", "movers"
+  std::string name;  // "radiosity", "directional", "radiance", "surround", "kernels", "fresnel", "movers", "visibility"
   bool runs = false;
   std::string why;                                             // one sentence
   std::vector<std::pair<std::string, std::uint64_t>> amounts;  // "texels", …

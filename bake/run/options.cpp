@@ -32,6 +32,10 @@ const char* directional_name(Directional directional) {
   return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
 }
 
+const char* visible_sets_name(VisibleSetsWanted wanted) {
+  return wanted == VisibleSetsWanted::kAuto ? "auto" : wanted == VisibleSetsWanted::kOn ? "on" : "off";
+}
+
 const char* eye_source_name(EyeSource source) {
   return source == EyeSource::kWalk ? "walk" : source == EyeSource::kBox ? "box" : "file";
 }
@@ -188,6 +192,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"views_per_element", planned ? o.planned.choice.max_maps : o.views.views_per_element},
       {"eyes", eye_source_name(o.eyes.source)},
       {"eye_points", eye_points(o.eyes)},
+      {"visible_sets", visible_sets_name(o.visible_sets)},
       {"orders", o.sight.orders},
       {"map_resolution", planned ? o.planned.map_resolution : o.views.map_resolution},
       {"map_memory", planned ? o.planned.memory_bytes : o.views.memory_bytes},

@@ -14,6 +14,7 @@
 #include "bake/scene/import.h"
 #include "bake/transfer/compress.h"
 #include "bake/transfer/probes.h"
+#include "bake/visibility/find_sets.h"
 #include "bake/walk/eye_region.h"
 
 namespace oriel {
@@ -23,6 +24,9 @@ enum class Directional { kAuto, kOn, kOff };
 
 // Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
 enum class ViewScheme { kPlanned, kHemisphere };
+
+// Whether what is seen from where is found: where it is likely to pay, always, never.
+enum class VisibleSetsWanted { kAuto, kOn, kOff };
 
 inline constexpr double kBestError = 1e-3;  // where only time limits the work
 
@@ -38,6 +42,8 @@ struct BakeOptions {
   PlannedViewOptions planned;
   ViewOptions views;  // of hemispheres
   EyeOptions eyes;
+  VisibleSetsWanted visible_sets = VisibleSetsWanted::kAuto;
+  VisibilityOptions visibility;
   SightOptions sight;
   CurvedOptions curved;
   MaterialOptions material;

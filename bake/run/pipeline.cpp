@@ -9,12 +9,14 @@
 #include "bake/run/stages/inputs.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
+#include "bake/run/stages/visibility.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
 constexpr double kMostForViews = 0.2;       // of the time that is left, for choosing viewpoints
+constexpr double kMostForSets = 0.2;        // of the same, for visible sets
 constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins
 constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
 constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
@@ -156,6 +158,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
                 return plan_reflections(options, accel, lights, materials, kMostForViews * deadline.left(), context);
               }));
   }
+  AssembledMesh mesh = assemble_mesh(scene, atlas);
+  VisibilityReport visibility;
+  ORIEL_TRY(pack.visible_sets, timed("visibility", [&](std::uint64_t& rays) {
+              auto sets = bake_visibility(options, accel, planned.all.region.grids, mesh,
+                                          kMostForSets * deadline.left(), context, visibility, result.omissions);
+              rays += visibility.lines;
+              return sets;
+            }));
   std::vector<MoverReport> mover_reports;
   if (!movers.empty()) {
     ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
@@ -193,7 +203,6 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   ORIEL_TRY_VOID(check_ledger(result.ledger, context));
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
-  AssembledMesh mesh = assemble_mesh(scene, atlas);
   ReflectionReport reflections;
   if (options.with_radiance) {
     ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
@@ -215,8 +224,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
-                         lights.power(), reflections, mover_reports, options.radiosity.estimator == Estimator::kCached,
-                         options.radiosity.error});
+                         lights.power(), reflections, mover_reports, visibility,
+                         options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   if (context.units) result.units = context.units->share();

@@ -181,6 +181,14 @@ Json light_field_json(const LightField& field) {
           {"standard_error", field.error}};
 }
 
+Json visibility_json(const BakeFacts& f) {
+  if (f.pack.visible_sets.empty()) return Json();
+  return {{"eye_cells", f.visibility.cells},
+          {"groups", f.visibility.groups},
+          {"seen_share", f.visibility.seen},
+          {"lines", f.visibility.lines}};
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
@@ -228,6 +236,7 @@ std::string plan_json(const BakeFacts& f) {
         {"rays", f.reflections.rays}}},
       {"errors", errors_json(f)},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},
+      {"visible_sets", visibility_json(f)},
       {"movers", movers_json(f.movers)},
       {"light_field", light_field_json(f.pack.light_field)},
       {"omitted", f.omissions},

@@ -5,6 +5,7 @@
 #include "bake/run/pipeline.h"
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/reflections.h"
+#include "bake/run/stages/visibility.h"
 
 namespace oriel {
 
@@ -20,6 +21,7 @@ struct BakeFacts {
   DVec3 emitted_lm{0};
   const ReflectionReport& reflections;
   std::span<const MoverReport> movers;
+  const VisibilityReport& visibility;
   bool cached = true;  // the estimator
   double asked = 0;    // error of the lightmap; 0: none
 };

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -146,6 +147,39 @@ Json small_maps_json(const Pack& pack, Json out) {
   return out;
 }
 
+struct SetsSummary {
+  std::size_t cells = 0;
+  double seen = 0;  // share of the groups, mean over the cells
+};
+
+SetsSummary summarise(const VisibleSets& sets) {
+  SetsSummary s{sets.seen.size() / sets.set_bytes(), 0};
+  for (const std::uint8_t byte : sets.seen) s.seen += std::popcount(byte);
+  s.seen /= std::max(1.0, static_cast<double>(s.cells) * sets.groups);
+  return s;
+}
+
+Json visible_sets_json(const Pack& pack) {
+  const VisibleSets& sets = pack.visible_sets;
+  if (sets.empty()) return Json();
+  const SetsSummary s = summarise(sets);
+  return {{"groups", sets.groups},   {"runs", sets.runs.size()},
+          {"eye_cells", s.cells},    {"side", sets.side},
+          {"below_m", sets.below_m}, {"above_m", sets.above_m},
+          {"seen_share", s.seen},    {"made_for_this", made_for(sets, pack.mesh, pack.walk_grids)}};
+}
+
+void print_visible_sets(const Pack& pack) {
+  const VisibleSets& sets = pack.visible_sets;
+  if (sets.empty()) return;
+  const SetsSummary s = summarise(sets);
+  fmt::print(
+      "visible sets: {} groups of triangles in {} runs, {} eye cells of {} x {} walk cells, {:.3g} % seen on the "
+      "mean{}\n",
+      sets.groups, sets.runs.size(), s.cells, sets.side, sets.side, 100 * s.seen,
+      made_for(sets, pack.mesh, pack.walk_grids) ? "" : ", for another mesh: ignored");
+}
+
 Json describe(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
   Json out;
   out["schema"] = kJsonSchema;
@@ -161,6 +195,7 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["materials"] = materials_json(pack);
   out["lightmaps"] = lightmaps_json(pack);
   add_reflections(index, pack, out);
+  out["visible_sets"] = visible_sets_json(pack);
   out["movers"] = movers_json(pack);
   out["light_field"] = light_field_json(pack.light_field);
   return small_maps_json(pack, std::move(out));
@@ -251,6 +286,7 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   print_sections(index);
   fmt::print("\n");
   print_maps(index, pack);
+  print_visible_sets(pack);
   print_movers(pack);
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());

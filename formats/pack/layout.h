@@ -98,11 +98,12 @@ inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
+inline constexpr std::uint32_t kVisibleSetsSection = fourcc("PVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 28> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 29> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -129,6 +130,7 @@ inline constexpr std::array<SectionKind, 28> kSectionKinds = {{
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},
+    {kVisibleSetsSection, "visible sets", true, false, false},
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
 }};
@@ -146,6 +148,7 @@ inline constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;   // of al
 inline constexpr std::uint64_t kMaxExpansion = std::uint64_t{1} << 16;  // raw bytes for a stored byte
 inline constexpr std::uint32_t kMaxSide = 32768;                        // texels of any map
 inline constexpr std::uint32_t kMaxSlices = 256;                        // of a kernel by incidence
+inline constexpr std::uint32_t kMaxGroups = 1u << 16;                   // of triangles that are seen together
 
 // "LMAP"; characters that are not printable ASCII as hexadecimal.
 std::string kind_text(std::uint32_t kind);

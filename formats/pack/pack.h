@@ -17,6 +17,7 @@
 #include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
+#include "formats/visibility/visible_sets.h"
 
 namespace oriel {
 
@@ -52,6 +53,7 @@ struct Pack {
   std::vector<Camera> cameras;
   std::vector<CameraPath> paths;
   std::vector<WalkGrid> walk_grids;  // by storey
+  VisibleSets visible_sets;          // of mesh and walk grids; empty: all is drawn from everywhere
   std::vector<Mover> movers;
   LightField light_field;  // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;

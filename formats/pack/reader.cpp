@@ -110,6 +110,11 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
       return decode_list(in, section, parts.reflector_emitters);
     case kWalkSection:
       return decode_list(in, section, pack.walk_grids);
+    case kVisibleSetsSection:
+      ORIEL_TRY_VOID(one_element_only(section));
+      if (auto status = decode(in, pack.visible_sets); !status && in.ok())
+        return invalid(section.label, "{}", status.error().message);
+      return check_end(in, section);
     case kMoverSection:
       return decode_list(in, section, pack.movers);
     case kLightFieldSection:

@@ -72,6 +72,7 @@ void encode(ByteWriter& out, const Emitter& emitter);
 void encode(ByteWriter& out, const ReflectorEmitters& part);
 void encode(ByteWriter& out, const ResidualMap& residual);
 void encode(ByteWriter& out, const KernelFits& fits);
+void encode(ByteWriter& out, const VisibleSets& sets);
 void encode(ByteWriter& out, const Mover& mover);
 void encode(ByteWriter& out, const LightField& field);
 
@@ -107,6 +108,7 @@ Status decode(ByteReader& in, Emitter& emitter);
 Status decode(ByteReader& in, ReflectorEmitters& part);
 Status decode(ByteReader& in, ResidualMap& residual);
 Status decode(ByteReader& in, KernelFits& fits);
+Status decode(ByteReader& in, VisibleSets& sets);
 Status decode(ByteReader& in, Mover& mover);
 Status decode(ByteReader& in, LightField& field);
 

@@ -212,6 +212,7 @@ std::vector<Issue> validate(const Pack& pack, MapPixels pixels) {
   validate_split_reflectance(pack, list);
   validate_cameras(pack, list);
   validate_walk_grids(pack, list);
+  validate_visible_sets(pack, list);
   validate_movers(pack, list);
   validate_light_field(pack, list);
   validate_unknown(pack, list);

@@ -147,6 +147,7 @@ SectionList sections_of(const Pack& pack) {
   list.add_list(kCameraSection, pack.cameras);
   list.add_list(kPathSection, pack.paths);
   list.add_list(kWalkSection, pack.walk_grids);
+  if (!pack.visible_sets.empty()) list.add_one(kVisibleSetsSection, pack.visible_sets);
   list.add_each(kMoverSection, pack.movers);
   if (pack.light_field.bands > 0) list.add_one(kLightFieldSection, pack.light_field);
   for (const auto& unknown : pack.unknown) list.add_unknown(unknown);

@@ -22,6 +22,9 @@ class Buffer {
     glBufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
   }
 
+  // To the target, of the bound vertex array where that is GL_ELEMENT_ARRAY_BUFFER.
+  void bind(GLenum target) const { glBindBuffer(target, handle_.name()); }
+
  private:
   Handle<ObjectKind::kBuffer> handle_;
 };

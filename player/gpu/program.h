@@ -24,7 +24,8 @@ struct ShaderText {
   std::string text;
   std::vector<std::string> origin;
 };
-Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect);
+// define: a name that the text finds defined, if any.
+Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect, std::string_view define = {});
 
 // A driver's log with the places in it ("0:12(5)", "0(12)", "ERROR: 0:12") replaced by those of the files.
 std::string name_places(const std::string& log, const ShaderText& source);
@@ -33,8 +34,9 @@ class Program {
  public:
   Program() = default;
   // passes/<name>.vert with passes/<name>.frag; the passes over a whole image, "screen/…", share
-  // passes/screen/fullscreen.vert. Error kRuntime holds the driver's log with files and lines.
-  static Result<Program> create(std::string_view name, Dialect dialect);
+  // passes/screen/fullscreen.vert. define: as assemble_shader. Error kRuntime holds the driver's log with files and
+  // lines.
+  static Result<Program> create(std::string_view name, Dialect dialect, std::string_view define = {});
   // For tests: a program of two texts as assemble_shader gives them.
   static Result<Program> create_from(std::string_view name, const ShaderText& vertex, const ShaderText& fragment);
 

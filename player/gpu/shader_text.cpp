@@ -67,10 +67,11 @@ Place read_place(const char* at, const char* end) {
 
 }  // namespace
 
-Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect) {
+Result<ShaderText> assemble_shader(std::string_view name, Dialect dialect, std::string_view define) {
   ShaderText out;
   out.name = name;
   out.text = dialect == Dialect::kEs300 ? kEsHead : kDesktopHead;
+  if (!define.empty()) out.text += fmt::format("#define {}\n", define);
   out.origin.resize(static_cast<std::size_t>(std::count(out.text.begin(), out.text.end(), '\n')));
   std::set<std::string_view> done;
   ORIEL_TRY_VOID(append_file(name, done, out));

@@ -93,27 +93,25 @@ Status BrightPass::make_targets(int width, int height, const gpu::Texture& depth
   return of_scene_.make(half_width, half_height, scene_depth_, false);
 }
 
-void BrightPass::draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_object,
-                             const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const {
+void BrightPass::draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
+                              const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const {
   surface_.set("u_clip_from_pack", clip_from_object);
   surface_.set("u_pack_from_object", pack_from_object);
-  const Frustum frustum = make_frustum(clip_from_object);
-  for (const DrawRange& range : ranges) {
-    if (!may_be_visible(frustum, range.bounds)) continue;
-    const Material& m = scene.pack().materials[range.material];
+  for (const DrawBatch& batch : batches) {
+    const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
     gpu::apply(state);
     surface_.set("u_id", m.unlit ? kNothingId : id);
     surface_.set("u_alpha", m.alpha);
     surface_.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    draw_indices(range.first_index, range.index_count, stats);
+    draw_batch(batch, stats);
   }
 }
 
 // Movers where the frame's depth has them; the scene as if there were none.
-void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                               FrameStats& stats) const {
+void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                               std::span<const PlacedMover> movers, FrameStats& stats) const {
   gpu::RasterState state;
   state.depth_test = true;
   surface_.use();
@@ -122,16 +120,17 @@ void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::spa
   glClearBufferuiv(GL_COLOR, 0, kNothing);
   for (std::size_t i = 0; i < movers.size(); ++i) {
     glBindVertexArray(movers[i].mover->vertex_array.name());
-    draw_ranges(scene, movers[i].mover->ranges, clip_from_object(view, movers[i]), movers[i].pack_from_object, id_of(i),
-                state, stats);
+    const Mat4 clip = clip_from_object(view, movers[i]);
+    draw_batches(scene, visible_batches(movers[i].mover->ranges, make_frustum(clip)), clip, movers[i].pack_from_object,
+                 id_of(i), state, stats);
   }
   of_scene_.bind(of_scene_.surfaces_target);
   state.depth_write = true;
   gpu::apply(state);
   glClearBufferuiv(GL_COLOR, 0, kNothing);
   glClear(GL_DEPTH_BUFFER_BIT);
-  scene.bind_geometry();
-  draw_ranges(scene, scene.opaque(), view.clip_from_pack, Mat4(1), kSceneId, state, stats);
+  scene.bind_shown();
+  draw_batches(scene, shown, view.clip_from_pack, Mat4(1), kSceneId, state, stats);
 }
 
 void BrightPass::start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const {
@@ -254,6 +253,7 @@ Status BrightPass::draw_light(const GpuScene& scene, const View& view, const Lit
 }
 
 Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, const View& view,
+                                                     std::span<const DrawBatch> shown,
                                                      std::span<const PlacedMover> movers, const FrameOptions& options,
                                                      const gpu::Texture& depth, FrameStats& stats) {
   const std::vector<LitMovers> lights =
@@ -267,7 +267,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
   if (known_.width != now.width || known_.height != now.height || known_.depth != now.depth)
     ORIEL_TRY_VOID(make_targets(view.width, view.height, depth));
   known_ = {};
-  draw_surfaces(scene, view, movers, stats);
+  draw_surfaces(scene, view, shown, movers, stats);
   gpu::apply({});
   glClearColor(0, 0, 0, 0);
   for (const Canvas* canvas : {&of_movers_, &of_scene_}) {

@@ -30,10 +30,11 @@ class BrightPass {
  public:
   static Result<BrightPass> create(gpu::Dialect dialect);
 
-  // depth: of the frame, the movers included. Nothing where bright lights change nothing; what is given holds until the
-  // next call. Own framebuffers stay bound. Error kRuntime.
-  Result<std::optional<BrightChange>> draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                                           const FrameOptions& options, const gpu::Texture& depth, FrameStats& stats);
+  // shown: of the opaque scene. depth: of the frame, the movers included. Nothing where bright lights change nothing;
+  // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
+  Result<std::optional<BrightChange>> draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                                           std::span<const PlacedMover> movers, const FrameOptions& options,
+                                           const gpu::Texture& depth, FrameStats& stats);
 
  private:
   struct Canvas {
@@ -43,10 +44,10 @@ class BrightPass {
     void bind(const gpu::Framebuffer& target) const;
   };
   Status make_targets(int width, int height, const gpu::Texture& depth);
-  void draw_surfaces(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                     FrameStats& stats) const;
-  void draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_object,
-                   const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const;
+  void draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                     std::span<const PlacedMover> movers, FrameStats& stats) const;
+  void draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
+                    const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const;
   Status draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats);
   void start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const;
   void set_caster(const LitMovers::Caster& caster, std::span<const Vec4> points, int layer, float reach) const;

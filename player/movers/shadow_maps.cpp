@@ -52,14 +52,12 @@ int ShadowMaps::free_layer() {
 void ShadowMaps::draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_pack,
                              FrameStats& stats) const {
   depth_.set("u_clip_from_pack", clip_from_pack);
-  const Frustum frustum = make_frustum(clip_from_pack);
-  for (const DrawRange& range : ranges) {
-    if (!may_be_visible(frustum, range.bounds)) continue;
-    const Material& m = scene.pack().materials[range.material];
+  for (const DrawBatch& batch : visible_batches(ranges, make_frustum(clip_from_pack))) {
+    const Material& m = scene.pack().materials[batch.material];
     depth_.set("u_alpha", m.alpha);
     depth_.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    draw_indices(range.first_index, range.index_count, stats);
+    draw_batch(batch, stats);
   }
 }
 

@@ -108,6 +108,12 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(kReflectances).description(""))
       ->type_name("table|sphere")
       ->default_str("table");
+  app.add_option("--pvs", out.frame.visible_sets,
+                 "Draw only what may be seen from where the eye stands, where the pack knows it; off: all that lies in "
+                 "the view, to compare with")
+      ->transform(CLI::CheckedTransformer(kSwitch).description(""))
+      ->type_name("on|off")
+      ->default_str("on");
   app.add_flag(
       "!--no-mipmaps", out.frame.mipmaps,
       "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "

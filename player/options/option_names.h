@@ -30,6 +30,8 @@ inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverL
                                                              {"unshadowed", MoverLights::kUnshadowed},
                                                              {"harmonics", MoverLights::kHarmonics}};
 
+inline const std::map<std::string, bool> kSwitch{{"on", true}, {"off", false}};
+
 // The name of a value that the map has.
 template <class T>
 const std::string& name_of(const std::map<std::string, T>& names, T value) {

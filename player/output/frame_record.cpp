@@ -24,6 +24,8 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"pass_ms", passes},
           {"draws", s.draws},
           {"triangles", s.triangles},
+          {"groups_seen", s.groups_seen},
+          {"groups", s.groups},
           {"reflectors", s.reflectors},
           {"maps", s.maps},
           {"points", s.points},
@@ -47,6 +49,7 @@ nlohmann::ordered_json as_json(const PlayArguments& arguments) {
           {"blur", name_of(kBlurs, o.blur)},
           {"kernel", name_of(kKernelPlaces, o.kernel)},
           {"fresnel", name_of(kReflectances, o.reflectance)},
+          {"pvs", name_of(kSwitch, o.visible_sets)},
           {"mipmaps", o.mipmaps},
           {"exposure", exposure}};
 }
@@ -57,6 +60,7 @@ std::string describe(const FrameStats& stats, bool in_zone) {
   std::string text = fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points, {:.1f} MB of maps",
                                  stats.draws, stats.triangles, stats.reflectors, stats.maps, stats.points,
                                  static_cast<double>(stats.map_bytes) * 1e-6);
+  if (stats.groups > 0) text += fmt::format(", {} of {} groups may be seen", stats.groups_seen, stats.groups);
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);
   return text + (in_zone ? "" : ", outside the zone that reflections were planned for");

@@ -107,7 +107,8 @@ void draw_movers(const Pack& pack, Session& session) {
   }
 }
 
-void draw_statistics(const FrameMeter& meter) {
+void draw_statistics(const FrameMeter& meter, const Pack& pack, FrameOptions& frame) {
+  if (!pack.visible_sets.empty()) ImGui::Checkbox("only what may be seen", &frame.visible_sets);
   const std::vector<float> ms(meter.ms.begin(), meter.ms.end());
   const float most = ms.empty() ? 1 : *std::max_element(ms.begin(), ms.end());
   const float mean = meter.mean_ms();
@@ -126,6 +127,7 @@ void draw_statistics(const FrameMeter& meter) {
     ImGui::EndTable();
   }
   text(fmt::format("{} draws, {} triangles", s.draws, s.triangles));
+  if (s.groups > 0) text(fmt::format("{} of {} groups of triangles may be seen", s.groups_seen, s.groups));
   text(fmt::format("{} reflectors, {} maps, {:.1f} MB of them", s.reflectors, s.maps,
                    static_cast<double>(s.map_bytes) * 1e-6));
   text(meter.device);
@@ -172,7 +174,7 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
   if (ImGui::Begin("Oriel", &session.panel)) {
     ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
     const auto opens = [](const char* name) { return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen); };
-    if (opens("Frames")) draw_statistics(meter);
+    if (opens("Frames")) draw_statistics(meter, pack, session.frame);
     if (opens("Under the pointer")) draw_picked(picked);
     if (opens("Light")) draw_light(session);
     if (opens("Shown")) draw_reflections(session.frame);

@@ -24,6 +24,17 @@ SceneWeights weights_of(Show show) {
   return show == Show::kD ? SceneWeights{1, 0, 0} : SceneWeights{1, 1, 1};
 }
 
+// The opaque scene as the eye may see it.
+std::vector<DrawBatch> choose_shown(GpuScene& scene, const View& view, const FrameOptions& options, FrameStats& stats) {
+  SeenMask seen;
+  if (options.visible_sets && !view.orthographic) seen = scene.seen_from(Vec3(view.eye));
+  if (seen) {
+    stats.groups = static_cast<std::uint32_t>(seen->size());
+    stats.groups_seen = static_cast<std::uint32_t>(std::count(seen->begin(), seen->end(), 1));
+  }
+  return scene.show(make_frustum(view.clip_from_pack), seen);
+}
+
 template <class T>
 std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
   std::vector<T> rgb;
@@ -187,10 +198,11 @@ std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, co
 }
 
 Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene, const View& view,
+                                                          std::span<const DrawBatch> shown,
                                                           std::span<const PlacedMover> movers,
                                                           const FrameOptions& options, FrameStats& stats) {
   ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] {
-    return bright_pass_.draw(scene, view, movers, options, frame_->depth, stats);
+    return bright_pass_.draw(scene, view, shown, movers, options, frame_->depth, stats);
   }));
   frame_->framebuffer.bind();
   glViewport(0, 0, view.width, view.height);
@@ -221,9 +233,10 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 
-  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, stats); });
+  const std::vector<DrawBatch> shown = choose_shown(scene, view, options, stats);
+  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, shown, stats); });
   if (is_survey(options.show)) {
-    clock_.time(Pass::kScene, [&] { survey_pass_.draw(scene, view, options.show, stats); });
+    clock_.time(Pass::kScene, [&] { survey_pass_.draw(scene, view, shown, options.show, stats); });
     stats.ms = clock_.read();
     ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
     return stats;
@@ -242,8 +255,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    ORIEL_TRY(const auto change, draw_change(scene, view, movers, options, stats));
-    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, weights, reflective, change, stats); });
+    ORIEL_TRY(const auto change, draw_change(scene, view, shown, movers, options, stats));
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, shown, weights, reflective, change, stats); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
         mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission},

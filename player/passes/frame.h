@@ -60,8 +60,8 @@ class Renderer {
                                                      std::set<std::uint32_t>& reflective, FrameStats& stats);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
-                                                  std::span<const PlacedMover> movers, const FrameOptions& options,
-                                                  FrameStats& stats);
+                                                  std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,
+                                                  const FrameOptions& options, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;

@@ -7,24 +7,6 @@
 namespace oriel {
 namespace {
 
-// Visible ranges, neighbours of the same material and page joined.
-std::vector<DrawRange> visible_ranges(const std::vector<DrawRange>& ranges, const Frustum& frustum) {
-  std::vector<DrawRange> out;
-  for (const DrawRange& range : ranges) {
-    if (!may_be_visible(frustum, range.bounds)) continue;
-    if (!out.empty()) {
-      DrawRange& last = out.back();
-      if (last.material == range.material && last.lightmap_page == range.lightmap_page &&
-          last.first_index + last.index_count == range.first_index) {
-        last.index_count += range.index_count;
-        continue;
-      }
-    }
-    out.push_back(range);
-  }
-  return out;
-}
-
 void set_frame(const gpu::Program& program, const GpuScene& scene, const View& view) {
   program.use();
   program.set("u_clip_from_pack", view.clip_from_pack);
@@ -42,9 +24,10 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   scene.bind_geometry();
 }
 
-void set_material(const gpu::Program& program, const GpuScene& scene, const DrawRange& range) {
-  set_surface(program, scene, range.material, !scene.pack().mesh.normal_uvs.empty());
-  const LightmapTexture& lightmap = scene.lightmap(range.lightmap_page);
+void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
+                  std::int32_t lightmap_page) {
+  set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
+  const LightmapTexture& lightmap = scene.lightmap(lightmap_page);
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
   const bool directional = static_cast<bool>(lightmap.direction);
@@ -52,39 +35,52 @@ void set_material(const gpu::Program& program, const GpuScene& scene, const Draw
   (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
 }
 
+bool is_plain(const Material& m) {
+  return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit;
+}
+
 }  // namespace
 
 Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ScenePass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
+  ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
+  ORIEL_TRY(pass.plain_opaque_, gpu::Program::create("scene", dialect, "PLAIN"));
   ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
   return pass;
 }
 
-void ScenePass::draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const {
-  depth_.use();
-  depth_.set("u_clip_from_pack", view.clip_from_pack);
-  depth_.set("u_base_texture", kBaseUnit);
-  scene.bind_geometry();
+void ScenePass::draw_depth(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                           FrameStats& stats) const {
+  for (const gpu::Program* program : {&plain_depth_, &depth_}) {
+    program->use();
+    program->set("u_clip_from_pack", view.clip_from_pack);
+    program->set("u_base_texture", kBaseUnit);
+  }
+  scene.bind_shown();
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.color_write = false;
-  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
-    const Material& m = scene.pack().materials[range.material];
+  for (const DrawBatch& batch : shown) {
+    const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
     gpu::apply(state);
-    depth_.set("u_alpha", m.alpha);
-    depth_.set("u_alpha_cutoff", cutoff_of(m));
+    const gpu::Program& program = cutoff_of(m) < 0 ? plain_depth_ : depth_;
+    program.use();
+    program.set("u_alpha", m.alpha);
+    program.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    draw_indices(range.first_index, range.index_count, stats);
+    draw_batch(batch, stats);
   }
 }
 
-void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                            const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change,
-                            FrameStats& stats) const {
+void ScenePass::draw_opaque(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                            const SceneWeights& weights, const std::set<std::uint32_t>& reflective,
+                            const std::optional<BrightChange>& change, FrameStats& stats) const {
+  set_frame(plain_opaque_, scene, view);
   set_frame(opaque_, scene, view);
+  scene.bind_shown();
   if (change) {
     change->on_scene->bind(kChangeUnit);
     change->scene_surfaces->bind(kPlaceUnit);
@@ -96,21 +92,24 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, const Scene
   gpu::RasterState state;
   state.depth_test = true;
   state.stencil_read = kReflectorBits;
-  for (const DrawRange& range : visible_ranges(scene.opaque(), make_frustum(view.clip_from_pack))) {
-    const bool twice = reflective.contains(range.material);
-    state.cull = cull_of(scene.pack().materials[range.material]);
+  for (const DrawBatch& batch : shown) {
+    const bool twice = reflective.contains(batch.material);
+    const Material& m = scene.pack().materials[batch.material];
+    const gpu::Program& program = is_plain(m) && !change ? plain_opaque_ : opaque_;
+    program.use();
+    state.cull = cull_of(m);
     state.blend = gpu::Blend::kNone;
     state.stencil_func = twice ? GL_EQUAL : GL_ALWAYS;
     gpu::apply(state);
-    set_material(opaque_, scene, range);
-    opaque_.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
-    draw_indices(range.first_index, range.index_count, stats);
+    set_material(program, scene, batch.material, batch.lightmap_page);
+    program.set("u_weights", Vec3(weights.diffuse, weights.undirected, weights.emission));
+    draw_batch(batch, stats);
     if (!twice) continue;
     state.blend = gpu::Blend::kAdd;
     state.stencil_func = GL_NOTEQUAL;
     gpu::apply(state);
-    opaque_.set("u_weights", Vec3(weights.diffuse, 0, weights.emission));
-    draw_indices(range.first_index, range.index_count, stats);
+    program.set("u_weights", Vec3(weights.diffuse, 0, weights.emission));
+    draw_batch(batch, stats);
   }
 }
 
@@ -126,11 +125,11 @@ void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Ve
   const Frustum frustum = make_frustum(view.clip_from_pack);
   const auto draw = [&](const std::vector<DrawRange>& ranges, float emission) {
     opaque_.set("u_weights", Vec3(1, 1, emission));
-    for (const DrawRange& range : visible_ranges(ranges, frustum)) {
-      state.cull = cull_of(scene.pack().materials[range.material]);
+    for (const DrawBatch& batch : visible_batches(ranges, frustum)) {
+      state.cull = cull_of(scene.pack().materials[batch.material]);
       gpu::apply(state);
-      set_material(opaque_, scene, range);
-      draw_indices(range.first_index, range.index_count, stats);
+      set_material(opaque_, scene, batch.material, batch.lightmap_page);
+      draw_batch(batch, stats);
     }
   };
   draw(scene.opaque(), 1);
@@ -156,7 +155,7 @@ void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const 
   state.stencil_read = kSeeThroughBit;
   for (const auto& [depth, range] : sorted) {
     state.cull = cull_of(scene.pack().materials[range->material]);
-    set_material(transparent_, scene, *range);
+    set_material(transparent_, scene, range->material, range->lightmap_page);
     const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
       state.blend = blend;
       state.stencil_func = func;

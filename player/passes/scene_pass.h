@@ -28,14 +28,14 @@ class ScenePass {
  public:
   static Result<ScenePass> create(gpu::Dialect dialect);
 
-  // Depth of the opaque scene into the bound framebuffer.
-  void draw_depth(const GpuScene& scene, const View& view, FrameStats& stats) const;
+  // Depth of the opaque scene into the bound framebuffer. shown: what of it.
+  void draw_depth(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, FrameStats& stats) const;
   // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
   // added to, without the undirected part. reflective: materials with such pixels. change: what
   // movers take, if anything.
-  void draw_opaque(const GpuScene& scene, const View& view, const SceneWeights& weights,
-                   const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change,
-                   FrameStats& stats) const;
+  void draw_opaque(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                   const SceneWeights& weights, const std::set<std::uint32_t>& reflective,
+                   const std::optional<BrightChange>& change, FrameStats& stats) const;
   // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
   // orthographic view 1 / dot(depth_row, point). At least `closest`. dark: of Pack::emitters, those that do not shine.
   void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
@@ -46,7 +46,8 @@ class ScenePass {
                         FrameStats& stats) const;
 
  private:
-  gpu::Program depth_, opaque_, transparent_;
+  // plain: of surfaces without normal map, cut-outs or change by movers, that are lit.
+  gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, transparent_;
 };
 
 // Whether a see-through surface is unlit, so that the frame's white must be known to draw it.

@@ -36,8 +36,9 @@ struct FrameOptions {
   Blur blur = Blur::kDistance;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
-  bool mipmaps = true;  // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
-  bool timed = false;   // each pass, which costs a little itself
+  bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
+  bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
+  bool timed = false;        // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
   std::vector<MoverPose> poses;  // by Pack::movers; empty: all at rest
@@ -66,6 +67,8 @@ using PassTimes = std::array<double, kPassNames.size()>;  // milliseconds
 struct FrameStats {
   std::uint32_t draws = 0;
   std::uint64_t triangles = 0;
+  // Groups of opaque triangles that may be seen from the eye's place, of how many; 0 where the pack does not know.
+  std::uint32_t groups_seen = 0, groups = 0;
   std::uint32_t reflectors = 0;    // that had pixels in view
   std::uint32_t maps = 0;          // radiance and surround maps chosen
   std::uint64_t points = 0;        // of them

@@ -2,10 +2,34 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace oriel {
 
-std::vector<DrawRange> sorted_ranges(const Mesh& mesh, std::vector<std::uint32_t>& indices) {
+namespace {
+
+// The runs of a part; it alone, of no group, where there are none. starts: of the runs in the mesh's indices.
+std::vector<TriangleRun> runs_of(const MeshPart& part, std::span<const TriangleRun> runs,
+                                 const std::vector<std::uint32_t>& starts) {
+  std::vector<TriangleRun> out;
+  const auto at = std::lower_bound(starts.begin(), starts.end(), part.first_index) - starts.begin();
+  std::uint32_t left = part.index_count;
+  for (auto i = static_cast<std::size_t>(at); left > 0 && i < runs.size(); ++i) {
+    out.push_back(runs[i]);
+    left -= std::min(left, runs[i].index_count);
+  }
+  if (out.empty()) out.push_back({part.index_count, DrawRange::kNoGroup});
+  return out;
+}
+
+}  // namespace
+
+std::vector<DrawRange> sorted_ranges(const Mesh& mesh, std::vector<std::uint32_t>& indices,
+                                     std::span<const TriangleRun> runs,
+                                     const std::function<bool(std::uint32_t)>& divided) {
+  std::vector<std::uint32_t> starts;
+  for (std::uint32_t start = 0; const TriangleRun& run : runs)
+    starts.push_back(std::exchange(start, start + run.index_count));
   std::vector<std::uint32_t> order(mesh.parts.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -17,15 +41,60 @@ std::vector<DrawRange> sorted_ranges(const Mesh& mesh, std::vector<std::uint32_t
   for (const std::uint32_t i : order) {
     const MeshPart& part = mesh.parts[i];
     if (part.index_count == 0) continue;
-    DrawRange range{
-        static_cast<std::uint32_t>(indices.size()), part.index_count, part.material, part.lightmap_page, {}};
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      indices.push_back(mesh.indices[part.first_index + k]);
-      range.bounds.extend(mesh.positions[indices.back()]);
+    const auto of_part = runs_of(part, divided(part.material) ? runs : std::span<const TriangleRun>(), starts);
+    for (std::uint32_t from = part.first_index; const TriangleRun& run : of_part) {
+      DrawRange range{static_cast<std::uint32_t>(indices.size()),
+                      run.index_count,
+                      part.material,
+                      part.lightmap_page,
+                      {},
+                      run.group};
+      for (const std::uint32_t end = from + run.index_count; from < end; ++from) {
+        indices.push_back(mesh.indices[from]);
+        range.bounds.extend(mesh.positions[indices.back()]);
+      }
+      ranges.push_back(range);
     }
-    ranges.push_back(range);
   }
   return ranges;
+}
+
+std::vector<DrawBatch> visible_batches(std::span<const DrawRange> ranges, const Frustum& frustum,
+                                       const SeenMask& seen) {
+  std::vector<DrawBatch> batches;
+  std::uint32_t end = 0;  // of the last range
+  for (const DrawRange& range : ranges) {
+    if (seen && range.group != DrawRange::kNoGroup && (*seen)[range.group] == 0) continue;
+    if (!may_be_visible(frustum, range.bounds)) continue;
+    if (batches.empty() || batches.back().material != range.material ||
+        batches.back().lightmap_page != range.lightmap_page)
+      batches.push_back({range.material, range.lightmap_page, {}, {}});
+    DrawBatch& batch = batches.back();
+    const auto count = static_cast<std::int32_t>(range.index_count);
+    if (!batch.counts.empty() && end == range.first_index) {
+      batch.counts.back() += count;
+    } else {
+      batch.counts.push_back(count);
+      batch.offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t{range.first_index} * sizeof(std::uint32_t)));
+    }
+    end = range.first_index + range.index_count;
+  }
+  return batches;
+}
+
+ShownTriangles gather_visible(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
+                              const Frustum& frustum, const SeenMask& seen) {
+  ShownTriangles shown{visible_batches(ranges, frustum, seen), {}};
+  for (DrawBatch& batch : shown.batches) {
+    const std::size_t first = shown.indices.size();
+    for (std::size_t i = 0; i < batch.counts.size(); ++i) {
+      const auto* from = indices.data() + reinterpret_cast<std::uintptr_t>(batch.offsets[i]) / sizeof(std::uint32_t);
+      shown.indices.insert(shown.indices.end(), from, from + batch.counts[i]);
+    }
+    batch.counts = {static_cast<std::int32_t>(shown.indices.size() - first)};
+    batch.offsets = {reinterpret_cast<const void*>(first * sizeof(std::uint32_t))};
+  }
+  return shown;
 }
 
 void upload_vertices(const Mesh& mesh, std::vector<gpu::Buffer>& buffers) {

@@ -64,7 +64,11 @@ bool GpuScene::is_transparent(std::uint32_t material) const {
 void GpuScene::upload_geometry() {
   const Mesh& mesh = pack_.mesh;
   std::vector<std::uint32_t> indices;
-  for (const DrawRange& range : sorted_ranges(mesh, indices)) {
+  // See-through parts are sorted by distance: they stay whole.
+  const bool known = made_for(pack_.visible_sets, mesh, pack_.walk_grids);
+  if (known) seen_groups_ = SeenGroups(pack_.visible_sets, pack_.walk_grids);
+  const auto divided = [&](std::uint32_t material) { return known && !is_transparent(material); };
+  for (const DrawRange& range : sorted_ranges(mesh, indices, pack_.visible_sets.runs, divided)) {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
@@ -73,10 +77,20 @@ void GpuScene::upload_geometry() {
   make_curved_reflectors(indices);
 
   vertex_array_ = gpu::make_vertex_array();
-  bind_geometry();
+  glBindVertexArray(vertex_array_.name());
   upload_vertices(mesh, buffers_);
-  buffers_.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
+  index_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
+  if (known) indices_ = std::move(indices);
+}
+
+std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& seen) {
+  shown_buffer_.reset();
+  if (!seen) return visible_batches(opaque_, frustum);
+  ShownTriangles shown = gather_visible(opaque_, indices_, frustum, seen);
+  glBindVertexArray(vertex_array_.name());
+  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
+  return std::move(shown.batches);
 }
 
 void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
@@ -127,7 +141,8 @@ void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {
                       static_cast<std::uint32_t>(found.indices.size()),
                       part.material,
                       part.lightmap_page,
-                      {}};
+                      {},
+                      DrawRange::kNoGroup};
       for (const std::uint32_t index : found.indices) range.bounds.extend(pack_.mesh.positions[index]);
       indices.insert(indices.end(), found.indices.begin(), found.indices.end());
       ranges.push_back(range);

@@ -67,6 +67,8 @@ class GpuScene {
   const std::vector<DrawRange>& transparent() const { return transparent_; }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
   const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
+  // What an eye there may see of groups of opaque triangles; nothing where the pack does not know.
+  SeenMask seen_from(const Vec3& eye) const { return seen_groups_.from(eye); }
   // The opaque triangles of one of Pack::emitters.
   const std::vector<DrawRange>& emitter(std::uint32_t index) const { return emitters_[index]; }
   const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
@@ -75,7 +77,17 @@ class GpuScene {
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
   void use_mipmaps(bool on);
 
-  void bind_geometry() const { glBindVertexArray(vertex_array_.name()); }
+  void bind_geometry() const {
+    glBindVertexArray(vertex_array_.name());
+    index_buffer_.bind(GL_ELEMENT_ARRAY_BUFFER);
+  }
+  // The opaque triangles in the frustum, without groups that are not seen; uploads their indices. For draws after
+  // bind_shown(), until the next call.
+  std::vector<DrawBatch> show(const Frustum& frustum, const SeenMask& seen);
+  void bind_shown() const {
+    glBindVertexArray(vertex_array_.name());
+    (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
+  }
   // White where index is -1.
   const gpu::Texture& albedo(std::int32_t index) const;
   // Of Pack::normal_textures; one that tilts nothing where index is -1.
@@ -110,6 +122,7 @@ class GpuScene {
   std::shared_ptr<const DeferredMaps> deferred_;  // null: all pixels are in pack_
   std::vector<bool> loaded_;                      // by reflector
   std::uint64_t serial_ = 0;
+  SeenGroups seen_groups_;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
   std::vector<std::vector<DrawRange>> emitters_;
@@ -119,6 +132,9 @@ class GpuScene {
   std::vector<GpuMover> movers_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
+  gpu::Buffer index_buffer_;
+  std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
+  std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
   std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;
   std::vector<LightmapTexture> lightmaps_;
   gpu::Texture white_, flat_, reflectance_tables_;

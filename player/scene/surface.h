@@ -41,6 +41,19 @@ inline void draw_indices(std::uint32_t first, std::uint32_t count, FrameStats& s
   stats.triangles += count / 3;
 }
 
+inline void draw_batch(const DrawBatch& batch, FrameStats& stats) {
+  // OpenGL ES has no call for several ranges.
+  if (batch.counts.size() == 1 || !epoxy_is_desktop_gl()) {
+    for (std::size_t i = 0; i < batch.counts.size(); ++i)
+      glDrawElements(GL_TRIANGLES, batch.counts[i], GL_UNSIGNED_INT, batch.offsets[i]);
+  } else {
+    glMultiDrawElements(GL_TRIANGLES, batch.counts.data(), GL_UNSIGNED_INT, batch.offsets.data(),
+                        static_cast<GLsizei>(batch.counts.size()));
+  }
+  ++stats.draws;
+  for (const std::int32_t count : batch.counts) stats.triangles += static_cast<std::uint64_t>(count) / 3;
+}
+
 // Albedo, reflectance, emission and normal map. normal_mapped: the mesh has coordinates for normal maps.
 inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
                         bool normal_mapped) {

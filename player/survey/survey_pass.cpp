@@ -12,7 +12,8 @@ Result<SurveyPass> SurveyPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void SurveyPass::draw(const GpuScene& scene, const View& view, Show show, FrameStats& stats) {
+void SurveyPass::draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show,
+                      FrameStats& stats) {
   if (painted_ != show || scene_ != scene.serial()) {
     pages_.clear();
     for (const LightmapPage& page : scene.pack().lightmaps) {
@@ -26,19 +27,19 @@ void SurveyPass::draw(const GpuScene& scene, const View& view, Show show, FrameS
   program_.set("u_clip_from_pack", view.clip_from_pack);
   program_.set("u_base_texture", kBaseUnit);
   program_.set("u_survey", kLightmapUnit);
-  scene.bind_geometry();
+  scene.bind_shown();
   gpu::RasterState state;
   state.depth_test = true;
-  for (const DrawRange& range : scene.opaque()) {
-    const Material& m = scene.pack().materials[range.material];
+  for (const DrawBatch& batch : shown) {
+    const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
     gpu::apply(state);
     program_.set("u_alpha", m.alpha);
     program_.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    program_.set("u_surveyed", range.lightmap_page >= 0 ? 1 : 0);
-    if (range.lightmap_page >= 0) pages_[static_cast<std::size_t>(range.lightmap_page)].bind(kLightmapUnit);
-    draw_indices(range.first_index, range.index_count, stats);
+    program_.set("u_surveyed", batch.lightmap_page >= 0 ? 1 : 0);
+    if (batch.lightmap_page >= 0) pages_[static_cast<std::size_t>(batch.lightmap_page)].bind(kLightmapUnit);
+    draw_batch(batch, stats);
   }
 }
 

@@ -12,9 +12,9 @@ class SurveyPass {
  public:
   static Result<SurveyPass> create(gpu::Dialect dialect);
 
-  // Opaque surfaces over their depth, in the colours of `show`; those without a lightmap are grey. Colours are kept
-  // until another `show` or scene is asked for.
-  void draw(const GpuScene& scene, const View& view, Show show, FrameStats& stats);
+  // Opaque surfaces, what of them is shown, over their depth, in the colours of `show`; those without a lightmap are
+  // grey. Colours are kept until another `show` or scene is asked for.
+  void draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show, FrameStats& stats);
 
  private:
   gpu::Program program_;

@@ -4,7 +4,11 @@
 uniform sampler2D u_lightmap;
 uniform float u_lightmap_scale;  // lux; 0: nothing was baked
 uniform sampler2D u_direction;   // of a directional lightmap
+#ifdef PLAIN
+const bool u_directional = false;
+#else
 uniform bool u_directional;
+#endif
 
 in vec2 v_lightmap_uv;
 

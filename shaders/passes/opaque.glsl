@@ -1,11 +1,17 @@
 // The light of an opaque surface. To be included after irradiance_here(normal), lux.
 uniform sampler2D u_base_texture;
 uniform vec4 u_base_color;
+#ifdef PLAIN
+const float u_alpha_cutoff = -1.0;
+const bool u_unlit = false;
+const int u_alpha_kind = 0;
+#else
 uniform float u_alpha_cutoff;  // negative: no cut-outs
+uniform bool u_unlit;
+uniform int u_alpha_kind;  // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
+#endif
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
 uniform vec3 u_emission;        // cd/m2
-uniform bool u_unlit;
-uniform int u_alpha_kind;    // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
 uniform vec4 u_depth_row;    // depth of a point of pack space = dot(row, point)
 uniform float u_closest;     // least 1 / distance that is stored
 uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1

@@ -4,7 +4,11 @@
 
 uniform sampler2D u_change;  // BrightChange: what movers block, and where
 uniform usampler2D u_surfaces;
+#ifdef PLAIN
+const vec2 u_change_scale = vec2(0.0);
+#else
 uniform vec2 u_change_scale;  // of its size over the frame's; 0: nothing is blocked
+#endif
 
 vec3 irradiance_here(vec3 normal) {
   vec3 irradiance = irradiance_on(normal);

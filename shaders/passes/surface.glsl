@@ -6,7 +6,11 @@
 uniform vec4 u_eye;
 uniform sampler2D u_normal_texture;
 uniform float u_normal_scale;
+#ifdef PLAIN  // a program of its own for what most surfaces are: software rasterisers run every branch
+const bool u_normal_mapped = false;
+#else
 uniform bool u_normal_mapped;
+#endif
 uniform sampler2D u_reflectance;
 uniform int u_reflectance_row;  // -1: reflects nothing
 uniform int u_reflectance_count;

@@ -223,6 +223,17 @@ TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
   expect_refusal(with_record(kSplitSection, [](SectionRecord& r) { r.count = 2; }), split + "found 2 elements");
 }
 
+TEST(Hostile, VisibleSets) {
+  const std::string sets = "section PVIS (visible sets): ";
+  expect_refusal(with_raw(kVisibleSetsSection, 0, 0u), sets + "found 0 groups of triangles, expected 1 to 65536");
+  expect_refusal(with_raw(kVisibleSetsSection, 0, ~0u), sets + "found 4294967295 groups");
+  expect_refusal(with_raw(kVisibleSetsSection, 0, 65536u), sets + "its counts need more");
+  expect_refusal(with_raw(kVisibleSetsSection, 4, ~0u), sets + "its counts need more");
+  expect_refusal(with_raw(kVisibleSetsSection, 8, 0u), sets + "found eye cells of 0 walk cells a side");
+  expect_refusal(with_raw(kVisibleSetsSection, 20, ~0u), sets + "its counts need more");
+  expect_refusal(with_raw(kVisibleSetsSection, 20, 2u), sets + "holds 1 bytes more");
+}
+
 TEST(Hostile, WhatReflectionsNeed) {
   const std::string walk = "section WALK (walk grids): ", emitters = "section EMIT (emitters): ",
                     parts = "section REMT (emitters by reflector): ", fits = "section KLTC (kernels as cosines): ",

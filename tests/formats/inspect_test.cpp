@@ -113,6 +113,7 @@ TEST_F(Inspect, InfoForPeople) {
   for (const char* text : {"format version 1", "4 triangles", "LMAP lightmap page", "XTRA unknown", "lightmap 0: 8 x 4",
                            "reflector 0: 'floor'", "radiance map 1: 6 x 4", "2 emitters in closed form",
                            "bytes a pixel as stored", "walk grid 1: 1 x 1 cells of 1 m, 1 m2 walkable", "camera 'door'",
+                           "visible sets: 2 groups of triangles in 3 runs, 3 eye cells of 2 x 2 walk cells, 66.7 %",
                            "mover 'door': 2 triangles", "light field: 1 x 1 x 1 cells, 7 of 8 probes", "\"seed\": 7"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
@@ -133,7 +134,10 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["emitters"][1]["corners"].size(), 3u);
   EXPECT_EQ(json["reflectors"][0]["emitters"], (std::vector<int>{1, 0}));
   EXPECT_EQ(json["walk_grids"][0]["walkable_m2"], 1);
-  EXPECT_EQ(json["sections"].size(), 31u);
+  EXPECT_EQ(json["visible_sets"]["eye_cells"], 3);
+  EXPECT_NEAR(json["visible_sets"]["seen_share"].get<double>(), 4.0 / 6, 1e-12);
+  EXPECT_EQ(json["visible_sets"]["made_for_this"], true);
+  EXPECT_EQ(json["sections"].size(), 32u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 

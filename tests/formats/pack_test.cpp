@@ -182,6 +182,17 @@ TEST(Pack, WhatReflectionsNeedComesBack) {
   EXPECT_EQ(grid.eye(4), Vec3(-1.25f, 0.6f, -1.25f));
 }
 
+TEST(Pack, VisibleSetsComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  const VisibleSets &a = in.visible_sets, &b = out.visible_sets;
+  EXPECT_EQ(std::tie(b.groups, b.side, b.below_m, b.above_m), std::tie(a.groups, a.side, a.below_m, a.above_m));
+  ASSERT_EQ(b.runs.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(std::tie(b.runs[i].index_count, b.runs[i].group), std::tie(a.runs[i].index_count, a.runs[i].group));
+  EXPECT_EQ(b.seen, a.seen);
+  EXPECT_TRUE(made_for(b, out.mesh, out.walk_grids));
+}
+
 TEST(Pack, CurvedReflectorsComeBack) {
   const Pack in = tiny_mapped_pack(), out = round_trip(in);
   ASSERT_EQ(out.curved_reflectors.size(), 1u);

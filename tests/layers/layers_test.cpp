@@ -29,17 +29,19 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = plus(core, {"formats/sh"});
   m["formats/camera"] = m["formats/lobes"] = assets;
-  m["formats/motion"] = assets;                              // where movers stand
-  m["formats/light"] = assets;                               // baked light at a point, for baker and player
-  m["formats/pack/encoding"] = core;                         // bytes and numbers apart from what they mean
-  m["formats/pack/rules"] = plus(assets, {"formats/pack"});  // the parts of validate()
-  m["formats/pack/sections"] = plus(assets, {"formats/pack", "formats/pack/encoding"});  // what lies inside each
-  m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules"});
+  m["formats/motion"] = assets;       // where movers stand
+  m["formats/light"] = assets;        // baked light at a point, for baker and player
+  m["formats/visibility"] = assets;   // what is seen from where
+  m["formats/pack/encoding"] = core;  // bytes and numbers apart from what they mean
+  m["formats/pack/rules"] = plus(assets, {"formats/pack", "formats/visibility"});  // the parts of validate()
+  m["formats/pack/sections"] =
+      plus(assets, {"formats/pack", "formats/pack/encoding", "formats/visibility"});  // what lies inside each
+  m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/visibility"});
   m["formats/diff"] = plus(assets, {"formats/pack"});  // two packs beside each other
   m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
   m["formats/export"] = plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/metrics"});
-  m["formats/inspect"] =
-      plus(assets, {"formats/diff", "formats/export", "formats/pack", "formats/image", "formats/report"});
+  m["formats/inspect"] = plus(assets, {"formats/diff", "formats/export", "formats/pack", "formats/image",
+                                       "formats/report", "formats/visibility"});
   m["bake/jobs"] = core;
   m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
@@ -63,10 +65,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
-  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
-  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});             // where eyes can be
+  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});                   // shiny surfaces that no plane holds
+  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});                 // what maps leave out
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});                     // which viewpoints
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});                            // where eyes can be
+  m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});  // what eyes see
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
@@ -74,10 +77,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
-  m["bake/run"] =
-      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
-                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                   "bake/radiance/plan", "bake/walk", "formats/motion", "formats/pack", "formats/image"});
+  m["bake/run"] = plus(
+      stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
+              "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters", "bake/radiance/plan",
+              "bake/visibility", "bake/walk", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
   m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
@@ -96,8 +99,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
   m["player/textures"] = assets;
   m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "player/maps",
-                                              "player/textures", "player/view"});
+  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "formats/visibility",
+                                              "player/maps", "player/textures", "player/view"});
   m["player/paths"] = plus(assets, {"formats/camera"});  // walks: files, recorded, smoothed
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves

@@ -77,6 +77,10 @@ TEST(Programs, CompileInBothDialects) {
       const auto program = gpu::Program::create(name, dialect);
       EXPECT_TRUE(program) << program.error().text();
     }
+    for (const char* name : {"scene", "depth"}) {
+      const auto program = gpu::Program::create(name, dialect, "PLAIN");
+      EXPECT_TRUE(program) << program.error().text();
+    }
   }
 }
 

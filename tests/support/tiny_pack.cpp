@@ -278,6 +278,15 @@ Pack tiny_mapped_pack() {
   pack.curved_reflectors = {{"wall", 1, 0, {4, 5, 6}}};
   pack.surround_maps = {
       {{0, 1, -1}, 2, {{1, 0.5f, 0}, {8, 4, 2}, {0, 0, 0}, {0.25f, 3, 1}}, {2, 0, 1, 0.5f}, {1, 2, 0, 1}}};
+  // The first grid has two eye cells, the second one.
+  VisibleSets& sets = pack.visible_sets;
+  sets.groups = 2;
+  sets.runs = {{6, 1}, {3, 0}, {3, 1}};
+  sets.side = 2;
+  sets.below_m = 0.5f;
+  sets.above_m = 0.25f;
+  sets.seen = {3, 1, 2};
+  sets.made_for = visibility_hash(pack.mesh, pack.walk_grids);
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   return pack;

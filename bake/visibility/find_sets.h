@@ -1,0 +1,34 @@
+// Potentially visible sets by sampled sight lines: docs/visibility.md tells how and what may be missed.
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/trace/accel.h"
+#include "formats/visibility/visible_sets.h"
+
+namespace oriel {
+
+struct VisibilityOptions {
+  float cell_m = 1;  // side of an eye cell; a whole number of walk cells, more where there would be too many
+  std::uint32_t most_cells = 4096;
+  std::uint32_t group_triangles = 256;  // of a group at most; more where there would be too many
+  std::uint32_t most_groups = 4096;
+  std::uint32_t first_lines = 64;                      // from a cell to a group, at first
+  std::uint32_t least_lines = 128, most_lines = 1024;  // from a cell to a group that may be seen though those missed it
+};
+
+// group: by scene triangle, below `groups`.
+struct GroupedScene {
+  const Accel& accel;
+  std::span<const std::uint32_t> group;
+  std::uint32_t groups = 0;
+};
+
+// Walk cells along each side of an eye cell.
+std::uint32_t eye_cell_side(std::span<const WalkGrid> grids, const VisibilityOptions& options);
+
+// Sets as VisibleSets::seen, for eye cells of `side` walk cells. Adds to `rays`. Error kStopped.
+Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, std::span<const WalkGrid> grids,
+                                                    std::uint32_t side, const VisibilityOptions& options,
+                                                    Context& context, std::uint64_t& rays);
+
+}  // namespace oriel
