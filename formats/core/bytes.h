@@ -73,6 +73,13 @@ class ByteReader {
     at_ += count * sizeof(T);
     return values;
   }
+  // The next bytes as they lie; empty, with ok() false, where fewer are left.
+  std::span<const std::byte> get_span(std::uint64_t bytes) {
+    if (bytes > remaining()) ok_ = false;
+    if (!ok_) return {};
+    at_ += bytes;
+    return bytes_.subspan(at_ - bytes, bytes);
+  }
   std::string get_string() {
     const auto length = get<std::uint32_t>();
     const auto chars = get_array<char>(length);

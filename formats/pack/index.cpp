@@ -117,9 +117,16 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
   for (std::uint32_t i = 0; i < header.section_count; ++i) {
     const auto record = load<SectionRecord>(file, sizeof(FileHeader) + i * sizeof(SectionRecord));
     const std::uint64_t nth = seen[record.kind]++;
-    SectionInfo section{record.kind,   record.codec,        (record.flags & kSectionOptional) != 0,
-                        record.offset, record.stored_bytes, record.raw_bytes,
-                        record.count,  record.checksum,     section_label(record.kind, nth)};
+    SectionInfo section{record.kind,
+                        record.codec,
+                        (record.flags & kSectionOptional) != 0,
+                        record.offset,
+                        record.stored_bytes,
+                        record.raw_bytes,
+                        record.count,
+                        record.checksum,
+                        nth,
+                        section_label(record.kind, nth)};
     if ((record.flags & ~kSectionOptional) != 0 || record.reserved0 != 0 || record.reserved1 != 0)
       return invalid(section.label, "found reserved bits that are not zero");
     ORIEL_TRY_VOID(check_kind(section, nth));
@@ -158,6 +165,13 @@ Status check_section(std::span<const std::byte> file, const SectionInfo& section
 
 namespace {
 
+// Of this thread: making one for each section takes as long as reading a small one.
+ZSTD_DCtx* decompressor() {
+  thread_local const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  return context.get();
+}
+
 // Whether the stored bytes are one zstd frame of the section's size.
 Status check_frame(std::span<const std::byte> stored, const SectionInfo& section) {
   if (section.codec != static_cast<std::uint32_t>(Codec::kZstd))
@@ -185,7 +199,7 @@ Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInf
     return raw;
   }
   ORIEL_TRY_VOID(check_frame(stored, section));
-  const std::size_t n = ZSTD_decompress(raw.data.get(), raw.size, stored.data(), stored.size());
+  const std::size_t n = ZSTD_decompressDCtx(decompressor(), raw.data.get(), raw.size, stored.data(), stored.size());
   if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
   if (n != raw.size) return invalid(section.label, "decompressed to {} bytes, expected {}", n, raw.size);
   return raw;
@@ -199,13 +213,16 @@ Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& s
     return head;
   }
   ORIEL_TRY_VOID(check_frame(stored, section));
-  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
-  if (!context) throw std::bad_alloc();
-  ZSTD_inBuffer in{stored.data(), stored.size(), 0};
+  ZSTD_DCtx* context = decompressor();
+  ZSTD_DCtx_reset(context, ZSTD_reset_session_only);
+  // No more is given at once than the decoder asks for: it would begin with the block behind what is wanted.
+  ZSTD_inBuffer in{stored.data(), 0, 0};
   ZSTD_outBuffer out{head.data(), head.size(), 0};
-  while (out.pos < out.size) {
-    const std::size_t before = in.pos + out.pos, n = ZSTD_decompressStream(context.get(), &out, &in);
-    if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
+  for (std::size_t asked = 1; out.pos < out.size;) {
+    in.size = std::min(in.size + asked, stored.size());
+    const std::size_t before = in.pos + out.pos;
+    asked = ZSTD_decompressStream(context, &out, &in);
+    if (ZSTD_isError(asked)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(asked));
     if (in.pos + out.pos == before)
       return invalid(section.label, "decompressed to {} bytes, expected {}", out.pos, out.size);
   }

@@ -16,7 +16,8 @@ struct SectionInfo {
   std::uint32_t kind = 0, codec = 0;
   bool optional = false;
   std::uint64_t offset = 0, stored_bytes = 0, raw_bytes = 0, count = 0, checksum = 0;
-  std::string label;  // "section LMAP 2 (lightmap page)"
+  std::uint64_t nth = 0;  // among those of its kind
+  std::string label;      // "section LMAP 2 (lightmap page)"
 };
 
 struct PackIndex {

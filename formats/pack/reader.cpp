@@ -1,12 +1,14 @@
 #include "formats/pack/reader.h"
 
+#include <mutex>
 #include <new>
 #include <stdexcept>
 
+#include "formats/core/parallel.h"
 #include "formats/pack/deferred.h"
 #include "formats/pack/fields.h"
+#include "formats/pack/parts.h"
 #include "formats/pack/rules/issues.h"
-#include "formats/pack/sections.h"
 #include "formats/pack/validate.h"
 
 namespace oriel {
@@ -44,19 +46,16 @@ Status decode_text(ByteReader& in, const SectionInfo& section, std::string& text
   return check_end(in, section);
 }
 
-// A pack, and what waits for the sections that it belongs to.
-struct Parts {
-  Pack pack;
-  std::vector<DirectionPage> directions;
-  std::vector<NormalMapping> normal_mapping;
-  std::vector<KernelSlices> kernel_slices;
-  std::vector<KernelFits> kernel_fits;
-  std::vector<FresnelFactor> fresnel_factors;
-  std::vector<ResidualMap> residuals;
-  std::vector<ReflectorEmitters> reflector_emitters;
-};
+// The element of a section that holds one, at its place among those of its kind.
+template <class T>
+Status decode_one(ByteReader& in, const SectionInfo& section, std::vector<T>& elements) {
+  T& element = elements[section.nth];
+  if (auto status = decode(in, element); !status && in.ok())
+    return invalid(section.label, "element 0: {}", status.error().message);
+  return check_end(in, section);
+}
 
-Status decode_section(std::span<const std::byte> file, const SectionInfo& section, Parts& parts) {
+Status decode_section(std::span<const std::byte> file, const SectionInfo& section, PackParts& parts) {
   Pack& pack = parts.pack;
   ORIEL_TRY(const RawBytes raw, section_bytes(file, section));
   ByteReader in(raw.span());
@@ -78,24 +77,24 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
     case kMaterialSection:
       return decode_list(in, section, pack.materials);
     case kTextureSection:
-      return decode_list(in, section, pack.textures);
+      return decode_one(in, section, pack.textures);
     case kLightmapSection:
-      return decode_list(in, section, pack.lightmaps);
+      return decode_one(in, section, pack.lightmaps);
     case kDirectionSection:
-      return decode_list(in, section, parts.directions);
+      return decode_one(in, section, parts.directions);
     case kNormalTextureSection:
-      return decode_list(in, section, pack.normal_textures);
+      return decode_one(in, section, pack.normal_textures);
     case kNormalMappingSection:
       ORIEL_TRY_VOID(one_element_only(section));
       return decode_list(in, section, parts.normal_mapping);
     case kReflectorSection:
       return decode_list(in, section, pack.reflectors);
     case kRadianceMapSection:
-      return decode_list(in, section, pack.radiance_maps);
+      return decode_one(in, section, pack.radiance_maps);
     case kCurvedReflectorSection:
       return decode_list(in, section, pack.curved_reflectors);
     case kSurroundMapSection:
-      return decode_list(in, section, pack.surround_maps);
+      return decode_one(in, section, pack.surround_maps);
     case kKernelSection:
       return decode_list(in, section, pack.kernels);
     case kKernelSliceSection:
@@ -116,7 +115,7 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
         return invalid(section.label, "{}", status.error().message);
       return check_end(in, section);
     case kMoverSection:
-      return decode_list(in, section, pack.movers);
+      return decode_one(in, section, pack.movers);
     case kLightFieldSection:
       ORIEL_TRY_VOID(one_element_only(section));
       if (auto status = decode(in, pack.light_field); !status && in.ok())
@@ -140,129 +139,55 @@ Status decode_section(std::span<const std::byte> file, const SectionInfo& sectio
   }
 }
 
-Status attach(DirectionPage& from, std::uint64_t nth, Pack& pack) {
-  const std::string label = section_label(kDirectionSection, nth);
-  if (from.page >= pack.lightmaps.size())
-    return invalid(label, "found lightmap page {}, expected less than {}", from.page, pack.lightmaps.size());
-  LightmapPage& page = pack.lightmaps[from.page];
-  if (from.width != page.width || from.height != page.height)
-    return invalid(label, "found {} x {} texels, expected page {}'s {} x {}", from.width, from.height, from.page,
-                   page.width, page.height);
-  if (!page.direction.empty()) return invalid(label, "page {} has directions already, expected one section", from.page);
-  page.direction = std::move(from.direction);
-  return {};
-}
-
-Status attach(NormalMapping& from, Pack& pack) {
-  const std::string label = section_label(kNormalMappingSection, 0);
-  for (const NormalMapping::Use& use : from.uses) {
-    if (use.material >= pack.materials.size())
-      return invalid(label, "found material {}, expected less than {}", use.material, pack.materials.size());
-    Material& material = pack.materials[use.material];
-    if (material.normal_texture >= 0) return invalid(label, "material {} is there twice, expected once", use.material);
-    if (use.normal_texture < 0) return invalid(label, "found normal texture {}, expected 0 up", use.normal_texture);
-    material.normal_texture = use.normal_texture;
-    material.normal_scale = use.normal_scale;
-  }
-  pack.mesh.normal_uvs = std::move(from.uvs);
-  pack.mesh.tangents = std::move(from.tangents);
-  return {};
-}
-
-Status attach(KernelSlices& from, Pack& pack) {
-  const std::string label = section_label(kKernelSliceSection, 0);
-  if (from.kernel >= pack.kernels.size())
-    return invalid(label, "found kernel {}, expected less than {}", from.kernel, pack.kernels.size());
-  BrdfKernel& kernel = pack.kernels[from.kernel];
-  if (!kernel.slices.empty()) return invalid(label, "kernel {} is there twice, expected once", from.kernel);
-  kernel.slice_size = from.size;
-  kernel.slices = std::move(from.slices);
-  return {};
-}
-
-Status attach(KernelFits& from, Pack& pack) {
-  const std::string label = section_label(kKernelFitSection, 0);
-  if (from.kernel >= pack.kernels.size())
-    return invalid(label, "found kernel {}, expected less than {}", from.kernel, pack.kernels.size());
-  BrdfKernel& kernel = pack.kernels[from.kernel];
-  if (!kernel.fits.empty()) return invalid(label, "kernel {} is there twice, expected once", from.kernel);
-  kernel.fits = std::move(from.fits);
-  return {};
-}
-
-Status attach(FresnelFactor& from, Pack& pack) {
-  const std::string label = section_label(kFresnelFactorSection, 0);
-  if (from.map >= pack.fresnel_maps.size())
-    return invalid(label, "found Fresnel map {}, expected less than {}", from.map, pack.fresnel_maps.size());
-  FresnelMap& map = pack.fresnel_maps[from.map];
-  if (!map.factor.empty()) return invalid(label, "Fresnel map {} is there twice, expected once", from.map);
-  map.factor = std::move(from.factor);
-  return {};
-}
-
-Status attach(const ResidualMap& from, Pack& pack) {
-  const std::string label = section_label(kResidualSection, 0);
-  if (from.map >= pack.radiance_maps.size())
-    return invalid(label, "found radiance map {}, expected less than {}", from.map, pack.radiance_maps.size());
-  RadianceMap& map = pack.radiance_maps[from.map];
-  if (map.residual) return invalid(label, "radiance map {} is there twice, expected once", from.map);
-  map.residual = true;
-  return {};
-}
-
-Status attach(ReflectorEmitters& from, Pack& pack) {
-  const std::string label = section_label(kReflectorEmitterSection, 0);
-  if (from.reflector >= pack.reflectors.size())
-    return invalid(label, "found reflector {}, expected less than {}", from.reflector, pack.reflectors.size());
-  Reflector& reflector = pack.reflectors[from.reflector];
-  if (!reflector.emitters.empty()) return invalid(label, "reflector {} is there twice, expected once", from.reflector);
-  reflector.emitters = std::move(from.emitters);
-  reflector.visibility_x = from.width;
-  reflector.visibility_y = from.height;
-  reflector.visibility = std::move(from.visibility);
-  return {};
-}
-
 // A radiance map without its pixels.
 Status decode_without_pixels(std::span<const std::byte> file, const SectionInfo& section, Pack& pack) {
   ORIEL_TRY_VOID(check_section(file, section));
   ORIEL_TRY(const Bytes head, section_head(file, section, kRadianceMapPlaceBytes));
   ByteReader in(head);
-  RadianceMap map;
+  RadianceMap& map = pack.radiance_maps[section.nth];
   RadianceMapScale scale;
   if (auto status = decode_place(in, map, scale); !status && in.ok())
     return invalid(section.label, "element 0: {}", status.error().message);
   const std::uint64_t expected = kRadianceMapPlaceBytes + std::uint64_t{7} * map.width * map.height;
   if (!in.ok() || section.raw_bytes != expected)
     return invalid(section.label, "found {} bytes, expected the {} of its pixels", section.raw_bytes, expected);
-  pack.radiance_maps.push_back(std::move(map));
   return {};
 }
 
+// A section that may be decoded beside others.
+Status decode_known(std::span<const std::byte> file, const SectionInfo& section, MapPixels pixels, PackParts& parts) {
+  if (section.kind == kRadianceMapSection && pixels == MapPixels::kDeferred)
+    return decode_without_pixels(file, section, parts.pack);
+  return find_section_kind(section.kind) ? decode_section(file, section, parts) : check_section(file, section);
+}
+
+// The error of the first section in the file that has one, whatever was decoded first.
+Status decode_known(std::span<const std::byte> file, const PackIndex& index, MapPixels pixels, PackParts& parts) {
+  constexpr std::size_t kSmall = 1 << 20;  // bytes that take less time than starting a thread
+  std::mutex of_first;
+  std::size_t first = index.sections.size();
+  Status error;
+  for_each_parallel(index.sections.size(), file.size() < kSmall ? 1 : core_count(), [&](std::size_t i) {
+    if (const std::lock_guard lock(of_first); i > first) return;
+    Status status = decode_known(file, index.sections[i], pixels, parts);
+    if (status) return;
+    const std::lock_guard lock(of_first);
+    if (i < first) first = i, error = std::move(status);
+  });
+  return error;
+}
+
 Result<Pack> decode_all(std::span<const std::byte> file, const PackIndex& index, MapPixels pixels) {
-  Parts parts;
+  PackParts parts(index);
   Pack& pack = parts.pack;
+  ORIEL_TRY_VOID(decode_known(file, index, pixels, parts));
   for (const auto& section : index.sections) {
-    if (section.kind == kRadianceMapSection && pixels == MapPixels::kDeferred) {
-      ORIEL_TRY_VOID(decode_without_pixels(file, section, pack));
-      continue;
-    }
-    if (find_section_kind(section.kind)) {
-      ORIEL_TRY_VOID(decode_section(file, section, parts));
-      continue;
-    }
-    ORIEL_TRY_VOID(check_section(file, section));
+    if (find_section_kind(section.kind)) continue;
     const auto stored = stored_bytes(file, section);
     pack.unknown.push_back(
         {section.kind, section.codec, section.raw_bytes, section.count, Bytes(stored.begin(), stored.end())});
   }
-  for (std::size_t i = 0; i < parts.directions.size(); ++i) ORIEL_TRY_VOID(attach(parts.directions[i], i, pack));
-  for (KernelSlices& slices : parts.kernel_slices) ORIEL_TRY_VOID(attach(slices, pack));
-  for (KernelFits& fits : parts.kernel_fits) ORIEL_TRY_VOID(attach(fits, pack));
-  for (FresnelFactor& factor : parts.fresnel_factors) ORIEL_TRY_VOID(attach(factor, pack));
-  for (const ResidualMap& residual : parts.residuals) ORIEL_TRY_VOID(attach(residual, pack));
-  for (ReflectorEmitters& part : parts.reflector_emitters) ORIEL_TRY_VOID(attach(part, pack));
-  for (NormalMapping& mapping : parts.normal_mapping) ORIEL_TRY_VOID(attach(mapping, pack));
+  ORIEL_TRY_VOID(attach(parts));
   return std::move(parts.pack);
 }
 
@@ -296,8 +221,9 @@ Result<Pack> decode_valid(std::span<const std::byte> file, const PackIndex& inde
   return pack;
 }
 
-Result<RadianceMap> decode_map(std::span<const std::byte> file, const SectionInfo& section, std::size_t map) {
-  Parts parts;
+Result<RadianceMap> decode_map(std::span<const std::byte> file, SectionInfo section, std::size_t map) {
+  section.nth = 0;
+  PackParts parts({0, 0, {section}});
   ORIEL_TRY_VOID(decode_section(file, section, parts));
   IssueList list;
   list.in_section(kRadianceMapSection, map);

@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "formats/core/check.h"
@@ -26,11 +27,18 @@ Compressor make_compressor() {
   return compressor;
 }
 
-Bytes compressed(std::span<const std::byte> raw) {
-  Bytes stored(ZSTD_compressBound(raw.size()));
-  const std::size_t n = ZSTD_compress2(make_compressor().get(), stored.data(), stored.size(), raw.data(), raw.size());
-  ORIEL_CHECK(!ZSTD_isError(n));
-  stored.resize(n);
+// The first `head` bytes are a block of their own.
+Bytes compressed(std::span<const std::byte> raw, std::size_t head) {
+  Bytes stored(ZSTD_compressBound(raw.size()) + head);
+  const Compressor compressor = make_compressor();
+  // The frame states its content's size.
+  ORIEL_CHECK(!ZSTD_isError(ZSTD_CCtx_setPledgedSrcSize(compressor.get(), raw.size())));
+  ZSTD_inBuffer in{raw.data(), std::min(head, raw.size()), 0};
+  ZSTD_outBuffer out{stored.data(), stored.size(), 0};
+  if (in.size > 0) ORIEL_CHECK_EQ(ZSTD_compressStream2(compressor.get(), &out, &in, ZSTD_e_flush), 0u);
+  in.size = raw.size();
+  ORIEL_CHECK_EQ(ZSTD_compressStream2(compressor.get(), &out, &in, ZSTD_e_end), 0u);
+  stored.resize(out.pos);
   return stored;
 }
 
@@ -78,8 +86,8 @@ Status PackStream::end() {
   return {};
 }
 
-Status PackStream::add(std::uint32_t kind, std::uint64_t count, std::span<const std::byte> raw) {
-  Bytes packed = compressed(raw);
+Status PackStream::add(std::uint32_t kind, std::uint64_t count, std::span<const std::byte> raw, std::size_t head) {
+  Bytes packed = compressed(raw, head);
   // Bytes that do not shrink are stored as they are. The other bound is the reader's, against decompression bombs.
   const bool shrinks = packed.size() < raw.size() && raw.size() / kMaxExpansion <= packed.size();
   SectionRecord record{};

@@ -28,8 +28,9 @@ class PackStream {
   PackStream(const PackStream&) = delete;
   PackStream& operator=(const PackStream&) = delete;
 
-  // A section, compressed unless that makes it longer. count: elements inside.
-  Status add(std::uint32_t kind, std::uint64_t count, std::span<const std::byte> raw);
+  // A section, compressed unless that makes it longer. count: elements inside. head: so many bytes at its beginning are
+  // to be had without decompressing more of it (section_head).
+  Status add(std::uint32_t kind, std::uint64_t count, std::span<const std::byte> raw, std::size_t head = 0);
   // raw_bytes of a section, piece by piece. The codec is the caller's choice, as it cannot be taken back.
   Status add(std::uint32_t kind, std::uint64_t count, Codec codec, std::uint64_t raw_bytes, const NextBytes& next);
   // A section as it was found.

@@ -17,10 +17,12 @@ namespace {
 class SectionList {
  public:
   void add(std::uint32_t kind, std::uint64_t count, std::function<void(ByteWriter&)> encode_raw) {
-    writers_.push_back([kind, count, encode_raw = std::move(encode_raw)](PackStream& stream) {
+    // Players read the places of all radiance maps, and the pixels of few.
+    const std::size_t head = kind == kRadianceMapSection ? kRadianceMapPlaceBytes : 0;
+    writers_.push_back([kind, count, head, encode_raw = std::move(encode_raw)](PackStream& stream) {
       ByteWriter out;
       encode_raw(out);
-      return stream.add(kind, count, out.bytes());
+      return stream.add(kind, count, out.bytes(), head);
     });
   }
   void add_text(std::uint32_t kind, const std::string& text) {

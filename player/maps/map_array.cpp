@@ -1,5 +1,9 @@
 #include "player/maps/map_array.h"
 
+#include <algorithm>
+
+#include "formats/core/parallel.h"
+
 namespace oriel {
 
 MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices) {
@@ -18,10 +22,19 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
   filtered.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   out.light = gpu::TextureArray(gpu::kRgb9e5, size.x, size.y, layers, filtered);
   out.ranges = gpu::TextureArray(gpu::kRg32f, range_size.x, 2 * range_size.y, layers);
+  struct Layer {
+    Relief relief;
+    LightLevels levels;
+  };
+  std::vector<Layer> made(indices.size());
+  // A map takes a few hundred bytes a pixel meanwhile: not too many at once.
+  for_each_parallel(made.size(), std::min<std::size_t>(core_count(), 4), [&](std::size_t layer) {
+    const RadianceMap& map = maps[indices[layer]];
+    made[layer] = {make_relief(map), make_light_levels(map)};
+  });
   const std::vector<std::uint32_t> black(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   for (int layer = 0; layer < layers; ++layer) {
-    const RadianceMap& map = maps[indices[static_cast<std::size_t>(layer)]];
-    const Relief relief = make_relief(map);
+    const auto& [relief, levels] = made[static_cast<std::size_t>(layer)];
     out.disparity.upload(0, layer, 0, relief.size.x, relief.size.y, relief.disparity.data());
     for (int level = 1; level <= kRangeLevels; ++level) {
       const IVec2 cells = relief.range_size(level);
@@ -32,7 +45,6 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
          ++level) {  // filters may touch what is beside it
       out.light.upload(level, layer, 0, std::max(size.x >> level, 1), std::max(size.y >> level, 1), black.data());
     }
-    const LightLevels levels = make_light_levels(map);
     for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level) {
       const int w = std::max(relief.size.x >> level, 1), h = std::max(relief.size.y >> level, 1);
       out.light.upload(static_cast<int>(level), layer, 0, w, h, levels.rgb9e5[level].data());

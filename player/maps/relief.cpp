@@ -67,6 +67,7 @@ LightLevel filled_beside(const LightLevel& level, int width, int height) {
 LightLevel halved_light(const LightLevel& fine, int width, int height) {
   const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
   LightLevel out;
+  out.reserve(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       Vec4 sum(0);
@@ -87,6 +88,8 @@ Relief make_relief(const RadianceMap& map) {
   Relief relief;
   relief.size = {static_cast<int>(map.width), static_cast<int>(map.height)};
   RangeGrid raw{relief.size, {}};
+  relief.disparity.reserve(map.disparity.size());
+  raw.cells.reserve(map.disparity.size());
   for (std::size_t i = 0; i < map.disparity.size(); ++i) {
     const float s = !is_usable(map, i) ? kUnseenDisparity : map.valid[i] == 2 ? 0.0f : map.disparity[i];
     relief.disparity.push_back(s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "formats/core/parallel.h"
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
 
@@ -119,10 +120,19 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
 Status GpuScene::load_maps(const GpuReflector& reflector) {
   if (loaded_[reflector.index]) return {};
   const Reflector& r = pack_.reflectors[reflector.index];
-  for (std::uint32_t i = r.first_map; deferred_ && i < r.first_map + r.map_count; ++i) {
-    ORIEL_TRY(RadianceMap map, deferred_->load(i));
-    map.residual = pack_.radiance_maps[i].residual;
-    pack_.radiance_maps[i] = std::move(map);
+  if (deferred_) {
+    std::vector<Status> loaded(r.map_count);
+    for_each_parallel(r.map_count, core_count(), [&](std::size_t m) {
+      RadianceMap& place = pack_.radiance_maps[r.first_map + m];
+      Result<RadianceMap> map = deferred_->load(r.first_map + m);
+      if (!map) {
+        loaded[m] = tl::unexpected<Error>(std::move(map).error());
+        return;
+      }
+      map->residual = place.residual;
+      place = std::move(*map);
+    });
+    for (const Status& status : loaded) ORIEL_TRY_VOID(status);
   }
   const MapMeans means = means_of_maps(pack_, r);
   reflectors_[reflector.index].mean_radiance = means.radiance;

@@ -64,6 +64,11 @@ TEST(Half, EveryFiniteCodeComesBack) {
   }
 }
 
+TEST(Half, PositiveOnesManyAtOnceAreTheSame) {
+  for (std::uint16_t code = 0; code < 0x7c00; ++code)
+    ASSERT_EQ(float_from_positive_half(code), float_from_half(code)) << code;
+}
+
 TEST(Half, ExtremesStayFinite) {
   EXPECT_EQ(half_from_float(kNan), 0);
   EXPECT_EQ(float_from_half(half_from_float(kInf)), kHalfMax);
@@ -95,6 +100,30 @@ TEST(Rgb9e5, ExtremesStayFinite) {
   EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb(Vec3(0x1p-24f))), Vec3(0x1p-24f));
   EXPECT_EQ(rgb_from_rgb9e5(rgb9e5_from_rgb({1, 0.5f, 0.25f})), Vec3(1, 0.5f, 0.25f));
   EXPECT_EQ(rgb_from_rgb9e5(0xffffffffu), Vec3(kRgb9e5Max)) << "every code is a finite colour";
+}
+
+// OpenGL 4.6 core, 8.25: by logarithm, floor and powers.
+TEST(Rgb9e5, IsTheDefinitionsEvenAtItsEdges) {
+  const auto defined = [](const Vec3& rgb) {
+    const float largest = std::min(max_component(rgb), kRgb9e5Max);
+    if (largest <= 0) return 0u;
+    int exponent = std::max(-16, std::ilogb(largest)) + 16;
+    if (std::floor(std::ldexp(largest, 24 - exponent) + 0.5f) >= 512) ++exponent;
+    std::uint32_t code = static_cast<std::uint32_t>(exponent) << 27;
+    for (int c = 0; c < 3; ++c)
+      code |= static_cast<std::uint32_t>(std::floor(std::ldexp(std::min(rgb[c], kRgb9e5Max), 24 - exponent) + 0.5f))
+              << 9 * c;
+    return code;
+  };
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> exponent(-149, 17), steps(-2, 2);
+  std::uniform_real_distribution<float> mantissa(1, 2);
+  for (int i = 0; i < 200000; ++i) {
+    Vec3 rgb;
+    for (int c = 0; c < 3; ++c) rgb[c] = std::ldexp(i % 2 ? mantissa(random) : 2.0f, exponent(random));
+    if (i % 4 == 0) rgb.g = rgb.r * (1 - 0x1p-10f) + static_cast<float>(steps(random)) * rgb.r * 0x1p-23f;  // rounds up
+    ASSERT_EQ(rgb9e5_from_rgb(rgb), defined(rgb)) << rgb.r << " " << rgb.g << " " << rgb.b;
+  }
 }
 
 TEST(Rgb9e5, ErrorBoundAndStability) {

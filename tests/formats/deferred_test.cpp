@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/pack/sections.h"
 #include "tests/formats/hostile.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,6 +65,49 @@ TEST_F(Deferred, DamageIsFoundWhenThePackIsOpened) {
     EXPECT_NE(refusal_of(damaged).find(section.label + ": checksum"), std::string::npos) << section.label;
   }
   EXPECT_NE(refusal_of(Bytes(file.begin(), file.end() - 1)).find("is truncated"), std::string::npos);
+}
+
+// So that opening a pack decompresses no pixels: what lies behind the place's block is not asked for.
+TEST_F(Deferred, APlaceIsToBeHadWithoutThePixels) {
+  Pack pack = tiny_pack();
+  for (RadianceMap& map : pack.radiance_maps) {
+    map.width = map.height = 128;  // less than the greatest block of zstd, and it shrinks
+    map.radiance.assign(16384, Vec3(1));
+    for (std::size_t i = 0; i < 16384; ++i) map.radiance[i].g = static_cast<float>(i * i % 509) / 509;
+    map.disparity.assign(16384, 0.5f);
+    map.valid.assign(16384, 1);
+  }
+  const Bytes file = *encode_pack(pack);
+  const PackIndex index = *read_index(file);
+  for (const auto& section : index.sections) {
+    if (section.kind != kRadianceMapSection) continue;
+    Bytes damaged = file;
+    for (std::size_t i = 80; i < section.stored_bytes; ++i) damaged[section.offset + i] = std::byte{0xff};
+    const auto head = section_head(damaged, section, kRadianceMapPlaceBytes);
+    ASSERT_TRUE(head) << head.error().text();
+    EXPECT_EQ(*head, *section_head(file, section, kRadianceMapPlaceBytes));
+    const auto more = section_head(damaged, section, section.raw_bytes);
+    EXPECT_TRUE(!more || *more != *section_head(file, section, section.raw_bytes)) << "the damage is there";
+  }
+}
+
+// Sections are decoded side by side where there are many bytes; which error is told does not depend on that.
+TEST_F(Deferred, OfTwoDamagedSectionsTheFirstIsNamed) {
+  Pack pack = tiny_pack();
+  Texture& texture = pack.textures[0];
+  texture.width = texture.height = 1024;
+  texture.texels.resize(4 << 20);
+  std::uint32_t random = 1;
+  for (auto& byte : texture.texels) byte = static_cast<std::uint8_t>((random = random * 1664525 + 1013904223) >> 24);
+  const Bytes file = *encode_pack(pack);
+  ASSERT_TRUE(read(file));
+  const PackIndex index = *read_index(file);
+  for (std::size_t first = 0; first + 1 < index.sections.size(); ++first) {
+    Bytes damaged = file;
+    for (std::size_t i = first; i < index.sections.size(); i += index.sections.size() - 1 - first)
+      damaged[index.sections[i].offset] ^= std::byte{1};
+    EXPECT_NE(refusal_of(damaged).find(index.sections[first].label + ": checksum"), std::string::npos);
+  }
 }
 
 TEST_F(Deferred, APlaceThatMeansNothingIsFoundWhenThePackIsOpened) {

@@ -28,7 +28,18 @@ struct Region {
   bool exact = false, conformal = true;
 };
 
-// A face's normal (unit or zero) and area in the memory of four floats: that is what growth decides by.
+constexpr double kSlackRad = 1e-4;  // angles of a model are often those of the limits, but for rounding
+
+// To 12 bits after the leading one. Faces that are alike in the model stay alike wherever it stands: the rounding of
+// its corners, some 1e-6 of a place in a room, would decide which comes first, and a chair that is moved by a hand's
+// breadth would get other charts.
+float rounded(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return static_cast<float>(std::ldexp(std::round(std::ldexp(mantissa, 13)), exponent - 13));
+}
+
+// A face's normal (unit or zero) and area, rounded, in the memory of four floats: that is what growth decides by.
 struct FaceFrame {
   Vec3 normal{0};
   float area = 0;
@@ -334,7 +345,7 @@ ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOpti
   std::vector<FaceFrame> frames(surface.triangle_count);
   for (std::uint32_t i = 0; i < surface.triangle_count; ++i) {
     const TriangleFrame frame = triangle_frame(scene, first + i);
-    frames[i] = {Vec3(frame.normal), static_cast<float>(frame.area)};
+    frames[i] = {Vec3(frame.normal), rounded(frame.area)};
   }
   std::vector<Region> regions = Grower(scene, surface, options, across, frames, context).run();
   const FlattenLimits limits{options.texel_m, options.stretch, kLargestStretch, options.large_m2, kBoxFill, true};
@@ -345,7 +356,7 @@ ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOpti
     if (frames[a].area == 0 || frames[b].area == 0) return 1.0;
     return static_cast<double>(glm::dot(frames[a].normal, frames[b].normal));
   };
-  whole.smooth_cos = std::cos(options.curved_rad);
+  whole.smooth_cos = std::cos(options.curved_rad + kSlackRad);
   whole.tiny_area = kTinyTexels * options.texel_m * options.texel_m;
   whole.expired = [&] { return options.deadline->passed(); };
   whole.largest_area = options.merged_area_m2;

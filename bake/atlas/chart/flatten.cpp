@@ -73,7 +73,7 @@ DVec2 best_direction(std::span<const DVec2> hull) {
     const double length = glm::length(side);
     if (!(length > 0)) continue;
     const double cost = box_along(hull, side / length).cost();
-    if (cost < best_cost * (1 - 1e-9)) best = side / length, best_cost = cost;
+    if (cost < best_cost * (1 - 1e-5)) best = side / length, best_cost = cost;
   }
   return best;
 }

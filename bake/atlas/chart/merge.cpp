@@ -101,7 +101,9 @@ class Merger {
       if (out.empty() || out.back().a != p.a || out.back().b != p.b) out.push_back({p.a, p.b, 0});
       out.back().common += p.common;
     }
-    for (Pair& p : out) p.common /= std::max(std::min(outline[p.a], outline[p.b]), 1e-300);
+    // Rounded: pairs that are alike in the model stay so wherever it stands.
+    for (Pair& p : out)
+      p.common = std::round(0x1p13 * p.common / std::max(std::min(outline[p.a], outline[p.b]), 1e-300)) * 0x1p-13;
     return out;
   }
 

@@ -3,8 +3,10 @@
 // zstd finds runs where it saw none: measured in docs/format.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "formats/core/bytes.h"
@@ -31,20 +33,46 @@ void put_planes(ByteWriter& out, std::span<const T> values) {
   }
 }
 
+// Elements of planes, some at a time: so many that what is made of them lies in the nearest cache.
+inline constexpr std::size_t kPlaneBlock = 512;
+template <std::size_t kWidth>
+struct PlaneBlock {
+  std::array<std::array<unsigned char, kPlaneBlock>, kWidth> plane;  // byte b of element i is plane[b][i]
+  std::size_t size = 0;                                              // elements
+};
+
+// take(block) for count elements of kWidth bytes in order; never, with in not ok, where fewer are left.
+template <std::size_t kWidth, class Take>
+void for_each_plane_block(ByteReader& in, std::uint64_t count, const Take& take) {
+  const bool enough = count <= in.remaining() / kWidth;
+  const auto bytes = in.get_span(enough ? count * kWidth : ~std::uint64_t{0});
+  const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
+  PlaneBlock<kWidth> block;
+  std::array<unsigned char, kWidth> last{};
+  for (std::size_t first = 0; enough && first < count; first += block.size) {
+    block.size = std::min<std::size_t>(kPlaneBlock, count - first);
+    for (std::size_t b = 0; b < kWidth; ++b) {
+      unsigned char byte = last[b];
+      for (std::size_t i = 0; i < block.size; ++i)
+        block.plane[b][i] = byte = static_cast<unsigned char>(byte + from[b * count + first + i]);
+      last[b] = byte;
+    }
+    take(std::as_const(block));
+  }
+}
+
 // count elements; empty, with in not ok, where fewer are left.
 template <Planar T>
 std::vector<T> get_planes(ByteReader& in, std::uint64_t count) {
-  const auto planes = in.get_array<std::array<unsigned char, sizeof(T)>>(count);
-  std::vector<T> values(planes.size());
-  const auto* from = reinterpret_cast<const unsigned char*>(planes.data());
-  auto* to = reinterpret_cast<unsigned char*>(values.data());
-  for (std::size_t b = 0; b < sizeof(T); ++b) {
-    unsigned char byte = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      byte = static_cast<unsigned char>(byte + *from++);
-      to[i * sizeof(T) + b] = byte;
-    }
-  }
+  std::vector<T> values;
+  for_each_plane_block<sizeof(T)>(in, count, [&](const PlaneBlock<sizeof(T)>& block) {
+    if (values.empty()) values.reserve(count);
+    std::array<T, kPlaneBlock> made;
+    auto* to = reinterpret_cast<unsigned char*>(made.data());
+    for (std::size_t i = 0; i < block.size; ++i)
+      for (std::size_t b = 0; b < sizeof(T); ++b) to[i * sizeof(T) + b] = block.plane[b][i];
+    values.insert(values.end(), made.begin(), made.begin() + static_cast<std::ptrdiff_t>(block.size));
+  });
   return values;
 }
 

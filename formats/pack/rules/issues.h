@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include "formats/core/parallel.h"
 #include "formats/core/vec.h"
 #include "formats/pack/layout.h"
 #include "formats/pack/validate.h"
@@ -31,11 +34,19 @@ class IssueList {
   void each(int number, const char* elements, const std::vector<Element>& values, const Good& good, const Text& found,
             const char* expected) {
     std::size_t bad = 0, first = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!good(values[i]) && bad++ == 0) first = i;
-    if (bad > 0)
-      error(number, "{} of {} {}: the first is number {}, found {}, expected {}", bad, values.size(), elements, first,
-            found(values[first]), expected);
+    for (const Element& value : values) bad += !good(value);
+    if (bad == 0) return;
+    while (good(values[first])) ++first;
+    error(number, "{} of {} {}: the first is number {}, found {}, expected {}", bad, values.size(), elements, first,
+          found(values[first]), expected);
+  }
+
+  // check(i, list) for i below count, side by side where there is much to look at; issues come by i.
+  void side_by_side(std::size_t count, bool much, const std::function<void(std::size_t, IssueList&)>& check) {
+    std::vector<IssueList> parts(much ? count : 0);
+    for_each_parallel(parts.size(), core_count(), [&](std::size_t i) { check(i, parts[i]); });
+    for (const IssueList& part : parts) issues.insert(issues.end(), part.issues.begin(), part.issues.end());
+    for (std::size_t i = 0; !much && i < count; ++i) check(i, *this);
   }
 
   std::vector<Issue> issues;
@@ -59,16 +70,18 @@ inline bool is_finite(const Vec2& v) {
 }
 // Comparisons with NaN are false, so NaN is never within.
 inline bool within(float v, float low, float high) {
-  return v >= low && v <= high;
+  return static_cast<int>(v >= low) & static_cast<int>(v <= high);
 }
 inline bool within(const Vec3& v, float low, float high) {
   return within(v.x, low, high) && within(v.y, low, high) && within(v.z, low, high);
 }
 inline bool not_negative(float v) {
-  return std::isfinite(v) && v >= 0;
+  return within(v, 0, std::numeric_limits<float>::max());
 }
+// Without branches: whole maps are asked.
 inline bool not_negative(const Vec3& v) {
-  return not_negative(v.x) && not_negative(v.y) && not_negative(v.z);
+  return static_cast<int>(not_negative(v.x)) & static_cast<int>(not_negative(v.y)) &
+         static_cast<int>(not_negative(v.z));
 }
 
 // The parts of validate(), by section.

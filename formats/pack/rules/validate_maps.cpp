@@ -23,6 +23,7 @@ bool check_area(int number, std::uint32_t width, std::uint32_t height, std::init
 const auto text1 = [](float v) { return text_of(v); };
 const auto text3 = [](const Vec3& v) { return text_of(v); };
 const auto light = [](const Vec3& v) { return not_negative(v); };
+constexpr std::size_t kMuch = 1 << 17;  // texels: looking at them takes longer than starting threads
 constexpr const char* kLight = "finite numbers from 0 up";
 
 bool is_rigid(const Mat4& m) {
@@ -118,20 +119,22 @@ void validate_textures(const Pack& pack, IssueList& list) {
   check(kNormalTextureSection, pack.normal_textures);
 }
 
-void validate_lightmaps(const Pack& pack, IssueList& list) {
-  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
+void validate_lightmaps(const Pack& pack, IssueList& all) {
+  std::size_t texels = 0;
+  for (const LightmapPage& page : pack.lightmaps) texels += page.irradiance.size();
+  all.side_by_side(pack.lightmaps.size(), texels > kMuch, [&](std::size_t i, IssueList& list) {
     const LightmapPage& page = pack.lightmaps[i];
     list.in_section(kLightmapSection, i);
     if (!check_area(301, page.width, page.height,
                     {page.irradiance.size(), page.standard_error.size(), page.state.size()}, list))
-      continue;
+      return;
     list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
     list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
-    if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) continue;
+    if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
     list.each(
         304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
         "length 1 at most");
-  }
+  });
 }
 
 void validate_reflectors(const Pack& pack, IssueList& list) {
@@ -139,8 +142,10 @@ void validate_reflectors(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, list);
 }
 
-void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& list) {
-  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& all) {
+  std::size_t texels = 0;
+  for (const RadianceMap& map : pack.radiance_maps) texels += map.radiance.size();
+  all.side_by_side(pack.radiance_maps.size(), texels > kMuch, [&](std::size_t i, IssueList& list) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
     validate_map_place(pack, i, list);
@@ -148,7 +153,7 @@ void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& list)
       validate_pixels(map, list);
     else
       check_area(411, map.width, map.height, {}, list);
-  }
+  });
 }
 
 void validate_pixels(const RadianceMap& map, IssueList& list) {

@@ -30,21 +30,37 @@ void put_halves(ByteWriter& out, std::span<const Vec3> values) {
   put_planes(out, std::span<const Half3>(halves));
 }
 
+// Channel c of element i of a block of Half3.
+std::uint16_t half_at(const PlaneBlock<6>& block, std::size_t c, std::size_t i) {
+  return static_cast<std::uint16_t>(block.plane[2 * c][i] | block.plane[2 * c + 1][i] << 8);
+}
+
 Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::vector<Vec3>& values) {
   int exponent = 0;
   ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
-  const auto halves = get_planes<Half3>(in, count);
   const float scale = std::ldexp(1.0f, exponent);
-  values.resize(halves.size());
-  for (std::size_t i = 0; i < halves.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const std::uint16_t half = halves[i][static_cast<std::size_t>(c)];
-      if (half >= 0x7c00)
-        return invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what, half,
-                       i);
-      values[i][c] = float_from_half(half) * scale;
+  Status status;
+  for_each_plane_block<6>(in, count, [&](const PlaneBlock<6>& block) {
+    if (values.empty()) values.reserve(count);
+    std::array<Vec3, kPlaneBlock> made;
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::array<float, kPlaneBlock> channel;
+      unsigned signs = 0;  // bit 15: of a half from 0x7c00 up
+      for (std::size_t i = 0; i < block.size; ++i) {
+        const std::uint16_t half = half_at(block, c, i);
+        signs |= half | (half + 0x400u);
+        channel[i] = float_from_positive_half(half) * scale;
+      }
+      for (std::size_t i = 0; i < block.size; ++i) made[i][static_cast<int>(c)] = channel[i];
+      if ((signs & 0x8000) == 0 || !status) continue;
+      std::size_t bad = 0;
+      while (half_at(block, c, bad) < 0x7c00) ++bad;
+      status = invalid("", "found {} half {:#06x} at texel {}, expected a finite one that is not negative", what,
+                       half_at(block, c, bad), values.size() + bad);
     }
-  return {};
+    values.insert(values.end(), made.begin(), made.begin() + static_cast<std::ptrdiff_t>(block.size));
+  });
+  return status;
 }
 
 // cd/m² over 2^exponent.
