@@ -42,7 +42,8 @@ struct Frame {
 };
 
 // By how much a chart's normals turn from one end of each of its axes to the other, radians: of the linear function of
-// the position that fits them best (least squares over the area).
+// the position that fits them best (least squares over the area), which is less than all where they turn by more than
+// half a circle.
 DVec2 turn_of(const Scene& scene, const ChartSet& set, const Chart& chart) {
   double area = 0;
   DVec2 middle(0);
@@ -66,10 +67,13 @@ DVec2 turn_of(const Scene& scene, const ChartSet& set, const Chart& chart) {
     xx += frames[k].area * p.x * p.x, xy += frames[k].area * p.x * p.y, yy += frames[k].area * p.y * p.y;
     nx += n * p.x, ny += n * p.y;
   }
+  // Triangles in a row tell of one axis only, and of the other nothing but rounding.
+  constexpr double kSpread = 1e-3;
+  const bool along_x = xx > kSpread * area * chart.size.x * chart.size.x,
+             along_y = yy > kSpread * area * chart.size.y * chart.size.y;
   const double determinant = xx * yy - xy * xy;
-  // Triangles in a row tell of one axis only.
-  if (!(determinant > 1e-9 * xx * yy))
-    return {xx > 0 ? glm::length(nx) / xx * chart.size.x : 0, yy > 0 ? glm::length(ny) / yy * chart.size.y : 0};
+  if (!along_x || !along_y || !(determinant > kSpread * xx * yy))
+    return {along_x ? glm::length(nx) / xx * chart.size.x : 0, along_y ? glm::length(ny) / yy * chart.size.y : 0};
   return {glm::length(nx * yy - ny * xy) / determinant * chart.size.x,
           glm::length(ny * xx - nx * xy) / determinant * chart.size.y};
 }

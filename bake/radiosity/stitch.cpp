@@ -111,12 +111,15 @@ class Stitcher {
     if (rows_.empty()) return false;
     for (Texel& t : texels_) {
       t.baked = light(t);
-      t.most = static_cast<float>(largest_change(t));
+      for (int c = 0; c < 3; ++c) t.most[c] = largest_change(t, c);
     }
     Columns change;
     for (int round = 0; round < kRounds; ++round) {
       change = least_squares();
-      if (change.rows() == 0 || !change.allFinite()) return false;
+      if (change.rows() == 0 || !change.allFinite()) {
+        for (const Texel& t : texels_) light(t) = t.baked;
+        return false;
+      }
       if (!hold_at_limits(change)) break;
     }
     for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = within_limits(texels_[i], changed(i, change));
@@ -130,7 +133,7 @@ class Stitcher {
     int rows;
     bool held = false;
     Vec3 baked{0};                                 // lux
-    float most = 0;                                // lux: largest change
+    Vec3 most{0};                                  // lux: largest change
     double scale() const { return light / rows; }  // lux
   };
   struct Row {
@@ -226,12 +229,12 @@ class Stitcher {
 
   // In lux: what a texel may be off by without being seen to be. Errors around it count as far as its light goes: dark
   // texels beside bright ones stay dark.
-  double largest_change(const Texel& t) const {
+  float largest_change(const Texel& t, int channel) const {
     const LightmapPage& page = pages_[t.page];
-    const double own = luminance(page.irradiance[t.texel]), error = luminance(page.standard_error[t.texel]);
+    const double own = page.irradiance[t.texel][channel], error = page.standard_error[t.texel][channel];
     const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
-    return std::max(kOwn * error, std::min(kSlack * noise_around(t), kPooled * own)) +
-           (kSlack * kLeast + 2 * free) * own;
+    const double pooled = std::min(kSlack * noise_around(t), kPooled * own);
+    return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeast + 2 * free) * own);
   }
 
   void fill_row(const Row& row, Eigen::Index r, Rows& jacobian, Columns& steps) const {

@@ -222,6 +222,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   }
   if (!options.with_material) leave_out_kernels(materials, result.omissions);
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
+  if (!pack.visible_sets.empty())
+    pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
                          lights.power(), reflections, mover_reports, visibility,

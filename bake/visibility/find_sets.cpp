@@ -212,7 +212,7 @@ class Finder {
            u * v * geometry_.positions[corners[2]];
   }
 
-  // By area and by number in turn, so that neither small nor large ones are forgotten.
+  // A quarter by area, the others by number, so that neither small nor large ones are forgotten.
   std::uint32_t triangle_of(const Group& group, bool by_area, Numbers& random) const {
     if (!by_area) return group.triangles[random.below(group.triangles.size())];
     const double at = double{random.next()} * group.areas.back();

@@ -54,6 +54,7 @@ std::optional<TexelDiff> diff_texels(const Pack& first, const Pack& second) {
   out.texels = pairs.size();
   double second_mean = 0;
   for (const Pair& p : pairs) out.mean_lux += p.first / count, second_mean += p.second / count;
+  if (!(out.mean_lux > 0) && second_mean > 0) return std::nullopt;
   out.bias = out.mean_lux > 0 ? second_mean / out.mean_lux - 1 : 0;
   const double dark = kDark * out.mean_lux;
   std::vector<double> net;  // squares

@@ -22,7 +22,8 @@ struct TexelDiff {
   double bias = 0;               // of the mean, relative
 };
 
-// Nothing where the lightmaps' pages or the meshes' lightmap coordinates differ, or no texel is valid in both.
+// Nothing where the lightmaps' pages or the meshes' lightmap coordinates differ, no texel is valid in both, or only the
+// first is all black.
 std::optional<TexelDiff> diff_texels(const Pack& first, const Pack& second);
 
 }  // namespace oriel

@@ -166,7 +166,7 @@ Json visible_sets_json(const Pack& pack) {
   return {{"groups", sets.groups},   {"runs", sets.runs.size()},
           {"eye_cells", s.cells},    {"side", sets.side},
           {"below_m", sets.below_m}, {"above_m", sets.above_m},
-          {"seen_share", s.seen},    {"made_for_this", made_for(sets, pack.mesh, pack.walk_grids)}};
+          {"seen_share", s.seen},    {"made_for_this", made_for(sets, pack.mesh, pack.materials, pack.walk_grids)}};
 }
 
 void print_visible_sets(const Pack& pack) {
@@ -177,7 +177,7 @@ void print_visible_sets(const Pack& pack) {
       "visible sets: {} groups of triangles in {} runs, {} eye cells of {} x {} walk cells, {:.3g} % seen on the "
       "mean{}\n",
       sets.groups, sets.runs.size(), s.cells, sets.side, sets.side, 100 * s.seen,
-      made_for(sets, pack.mesh, pack.walk_grids) ? "" : ", for another mesh: ignored");
+      made_for(sets, pack.mesh, pack.materials, pack.walk_grids) ? "" : ", for another mesh: ignored");
 }
 
 Json describe(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {

@@ -31,10 +31,19 @@ EyeCells number_eye_cells(std::span<const WalkGrid> grids, std::uint32_t side) {
   return cells;
 }
 
-Hash128 visibility_hash(const Mesh& mesh, std::span<const WalkGrid> grids) {
+Hash128 visibility_hash(const Mesh& mesh, std::span<const Material> materials, std::span<const WalkGrid> grids) {
   Hasher hasher;
   add(hasher, mesh.positions);
   add(hasher, mesh.indices);
+  // What sight goes through, and which sides of it are drawn.
+  std::vector<std::uint32_t> parts;
+  for (const MeshPart& part : mesh.parts) {
+    const Material m = part.material < materials.size() ? materials[part.material] : Material();
+    for (const std::uint32_t value : {part.first_index, part.index_count, static_cast<std::uint32_t>(m.alpha_mode),
+                                      m.double_sided ? 1u : 0u, m.transmission > 0 ? 1u : 0u})
+      parts.push_back(value);
+  }
+  add(hasher, parts);
   for (const WalkGrid& grid : grids) {
     const std::array<float, 4> place{grid.lower.x, grid.lower.y, grid.cell_m, grid.eye_height_m};
     const std::array<std::uint32_t, 2> size{grid.width, grid.height};
@@ -51,8 +60,9 @@ Hash128 visibility_hash(const Mesh& mesh, std::span<const WalkGrid> grids) {
   return hasher.result();
 }
 
-bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const WalkGrid> grids) {
-  return !sets.empty() && sets.made_for == visibility_hash(mesh, grids);
+bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const Material> materials,
+              std::span<const WalkGrid> grids) {
+  return !sets.empty() && sets.made_for == visibility_hash(mesh, materials, grids);
 }
 
 SeenGroups::SeenGroups(const VisibleSets& sets, std::span<const WalkGrid> grids)

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/hash.h"
@@ -40,10 +41,11 @@ struct EyeCells {
 EyeCells number_eye_cells(std::span<const WalkGrid> grids, std::uint32_t side);
 
 // Of what sets speak of: positions, indices, floors.
-Hash128 visibility_hash(const Mesh& mesh, std::span<const WalkGrid> grids);
+Hash128 visibility_hash(const Mesh& mesh, std::span<const Material> materials, std::span<const WalkGrid> grids);
 
 // Whether sets speak of this mesh and these grids: a program that does not know them may have changed those.
-bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const WalkGrid> grids);
+bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const Material> materials,
+              std::span<const WalkGrid> grids);
 
 // Looks sets up.
 class SeenGroups {

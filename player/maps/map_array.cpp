@@ -34,7 +34,7 @@ MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std
   });
   const std::vector<std::uint32_t> black(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   for (int layer = 0; layer < layers; ++layer) {
-    const auto& [relief, levels] = made[static_cast<std::size_t>(layer)];
+    const auto [relief, levels] = std::move(made[static_cast<std::size_t>(layer)]);  // freed when uploaded
     out.disparity.upload(0, layer, 0, relief.size.x, relief.size.y, relief.disparity.data());
     for (int level = 1; level <= kRangeLevels; ++level) {
       const IVec2 cells = relief.range_size(level);

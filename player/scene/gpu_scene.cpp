@@ -66,7 +66,7 @@ void GpuScene::upload_geometry() {
   const Mesh& mesh = pack_.mesh;
   std::vector<std::uint32_t> indices;
   // See-through parts are sorted by distance: they stay whole.
-  const bool known = made_for(pack_.visible_sets, mesh, pack_.walk_grids);
+  const bool known = made_for(pack_.visible_sets, mesh, pack_.materials, pack_.walk_grids);
   if (known) seen_groups_ = SeenGroups(pack_.visible_sets, pack_.walk_grids);
   const auto divided = [&](std::uint32_t material) { return known && !is_transparent(material); };
   for (const DrawRange& range : sorted_ranges(mesh, indices, pack_.visible_sets.runs, divided)) {

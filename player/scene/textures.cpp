@@ -49,7 +49,8 @@ std::optional<float> cutoff_in_texture(std::span<const Material> used_by) {
     if (m.alpha_mode == AlphaMode::kBlend) {
       out = out.value_or(0.0f);
     } else if (!out || *out <= 0) {
-      out = m.alpha > 0 ? m.alpha_cutoff / m.alpha : 0.0f;
+      if (!(m.alpha_cutoff > 0)) return std::nullopt;  // all of it passes
+      out = m.alpha > 0 ? m.alpha_cutoff / m.alpha : 2.0f;
     }
   }
   return out;

@@ -66,15 +66,21 @@ std::uint8_t encoded(float value) {
 
 // What alpha is multiplied by, so that the share of the level's texels that reach the cutoff is `coverage`.
 float alpha_scale(const Level& level, float coverage, float cutoff) {
-  const auto wanted = std::lround(coverage * static_cast<float>(level.texels.size()));
+  const auto size = static_cast<long>(level.texels.size());
+  const long wanted = std::min(std::lround(coverage * static_cast<float>(size)), size);
   const auto passing = std::ranges::count_if(level.texels, [&](const Texel& t) { return t.alpha >= cutoff; });
   if (wanted == 0 || wanted == passing) return 1;
   std::vector<float> alphas;
   for (const Texel& t : level.texels) alphas.push_back(t.alpha);
-  const auto last = alphas.begin() + (wanted - 1);
-  std::ranges::nth_element(alphas, last, std::greater());
+  std::ranges::sort(alphas, std::greater());
+  // Texels of one alpha pass together or not at all: where that is nearer to what is wanted, not.
+  const float last = alphas[static_cast<std::size_t>(wanted - 1)];
+  const auto range = std::ranges::equal_range(alphas, last, std::greater());
+  const long without = range.begin() - alphas.begin(), with = range.end() - alphas.begin();
+  const bool pass = without == 0 || with - wanted <= wanted - without;
+  const float least = pass ? last : alphas[static_cast<std::size_t>(without - 1)];
   // Alpha has 8 bits: one code more makes sure that rounding does not take it below the cutoff.
-  return *last > 0 ? (cutoff + 1.0f / 255) / *last : 1;
+  return least > 0 ? (cutoff + 1.0f / 255) / least : 1;
 }
 
 std::vector<std::uint8_t> encoded(const Level& level, float scale) {

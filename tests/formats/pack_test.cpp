@@ -190,7 +190,7 @@ TEST(Pack, VisibleSetsComeBack) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(std::tie(b.runs[i].index_count, b.runs[i].group), std::tie(a.runs[i].index_count, a.runs[i].group));
   EXPECT_EQ(b.seen, a.seen);
-  EXPECT_TRUE(made_for(b, out.mesh, out.walk_grids));
+  EXPECT_TRUE(made_for(b, out.mesh, out.materials, out.walk_grids));
 }
 
 TEST(Pack, CurvedReflectorsComeBack) {

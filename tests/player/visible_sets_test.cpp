@@ -102,7 +102,7 @@ class VisibleSetsFrame : public FrameTest {
     sets.runs = {{6, 0}, {6, 1}};
     sets.below_m = sets.above_m = 0.5f;
     sets.seen = {2};
-    sets.made_for = visibility_hash(pack.mesh, pack.walk_grids);
+    sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
     return pack;
   }
 

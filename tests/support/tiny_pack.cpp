@@ -286,7 +286,7 @@ Pack tiny_mapped_pack() {
   sets.below_m = 0.5f;
   sets.above_m = 0.25f;
   sets.seen = {3, 1, 2};
-  sets.made_for = visibility_hash(pack.mesh, pack.walk_grids);
+  sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   return pack;

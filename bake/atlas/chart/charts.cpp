@@ -39,7 +39,7 @@ float rounded(double value) {
   return static_cast<float>(std::ldexp(std::round(std::ldexp(mantissa, 13)), exponent - 13));
 }
 
-// A face's normal (unit or zero) and area, rounded, in the memory of four floats: that is what growth decides by.
+// A face's normal (unit or zero) and area (rounded) in the memory of four floats: that is what growth decides by.
 struct FaceFrame {
   Vec3 normal{0};
   float area = 0;

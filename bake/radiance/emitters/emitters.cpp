@@ -291,7 +291,7 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} lamps stay in its radiance maps and are blurred with them: {} of more than {} triangles, {} beyond "
-          "the {} that light it most, {} larger than its lobe and hidden in part, {} beyond {} polygons in all",
+          "the {} that light it most, {} hidden in part and not small beside its lobe, {} beyond {} polygons in all",
           r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
           left_in.parted, left_in.too_many, kMaxReflectorEmitters));
   }

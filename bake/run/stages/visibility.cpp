@@ -102,7 +102,6 @@ Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& acc
     return VisibleSets();
   }
   sort_triangles(groups.order, mesh);
-  sets.made_for = visibility_hash(mesh.mesh, grids);
   return sets;
 }
 

@@ -50,7 +50,7 @@ void validate_visible_sets(const Pack& pack, IssueList& list) {
   }
   for (const WalkGrid& grid : pack.walk_grids)
     if (grid.width == 0 || grid.floor_y.size() != std::size_t{grid.width} * grid.height) return;  // issue 721
-  if (!made_for(sets, pack.mesh, pack.walk_grids)) {
+  if (!made_for(sets, pack.mesh, pack.materials, pack.walk_grids)) {
     list.warning(755, "was made for another mesh or other walk grids and is ignored: all is drawn");
     return;
   }

@@ -159,7 +159,7 @@ void judge(const Pack& pack, const std::vector<std::uint32_t>& group, const Seen
 
 Result<int> run(const std::string& file, int count, unsigned seed) {
   ORIEL_TRY(const Pack pack, read_pack(file));
-  if (!made_for(pack.visible_sets, pack.mesh, pack.walk_grids))
+  if (!made_for(pack.visible_sets, pack.mesh, pack.materials, pack.walk_grids))
     return fail(ErrorCode::kInvalid, file, "found no visible sets for its mesh");
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY_VOID(gpu::open_device());

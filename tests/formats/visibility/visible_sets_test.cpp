@@ -67,17 +67,25 @@ TEST(VisibleSets, KnowWhatTheyWereMadeFor) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.indices = {0, 1, 2};
+  mesh.parts = {{"wall", 0, 3, 0}};
+  const std::vector<Material> materials(1);
   const std::vector<WalkGrid> grids{row()};
   VisibleSets sets = own_groups();
-  EXPECT_FALSE(made_for(sets, mesh, grids));
-  sets.made_for = visibility_hash(mesh, grids);
-  EXPECT_TRUE(made_for(sets, mesh, grids));
+  EXPECT_FALSE(made_for(sets, mesh, materials, grids));
+  sets.made_for = visibility_hash(mesh, materials, grids);
+  EXPECT_TRUE(made_for(sets, mesh, materials, grids));
+  auto glass = materials;
+  glass[0].transmission = 0.5f;
+  EXPECT_FALSE(made_for(sets, mesh, glass, grids));
+  Mesh split = mesh;
+  split.parts[0].index_count = 0;
+  EXPECT_FALSE(made_for(sets, split, materials, grids));
   Mesh turned = mesh;
   turned.indices = {1, 2, 0};
-  EXPECT_FALSE(made_for(sets, turned, grids));
+  EXPECT_FALSE(made_for(sets, turned, materials, grids));
   auto lower = grids;
   lower[0].floor_y[3] = 0;
-  EXPECT_FALSE(made_for(sets, mesh, lower));
+  EXPECT_FALSE(made_for(sets, mesh, materials, lower));
 }
 
 }  // namespace
