@@ -4,11 +4,11 @@
 #include <new>
 #include <stdexcept>
 
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 #include "formats/pack/deferred.h"
 #include "formats/pack/fields.h"
-#include "formats/pack/parts.h"
 #include "formats/pack/rules/issues.h"
+#include "formats/pack/sections/parts.h"
 #include "formats/pack/validate.h"
 
 namespace oriel {

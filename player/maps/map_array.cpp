@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 
 namespace oriel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
 

@@ -1,5 +1,5 @@
 // Work on several threads.
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 
 #include <gtest/gtest.h>
 

@@ -36,7 +36,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/pack/rules"] = plus(assets, {"formats/pack", "formats/visibility"});  // the parts of validate()
   m["formats/pack/sections"] =
       plus(assets, {"formats/pack", "formats/pack/encoding", "formats/visibility"});  // what lies inside each
-  m["formats/pack"] = plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/visibility"});
+  m["formats/pack"] =
+      plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/pack/sections", "formats/visibility"});
   m["formats/diff"] = plus(assets, {"formats/pack"});  // two packs beside each other
   m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
   m["formats/export"] = plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/metrics"});

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 #include "formats/core/vec.h"
 #include "formats/pack/layout.h"
 #include "formats/pack/validate.h"

@@ -1,4 +1,4 @@
-#include "formats/pack/parts.h"
+#include "formats/pack/sections/parts.h"
 
 #include <map>
 

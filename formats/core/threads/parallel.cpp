@@ -1,4 +1,4 @@
-#include "formats/core/parallel.h"
+#include "formats/core/threads/parallel.h"
 
 #include <algorithm>
 #include <atomic>
