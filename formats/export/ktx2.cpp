@@ -2,42 +2,73 @@
 
 #include <zstd.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "formats/core/half.h"
+#include <bit>
 
 namespace oriel {
 namespace {
 
-constexpr int kLevel = 15;  // of zstd: exports are written once and downloaded often
-constexpr std::uint32_t kVkFormatE5b9g9r9 = 123, kZstandard = 2;
+constexpr int kLevel = 15;               // of zstd: exports are written once and downloaded often
+constexpr std::uint32_t kZstandard = 2;  // scheme of supercompression
 constexpr std::uint8_t kIdentifier[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
 constexpr std::uint32_t kHeaderBytes = 80, kLevelIndexBytes = 24;
+// Of the Khronos Data Format Specification.
+constexpr std::uint8_t kRgbsda = 1, kBc6h = 133, kBt709 = 1, kLinear = 1;
+constexpr std::uint8_t kExponent = 0x20, kSigned = 0x40, kFloat = 0x80;
 
-// A basic descriptor block: mantissas R, G, B of 9 bits at 0, 9, 18, each with the shared exponent at 27.
-Bytes format_descriptor() {
-  constexpr std::uint32_t kSamples = 6, kBlockBytes = 24 + 16 * kSamples;
-  constexpr std::uint8_t kRgbsda = 1, kBt709 = 1, kLinear = 1, kExponent = 0x20;
-  // The range of samples as the specification gives it for this very format.
-  constexpr std::uint32_t kMantissaUpper = 8448, kExponentBias = 15, kMostExponent = 31;
+struct Sample {
+  std::uint16_t bit;
+  std::uint8_t bits, channel;
+  std::uint32_t lower, upper;
+};
+
+struct Coding {
+  std::uint32_t vk_format, type_bytes;
+  std::uint8_t model, block_side, block_bytes;
+  std::vector<Sample> samples;
+};
+
+Coding coding_of(TexelCoding coding) {
+  const auto one = std::bit_cast<std::uint32_t>(1.0f), minus_one = std::bit_cast<std::uint32_t>(-1.0f);
+  switch (coding) {
+    case TexelCoding::kRg16f: {
+      constexpr std::uint8_t kBits = kSigned | kFloat;
+      return {83, 2, kRgbsda, 1, 4, {{0, 16, 0 | kBits, minus_one, one}, {16, 16, 1 | kBits, minus_one, one}}};
+    }
+    case TexelCoding::kBc6h:
+      return {131, 1, kBc6h, 4, 16, {{0, 128, kFloat, 0, one}}};
+    default:
+      break;
+  }
+  // Mantissas R, G, B of 9 bits at 0, 9, 18, each with the shared exponent at 27; the range of samples as the
+  // specification gives it for this very format.
+  Coding out{123, 4, kRgbsda, 1, 4, {}};
+  for (std::uint8_t channel = 0; channel < 3; ++channel) {
+    out.samples.push_back({static_cast<std::uint16_t>(9 * channel), 9, channel, 0, 8448});
+    out.samples.push_back({27, 5, static_cast<std::uint8_t>(channel | kExponent), 15, 31});
+  }
+  return out;
+}
+
+// A basic descriptor block.
+Bytes format_descriptor(const Coding& coding) {
+  const auto block_bytes = static_cast<std::uint32_t>(24 + 16 * coding.samples.size());
+  const auto side = static_cast<std::uint8_t>(coding.block_side - 1);
   ByteWriter out;
-  out.put(kBlockBytes + 4);
+  out.put(block_bytes + 4);
   out.put(std::uint32_t{0});  // vendor Khronos, type basic
   out.put(std::uint16_t{2});  // version: specification 1.3
-  out.put(static_cast<std::uint16_t>(kBlockBytes));
-  for (const std::uint8_t byte : {kRgbsda, kBt709, kLinear, std::uint8_t{0}}) out.put(byte);
-  out.put(std::uint32_t{0});                      // texel block of 1 × 1 × 1 × 1
-  out.put(std::uint64_t{sizeof(std::uint32_t)});  // bytes of its first plane; there is no other
-  for (std::uint8_t channel = 0; channel < 3; ++channel)
-    for (const bool exponent : {false, true}) {
-      out.put(static_cast<std::uint16_t>(exponent ? 27 : 9 * channel));
-      out.put(static_cast<std::uint8_t>((exponent ? 5 : 9) - 1));
-      out.put(static_cast<std::uint8_t>(channel | (exponent ? kExponent : 0)));
-      out.put(std::uint32_t{0});  // position
-      out.put(exponent ? kExponentBias : 0u);
-      out.put(exponent ? kMostExponent : kMantissaUpper);
-    }
+  out.put(static_cast<std::uint16_t>(block_bytes));
+  for (const std::uint8_t byte : {coding.model, kBt709, kLinear, std::uint8_t{0}}) out.put(byte);
+  for (const std::uint8_t byte : {side, side, std::uint8_t{0}, std::uint8_t{0}}) out.put(byte);
+  out.put(std::uint64_t{coding.block_bytes});  // of the first plane; there is no other
+  for (const Sample& sample : coding.samples) {
+    out.put(sample.bit);
+    out.put(static_cast<std::uint8_t>(sample.bits - 1));
+    out.put(sample.channel);
+    out.put(std::uint32_t{0});  // position
+    out.put(sample.lower);
+    out.put(sample.upper);
+  }
   return out.take();
 }
 
@@ -57,9 +88,9 @@ Bytes keys() {
   return out.take();
 }
 
-Result<Bytes> compressed(std::span<const std::uint32_t> texels) {
-  Bytes out(ZSTD_compressBound(texels.size_bytes()));
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), texels.data(), texels.size_bytes(), kLevel);
+Result<Bytes> compressed(std::span<const std::byte> level) {
+  Bytes out(ZSTD_compressBound(level.size()));
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), level.data(), level.size(), kLevel);
   if (ZSTD_isError(size)) return fail(ErrorCode::kRuntime, "KTX2", "zstd: {}", ZSTD_getErrorName(size));
   out.resize(size);
   return out;
@@ -67,49 +98,27 @@ Result<Bytes> compressed(std::span<const std::uint32_t> texels) {
 
 }  // namespace
 
-float ktx2_scale(const LightmapPage& page) {
-  float most = 0, scale = 1;
-  for (const Vec3& e : page.irradiance) most = std::max(most, max_component(e));
-  while (most > kRgb9e5Max * scale) scale *= 2;
-  return scale;
-}
-
-Result<Bytes> lightmap_ktx2(const LightmapPage& page) {
-  const float scale = ktx2_scale(page);
-  std::vector<std::uint32_t> texels;
-  texels.reserve(page.irradiance.size());
-  for (const Vec3& e : page.irradiance) texels.push_back(rgb9e5_from_rgb(e / scale));
-  ORIEL_TRY(const Bytes level, compressed(texels));
-  const Bytes descriptor = format_descriptor(), metadata = keys();
+Result<Bytes> ktx2_file(const Ktx2Texture& texture) {
+  const Coding coding = coding_of(texture.coding);
+  ORIEL_TRY(const Bytes level, compressed(texture.level));
+  const Bytes descriptor = format_descriptor(coding), metadata = keys();
   const std::uint32_t descriptor_at = kHeaderBytes + kLevelIndexBytes;
   const auto metadata_at = static_cast<std::uint32_t>(descriptor_at + descriptor.size());
   ByteWriter out;
   out.put_array(std::span<const std::uint8_t>(kIdentifier));
-  const std::uint32_t layers = 0, faces = 1, levels = 1, depth = 0;
-  for (const std::uint32_t word : {kVkFormatE5b9g9r9, std::uint32_t{sizeof(std::uint32_t)}, page.width, page.height,
-                                   depth, layers, faces, levels, kZstandard})
+  const std::uint32_t layers = 0, levels = 1, depth = 0;
+  for (const std::uint32_t word : {coding.vk_format, coding.type_bytes, texture.width, texture.height, depth, layers,
+                                   texture.faces, levels, kZstandard})
     out.put(word);
   for (const std::uint32_t word : {descriptor_at, static_cast<std::uint32_t>(descriptor.size()), metadata_at,
                                    static_cast<std::uint32_t>(metadata.size())})
     out.put(word);
   // No global data of the supercompression; then the one level.
   for (const std::uint64_t word : {std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{metadata_at + metadata.size()},
-                                   std::uint64_t{level.size()}, std::uint64_t{texels.size() * sizeof(std::uint32_t)}})
+                                   std::uint64_t{level.size()}, std::uint64_t{texture.level.size()}})
     out.put(word);
   for (const Bytes* part : {&descriptor, &metadata, &level}) out.put_array(std::span(*part));
   return out.take();
-}
-
-double ktx2_rounding(const LightmapPage& page) {
-  const float scale = ktx2_scale(page);
-  double squares = 0, count = 0;
-  for (const Vec3& e : page.irradiance) {
-    const float most = max_component(e);
-    if (!(most > 0)) continue;
-    const DVec3 off = DVec3(rgb_from_rgb9e5(rgb9e5_from_rgb(e / scale)) * scale - e) / double{most};
-    squares += glm::dot(off, off), count += 3;
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 }  // namespace oriel

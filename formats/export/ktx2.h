@@ -1,22 +1,23 @@
-// Lightmap pages as KTX 2.0 textures, which engines' importers read and GPUs take as they are.
+// KTX 2.0 textures, which engines' importers read and GPUs take as they are.
 #pragma once
 
-#include "formats/assets/lightmap.h"
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
 
 namespace oriel {
 
-// What one unit of a page's texture means, lux: 1, or the power of two that brings the page within kRgb9e5Max.
-float ktx2_scale(const LightmapPage& page);
+// kRgb9e5: a u32 a texel (formats/core/half.h); kBc6h: blocks (formats/image/bc6h); kRg16f: two halves a texel.
+enum class TexelCoding { kRgb9e5, kBc6h, kRg16f };
 
-// The irradiance of a page over ktx2_scale() as one level of VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, linear Rec. 709, row 0
-// at v = 0, with Zstandard supercompression (KTX File Format Specification 2.0; Khronos Data Format Specification 1.3
-// for the descriptor). A channel is off by at most 2^-9 of its texel's largest. Error kRuntime where zstd fails (out
-// of memory).
-Result<Bytes> lightmap_ktx2(const LightmapPage& page);
+struct Ktx2Texture {
+  TexelCoding coding = TexelCoding::kRgb9e5;
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t faces = 1;  // 6: a cube, +X -X +Y -Y +Z -Z
+  Bytes level;              // all faces, row 0 at v = 0
+};
 
-// What that rounding changes: root mean square over channels of texels with light, relative to the texel's largest.
-double ktx2_rounding(const LightmapPage& page);
+// One level with Zstandard supercompression, linear Rec. 709 (KTX File Format Specification 2.0; Khronos Data Format
+// Specification 1.3 for the descriptor). Error kRuntime where zstd fails (out of memory).
+Result<Bytes> ktx2_file(const Ktx2Texture& texture);
 
 }  // namespace oriel

@@ -6,7 +6,7 @@
 
 #include "formats/camera/camera.h"
 #include "formats/export/glb.h"
-#include "formats/export/ktx2.h"
+#include "formats/export/lightmap_texture.h"
 #include "formats/export/shown_page.h"
 #include "formats/image/png.h"
 #include "formats/metrics/display.h"
@@ -88,7 +88,7 @@ class SceneWriter {
                        {"scale", 1},
                        {"ktx2",
                         {{"file", lightmap_file(options_.lightmap_stem, page, "ktx2")},
-                         {"scale", ktx2_scale(pack_.lightmaps[page])}}}});
+                         {"scale", texture_scale(pack_.lightmaps[page])}}}});
     glb_.json["asset"]["extras"] = {{"oriel", {{"lightmaps", std::move(pages)}}}};
   }
 

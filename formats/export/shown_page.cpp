@@ -38,12 +38,24 @@ Vec3 vertex_color(const Mesh& mesh, std::uint32_t vertex) {
   return Vec3(c & 255, c >> 8 & 255, c >> 16 & 255) / 255.0f;
 }
 
+// R of a material as if light came and went evenly: its mean over the hemisphere by the cosine.
+Vec3 mean_reflectance(const Pack& pack, const Material& material) {
+  if (material.fresnel_map < 0) return Vec3(0);
+  const FresnelMap& map = pack.fresnel_maps[static_cast<std::size_t>(material.fresnel_map)];
+  constexpr int kSteps = 256;  // of sin²: each has the same share of the projected hemisphere
+  Vec3 sum(0);
+  for (int i = 0; i < kSteps; ++i)
+    sum += lookup_by_cosine(map.table, std::sqrt((static_cast<float>(i) + 0.5f) / kSteps));
+  return sum / float{kSteps};
+}
+
 class PageRaster {
  public:
   PageRaster(const Pack& pack, std::size_t page, std::uint32_t scale)
       : pack_(pack), page_(pack.lightmaps[page]), width_(page_.width * scale), height_(page_.height * scale) {
     light_.resize(std::size_t{width_} * height_);
     covered_.resize(light_.size());
+    for (const Material& m : pack.materials) reflectance_.push_back(mean_reflectance(pack, m));
   }
 
   void draw(const MeshPart& part) {
@@ -90,13 +102,16 @@ class PageRaster {
                      cross(p[0] - at, p[1] - at) / area);
         if (!(std::min({b.x, b.y, b.z}) >= kInside && std::max({b.x, b.y, b.z}) <= 1 - kInside)) continue;
         const std::size_t to = std::size_t{y} * width_ + x;
-        light_[to] = radiance(pack_.materials[material], v, b);
+        light_[to] = radiance(material, v, b);
         covered_[to] = 1;
       }
   }
 
-  Vec3 radiance(const Material& material, const std::uint32_t* v, const Vec3& b) const {
+  // The player's shading equation without images: wide lobes of the mean reflectance.
+  Vec3 radiance(std::uint32_t number, const std::uint32_t* v, const Vec3& b) const {
     const Mesh& mesh = pack_.mesh;
+    const Material& material = pack_.materials[number];
+    const Vec3& r = reflectance_[number];
     Vec2 uv(0), page_uv(0);
     Vec3 color(0);
     for (int c = 0; c < 3; ++c) {
@@ -107,12 +122,13 @@ class PageRaster {
     Vec3 albedo = glm::clamp(material.base_color, Vec3(0), Vec3(1)) * color * (1 - material.metallic);
     if (material.base_color_texture >= 0)
       albedo *= texture_color(pack_.textures[static_cast<std::size_t>(material.base_color_texture)], uv);
-    return albedo * irradiance_at(page_, page_uv) / kPi + material.emission;
+    return (albedo * (1 - max_component(r)) + r) * irradiance_at(page_, page_uv) / kPi + material.emission;
   }
 
   const Pack& pack_;
   const LightmapPage& page_;
   std::uint32_t width_, height_;
+  std::vector<Vec3> reflectance_;  // by material
   std::vector<Vec3> light_;
   std::vector<std::uint8_t> covered_;
 };

@@ -7,8 +7,9 @@
 namespace oriel {
 
 // Radiance (cd/m²) of all surfaces of a page by its coordinates, three channels, `scale` times the page's size:
-// diffuse albedo × irradiance / π + emission, from texture, vertex colour and material. Reflections are not in it, and
-// what a surface lets through counts as if it were opaque. Texels near surfaces are filled from them. pack: one that
+// (diffuse albedo (1 - max R) + R) × irradiance / π + emission, from texture, vertex colour and material; R is the mean
+// over directions. That is what the player shows without images: reflections are the light around, and what a surface
+// lets through counts as if it were opaque. Texels near surfaces are filled from them. pack: one that
 // validate() finds no error in.
 FloatImage shown_page(const Pack& pack, std::size_t page, std::uint32_t scale);
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/core/result.h"
+#include "formats/export/ktx2.h"
 #include "formats/pack/pack.h"
 
 namespace oriel::inspect {
@@ -51,9 +53,14 @@ int diff(const std::filesystem::path& before, const std::filesystem::path& after
 // The pack as one HTML page to look at (formats/report).
 int page(const std::filesystem::path& path, const std::filesystem::path& output);
 
-// The scene as binary glTF with its light as emissive textures or, as_lightmap, with EXR and KTX2 files beside it
-// (formats/export).
-int export_scene(const std::filesystem::path& path, const std::filesystem::path& output, bool as_lightmap);
+struct ExportOptions {
+  std::string as = "emissive";        // or "lightmap", "probes"
+  std::optional<TexelCoding> coding;  // of KTX2 files; none: chosen by what it costs
+};
+
+// The scene as binary glTF with its light as emissive textures or with EXR and KTX2 files beside it; as probes a folder
+// of cubes and the split-sum table (formats/export).
+int export_pack(const std::filesystem::path& path, const std::filesystem::path& output, const ExportOptions& options);
 
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.
 int report(const Error& error);

@@ -34,11 +34,12 @@ Examples:
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
 
 struct Arguments {
-  std::string pack, after, scene, light = "emissive";
+  std::string pack, after, scene, texture = "auto";
   std::filesystem::path output;
   bool json = false;
   ExtractOptions extract;
   DiffOptions diff;
+  ExportOptions exported;
   std::function<int()> run;  // the command that was named
 };
 
@@ -47,6 +48,13 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description, 
   CLI::App* command = app.add_subcommand(name, description);
   command->callback([&a, run = std::move(run)] { a.run = run; });
   return command;
+}
+
+ExportOptions with_coding(const Arguments& a) {
+  ExportOptions out = a.exported;
+  if (a.texture == "bc6h") out.coding = TexelCoding::kBc6h;
+  if (a.texture == "rgb9e5") out.coding = TexelCoding::kRgb9e5;
+  return out;
 }
 
 void add_checks(CLI::App& app, Arguments& a) {
@@ -90,14 +98,22 @@ void add_writers(CLI::App& app, Arguments& a) {
   report_command->add_option("PACK", a.pack, "The .oriel file")->required();
   report_command->add_option("-o,--output", a.output, "The page to write")->required();
 
-  auto* export_command = add_command(app, "export", "Write the scene as .glb with its light, for other programs", a,
-                                     [&a] { return export_scene(a.pack, a.output, a.light == "lightmap"); });
+  auto* export_command = add_command(app, "export", "Write the scene with its light, or its probes, for other programs",
+                                     a, [&a] { return export_pack(a.pack, a.output, with_coding(a)); });
   export_command->add_option("PACK", a.pack, "The .oriel file")->required();
-  export_command->add_option("-o,--output", a.output, "The .glb file to write")->required();
+  export_command->add_option("-o,--output", a.output, "The .glb file to write; with --as probes a folder")->required();
   export_command
-      ->add_option("--as", a.light,
-                   "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene")
-      ->check(CLI::IsMember({"emissive", "lightmap"}))
+      ->add_option("--as", a.exported.as,
+                   "emissive: any viewer shows the light as it is; lightmap: EXR and KTX2 files beside the scene; "
+                   "probes: what curved reflectors see as KTX2 cubes, and the split-sum table")
+      ->check(CLI::IsMember({"emissive", "lightmap", "probes"}))
+      ->capture_default_str();
+  export_command
+      ->add_option(
+          "--texture", a.texture,
+          "What KTX2 files hold: bc6h, rgb9e5, or auto: BC6H where it rounds light by at most a quarter of its "
+          "standard error")
+      ->check(CLI::IsMember({"auto", "bc6h", "rgb9e5"}))
       ->capture_default_str();
 }
 

@@ -85,11 +85,16 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
   std::vector<std::uint8_t> both = frame.mirrors;
   for (std::size_t i = 0; i < both.size(); ++i) both[i] |= frame.glossy[i];
   const std::vector<std::uint8_t> all(both.size(), 1);
-  const std::array<std::pair<const char*, const std::vector<std::uint8_t>*>, 5> regions = {{{"frame", &all},
+  std::vector<std::uint8_t> matte;  // no part of a mover or a reflected image, where there are any
+  const bool movers = !frame.movers.empty();
+  for (std::size_t i = 0; i < both.size(); ++i) matte.push_back(both[i] == 0 && !(movers && frame.movers[i] != 0));
+  if (matte == all) matte.clear();
+  const std::array<std::pair<const char*, const std::vector<std::uint8_t>*>, 6> regions = {{{"frame", &all},
                                                                                             {"reflectors", &both},
                                                                                             {"mirrors", &frame.mirrors},
                                                                                             {"glossy", &frame.glossy},
-                                                                                            {"movers", &frame.movers}}};
+                                                                                            {"movers", &frame.movers},
+                                                                                            {"matte", &matte}}};
   for (const auto& [name, region] : regions) {
     RegionComparison r;
     r.name = name;
@@ -97,7 +102,7 @@ Result<Comparison> compare(const PlayedFrame& frame, const LayeredImage& referen
     if (r.pixels == 0) continue;
     ORIEL_TRY(r.total, relative_error(frame.total, layer(""), layer("error"), *region));
     ORIEL_TRY(r.diffuse, relative_error(frame.diffuse, diffuse, layer("diffuse_error"), *region));
-    if (region != &all && region != &frame.movers) {
+    if (region != &all && region != &frame.movers && region != &matte) {
       ORIEL_TRY(r.specular, relative_error(frame.specular, layer("specular"), layer("specular_error"), *region));
     }
     r.mse = mean_over(squares, *region);

@@ -23,7 +23,7 @@ struct PlayedFrame {
 
 // Over the whole frame, over the pixels that show reflected images, or those that show movers.
 struct RegionComparison {
-  std::string name;  // frame, reflectors, mirrors, glossy, movers
+  std::string name;  // frame, reflectors, mirrors, glossy, movers; matte: all else
   std::size_t pixels = 0;
   RelativeError total, diffuse;
   std::optional<RelativeError> specular;  // of reflectors: the player's S is not apart elsewhere

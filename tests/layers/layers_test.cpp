@@ -26,6 +26,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   std::map<std::string, std::set<std::string>> m;
   m["formats/core"] = {};
   m["formats/sh"] = m["formats/image"] = core;
+  m["formats/image"].insert("formats/image/bc6h");
+  m["formats/image/bc6h"] = plus(core, {"formats/core/threads"});
   m["formats/metrics"] = plus(core, {"formats/image"});
   m["formats/assets"] = plus(core, {"formats/sh"});
   m["formats/camera"] = m["formats/lobes"] = assets;
@@ -40,7 +42,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
       plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/pack/sections", "formats/visibility"});
   m["formats/diff"] = plus(assets, {"formats/pack"});  // two packs beside each other
   m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
-  m["formats/export"] = plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/metrics"});
+  m["formats/export"] =
+      plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/image/bc6h", "formats/metrics"});
   m["formats/inspect"] = plus(assets, {"formats/diff", "formats/export", "formats/pack", "formats/image",
                                        "formats/report", "formats/visibility"});
   m["bake/jobs"] = core;

@@ -183,6 +183,30 @@ TEST(ShownPage, IsAlbedoTimesIrradianceOverPi) {
   EXPECT_NEAR(image.pixels[3 * (32 * 64 + 46) + 1], 200 / kPi, 1e-3f) << "the right one green";
 }
 
+// R = 1 - √cosθ has the mean ∫ 2 c (1 - √c) dc = 1/5 over the hemisphere, and takes its share of the diffuse light.
+TEST(ShownPage, ReflectsTheLightAround) {
+  Pack pack;
+  pack.fresnel_maps.push_back({0.1f, {Vec3(1, 0.5f, 0), Vec3(0)}, {}, 0, {}});
+  pack.materials.resize(2);
+  for (Material& m : pack.materials) m.fresnel_map = 0, m.base_color = Vec3(0.5f);
+  pack.materials[1].metallic = 1;
+  pack.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  pack.mesh.uvs.resize(3);
+  pack.mesh.lightmap_uvs = {{-1, -1}, {3, -1}, {-1, 3}};  // all over the page
+  pack.mesh.indices = {0, 1, 2};
+  LightmapPage page;
+  page.width = page.height = 4;
+  page.irradiance.assign(16, Vec3(kPi));
+  pack.lightmaps.push_back(page);
+  for (const std::uint32_t material : {0u, 1u}) {
+    pack.mesh.parts = {{"all", 0, 3, material, 0}};
+    const FloatImage image = shown_page(pack, 0, 1);
+    const float diffuse = material == 0 ? 0.5f * (1 - 0.2f) : 0;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(image.pixels[static_cast<std::size_t>(c)], diffuse + 0.1f * static_cast<float>(2 - c), 2e-4f);
+  }
+}
+
 TEST(Bilinear, WrapsAsTheTextureSays) {
   const auto blend = [](float at, Wrap wrap) {  // of a map whose texel i holds i
     const TexelsAlong t = texels_along(at, 4, wrap);

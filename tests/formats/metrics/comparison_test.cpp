@@ -38,7 +38,9 @@ PlayedFrame played() {
 
 TEST(Comparison, OfEqualFrames) {
   const Comparison c = *compare(played(), reference(), 0);
-  ASSERT_EQ(c.regions.size(), 3u) << "no glossy reflector is in view";
+  ASSERT_EQ(c.regions.size(), 4u) << "no glossy reflector is in view";
+  EXPECT_EQ(c.regions[3].name, "matte");
+  EXPECT_EQ(c.regions[3].pixels, std::size_t{kWidth} * kHeight / 2);
   EXPECT_NEAR(c.white, 6 / 0.18, 1e-3);
   for (const RegionComparison& r : c.regions) {
     EXPECT_EQ(r.total.rel_rmse + r.diffuse.rel_rmse + r.mse + r.flip, 0) << r.name;
@@ -65,6 +67,7 @@ TEST(Comparison, TellsComponentsAndRegionsApart) {
   EXPECT_NEAR(c.regions[2].total.rel_rmse, 1.0 / 6 / dark, 1e-6);
   EXPECT_NEAR(c.regions[0].total.rel_rmse, std::sqrt(0.5) / 6 / dark, 1e-6);
   EXPECT_GT(c.regions[2].flip, c.regions[0].flip);
+  EXPECT_EQ(c.regions[3].total.rel_rmse, 0);
   const auto json = nlohmann::json::parse(comparison_json(c));
   EXPECT_NEAR(json["regions"]["mirrors"]["S"]["relRMSE"], 0.5 / dark, 1e-6);
   EXPECT_EQ(json["holes"], 0.25);
