@@ -12,7 +12,7 @@ constexpr double kStep = 0.005;  // relative: a step on a seam that weighs as mu
 constexpr double kLeast = 0.01;  // relative error of any texel: it shows a mean over its square, not its centre
 constexpr double kFree = 0.2;    // relative error of a texel without surface
 constexpr double kDark = 0.01;   // of the mean light: what is darker counts as that
-constexpr int kAround = 2;       // texels to each side over which errors are pooled
+constexpr int kAround = 2;       // texels to each side over which errors and their light are pooled
 constexpr double kOwn = 1;       // the largest change of a texel: of its standard error,
 constexpr double kPooled = 0.3;  // or, if more, of its light, as far as three times the errors around it go,
 constexpr double kSlack = 3;     // so many times kLeast beside, and twice kFree
@@ -203,37 +203,38 @@ class Stitcher {
     ++texels_[index].rows;
   }
 
-  // Root mean square of the standard errors around a texel. Its own is no measure: it is small where chance made the
-  // texel dark, and would draw the seam to the dark side.
+  // Standard errors over the light around a texel, root mean squares. The texel's own is no measure: it is small where
+  // chance made the texel dark, and would draw the seam to the dark side.
   double noise_around(const Texel& t) const {
     const LightmapPage& page = pages_[t.page];
     const auto width = static_cast<int>(page.width), height = static_cast<int>(page.height);
     const int x0 = static_cast<int>(t.texel) % width, y0 = static_cast<int>(t.texel) / width;
-    double squares = 0;
-    int count = 0;
+    double squares = 0, light = 0;
     for (int y = std::max(0, y0 - kAround); y <= std::min(height - 1, y0 + kAround); ++y)
       for (int x = std::max(0, x0 - kAround); x <= std::min(width - 1, x0 + kAround); ++x) {
         const auto texel = static_cast<std::size_t>(y) * page.width + static_cast<std::size_t>(x);
         if (page.state[texel] != TexelState::kValid) continue;
-        squares += std::pow(luminance(page.standard_error[texel]), 2), ++count;
+        squares += std::pow(luminance(page.standard_error[texel]), 2);
+        light += std::pow(brightness(DVec3(page.irradiance[texel])) + dark_, 2);
       }
-    return count > 0 ? std::sqrt(squares / count) : 0;
+    return light > 0 ? std::sqrt(squares / light) : 0;
   }
 
-  // Relative to the texel's scale.
+  // Relative to the texel's scale. Noise goes with a texel's own light: dark ones beside bright ones stay dark.
   double error_of(const Texel& t) const {
-    const double noise = noise_around(t) / t.scale();
+    const LightmapPage& page = pages_[t.page];
+    const double own = luminance(page.standard_error[t.texel]);
+    const double noise = std::max(own, noise_around(t) * (brightness(DVec3(t.baked)) + dark_)) / t.scale();
     const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
-    return std::sqrt(noise * noise + kLeast * kLeast + free * free);
+    return std::sqrt(noise * noise + std::pow((kLeast + free) * (brightness(DVec3(t.baked)) + dark_) / t.scale(), 2));
   }
 
-  // In lux: what a texel may be off by without being seen to be. Errors around it count as far as its light goes: dark
-  // texels beside bright ones stay dark.
+  // In lux: what a texel may be off by without being seen to be.
   float largest_change(const Texel& t, int channel) const {
     const LightmapPage& page = pages_[t.page];
     const double own = page.irradiance[t.texel][channel], error = page.standard_error[t.texel][channel];
     const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
-    const double pooled = std::min(kSlack * noise_around(t), kPooled * own);
+    const double pooled = std::min(kSlack * noise_around(t) * own, kPooled * own);
     return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeast + 2 * free) * own);
   }
 

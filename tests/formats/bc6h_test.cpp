@@ -140,8 +140,7 @@ TEST(Bc6h, WhatDoesNotCountTakesNothing) {
                         : Vec3(random() % 60000, random() % 50, random() % 7));
   }
   const auto read = through(rgb, 4, 4, counts);
-  for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_LT(glm::length(read[i] - rgb[i]), 0.002f * glm::length(rgb[i]));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(glm::length(read[i] - rgb[i]), 0.002f * glm::length(rgb[i]));
   double worst = 0;
   relative_error({rgb.begin(), rgb.begin() + 6}, through(rgb, 4, 4), &worst);
   EXPECT_GT(worst, 0.01) << "all counting it is worse";

@@ -1,4 +1,5 @@
 // Our decoder of BC6H beside the device's, which knows nothing of it.
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -7,8 +8,6 @@
 #include "formats/core/half.h"
 #include "formats/image/bc6h/encode.h"
 #include "formats/image/bc6h/modes.h"
-#include <epoxy/gl.h>
-
 #include "player/gpu/device.h"
 #include "player/gpu/headless.h"
 

@@ -14,8 +14,7 @@ class Bits {
   }
   std::uint32_t get(int count) {
     std::uint32_t value = 0;
-    for (int i = 0; i < count; ++i, ++at_)
-      value |= static_cast<std::uint32_t>(words_[at_ >> 6] >> (at_ & 63) & 1) << i;
+    for (int i = 0; i < count; ++i, ++at_) value |= static_cast<std::uint32_t>(words_[at_ >> 6] >> (at_ & 63) & 1) << i;
     return value;
   }
   Block block() const {
@@ -72,7 +71,8 @@ bool unpacked(const Block& block, Fields& fields) {
     }
   if (mode.lines == 2) fields.partition = in.get(5);
   for (int i = 0; i < kTexels; ++i)
-    fields.index[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(in.get(index_bits(mode, fields.partition, i)));
+    fields.index[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(in.get(index_bits(mode, fields.partition, i)));
   return true;
 }
 
@@ -86,9 +86,9 @@ Halves decoded(const Block& block) {
   for (std::size_t i = 0; i < kTexels; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t line = second >> i & 1;
-      out[i][static_cast<int>(c)] = half_between(unquantised(fields.endpoints[2 * line][c], mode.bits),
-                                                 unquantised(fields.endpoints[2 * line + 1][c], mode.bits),
-                                                 weight[fields.index[i]]);
+      out[i][static_cast<int>(c)] =
+          half_between(unquantised(fields.endpoints[2 * line][c], mode.bits),
+                       unquantised(fields.endpoints[2 * line + 1][c], mode.bits), weight[fields.index[i]]);
     }
   return out;
 }

@@ -15,7 +15,7 @@ using Halves = std::array<glm::vec<3, std::uint16_t>, kTexels>;
 
 // What a block says.
 struct Fields {
-  std::size_t mode = 0;                            // into modes()
+  std::size_t mode = 0;                                     // into modes()
   std::array<std::array<std::uint32_t, 3>, 4> endpoints{};  // quantised; differences are resolved
   std::uint32_t partition = 0;
   std::array<std::uint8_t, kTexels> index{};

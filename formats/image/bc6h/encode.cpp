@@ -14,10 +14,10 @@ namespace bc6h {
 namespace {
 
 constexpr float kLeastShare = 1 / 16.0f;  // of a channel in fitting: so dark ones do not run away
-constexpr float kGood = 0x1p-18f;         // squared error of a texel that no second line need improve: 2^-9 of its light
-constexpr std::size_t kTried = 4;         // partitions that promise most
-constexpr int kFits = 2;                  // rounds of indices and ends
-constexpr float kTop = 65535;             // of what endpoints stand for
+constexpr float kGood = 0x1p-18f;  // squared error of a texel that no second line need improve: 2^-9 of its light
+constexpr std::size_t kTried = 4;  // partitions that promise most
+constexpr int kFits = 2;           // rounds of indices and ends
+constexpr float kTop = 65535;      // of what endpoints stand for
 
 // Four by four texels. Lines are fitted in the encoding of half floats, times 64/31: nearly a logarithm, and what
 // endpoints are stored in.
@@ -137,9 +137,9 @@ float choose_indices(const Texels& texels, std::uint32_t mask, const Mode& mode,
   std::array<Vec3, kTexels> shown;
   for (std::size_t k = 0; k < weight.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c)
-      shown[k][static_cast<int>(c)] = float_from_positive_half(
-          half_between(unquantised(fields.endpoints[2 * line][c], mode.bits),
-                       unquantised(fields.endpoints[2 * line + 1][c], mode.bits), weight[k]));
+      shown[k][static_cast<int>(c)] =
+          float_from_positive_half(half_between(unquantised(fields.endpoints[2 * line][c], mode.bits),
+                                                unquantised(fields.endpoints[2 * line + 1][c], mode.bits), weight[k]));
   float sum = 0;
   for (std::size_t i = 0; i < kTexels; ++i) {
     if (!(mask >> i & 1)) continue;
@@ -205,8 +205,7 @@ class Search {
       for (std::size_t k = 0; k < weight.size(); ++k) {
         const Vec3 off =
             (glm::mix(line.a, line.b, static_cast<float>(weight[k]) / 64) - texels_.code[i]) * texels_.share[i];
-        if (const float error = glm::dot(off, off); error < least)
-          least = error, out[i] = static_cast<std::uint8_t>(k);
+        if (const float error = glm::dot(off, off); error < least) least = error, out[i] = static_cast<std::uint8_t>(k);
       }
     }
     return out;

@@ -19,8 +19,8 @@ inline constexpr int kPartitions = 32;
 struct Mode {
   std::uint32_t code;
   int code_bits;
-  int lines;        // 1: indices of 4 bits; 2: indices of 3 bits and a partition
-  int bits;         // of a channel of w
+  int lines;             // 1: indices of 4 bits; 2: indices of 3 bits and a partition
+  int bits;              // of a channel of w
   glm::ivec3 more_bits;  // of the channels of x, y, z
   bool differences;
   // What follows the code, from the lowest bit: "gy4" is bit 4 of y's green, "rw9:0" its bits 0 to 9, "rw10:15" bits

@@ -38,7 +38,8 @@ TEST(Stitch, TexelsMoveByTheirSquaredErrors) {
   TwoPages two(Vec3(1), Vec3(1.2f), 0.05f, 0.1f);
   const SeamReport report = stitch(two.seams, two.map, two.pages);
   const double light = 1.1 + 0.01 * 1.1;  // of the place: both sides, and 1 % of the mean
-  const double a = std::pow(0.05 / light, 2) + 1e-4, b = std::pow(0.1 / light, 2) + 1e-4;  // a texel is 1 % off anyhow
+  const auto squared_error = [](double noise, double own) { return noise * noise + std::pow(0.01 * (own + 0.011), 2); };
+  const double a = squared_error(0.05, 1), b = squared_error(0.1, 1.2);  // a texel is 1 % off anyhow
   const double up = two.pages[0].irradiance[0].g - 1, down = 1.2 - two.pages[1].irradiance[0].g;
   EXPECT_NEAR(up / down, a / b, 1e-4);
   EXPECT_NEAR(up + down, 0.2, 0.2 * 0.01);
