@@ -1,6 +1,7 @@
 #include "bake/radiance/capture.h"
 
 #include <algorithm>
+#include <array>
 
 #include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
@@ -14,12 +15,23 @@ Vec3 usable_light(const Vec3& c) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
+namespace {
+
+bool has_image(const SceneMaterial& material) {
+  const auto slots = texture_slots(material);
+  return std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return slot->image >= 0; });
+}
+
+}  // namespace
+
 SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction) {
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
   std::uint64_t lobe_rays = 0;
   const auto add = [&](SeenSurface surface) {
+    const Scene& scene = surroundings.accel().scene();
+    seen.textured |= has_image(scene.materials[scene.surfaces[scene.triangle_surface[surface.hit.triangle]].material]);
     surface.rays = &lobe_rays;
     // The closed form shows the lamp itself; its images in other mirrors are here alone.
     surface.emission =
@@ -39,26 +51,76 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
 namespace {
 
 constexpr double kRaysARow = 4096;  // about: many pixels see by way of lobes
+// From a pixel's centre: one place in each row and column of a 4 x 4 grid.
+constexpr std::array<Vec2, 4> kPlaces = {Vec2(-0.125f, -0.375f), Vec2(0.375f, -0.125f), Vec2(-0.375f, 0.125f),
+                                         Vec2(0.125f, 0.375f)};
+constexpr float kSameDistance = 0.005f;  // of the distance: how far from its plane a surface goes on as the same,
+constexpr float kSameNormal = 0.9f;      // while it turns by no more than this cosine
 
-std::uint64_t capture_row(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t y,
-                          RadianceMap& map) {
-  const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
-  const Mat3 to_pack(reflector.pack_from_reflector);
-  std::uint64_t rays = 0;
-  for (std::uint32_t x = 0; x < map.width; ++x) {
-    const Vec3 q(map_point(map, Vec2(x, y) + 0.5f), 0);
-    const Vec3 direction = glm::normalize(to_pack * glm::normalize(q - map.eye));
-    const SeenLight seen = see(surroundings, outgoing, map.reflector, pack_from_reflector(reflector, q), direction);
-    const std::size_t at = std::size_t{y} * map.width + x;
-    map.radiance[at] = seen.radiance;
-    map.valid[at] = seen.sight.state;
-    map.disparity[at] = seen.sight.state == Sight::kSurface || seen.sight.back
-                            ? disparity_of(map, std::max(0.0f, glm::dot(seen.sight.offset, to_pack[2])))
-                            : 0;
-    rays += seen.rays;
+class MapRow {
+ public:
+  MapRow(const Surroundings& surroundings, const OutgoingRadiance& outgoing, RadianceMap& map)
+      : surroundings_(surroundings),
+        outgoing_(outgoing),
+        map_(map),
+        reflector_(surroundings.reflectors()[map.reflector].reflector),
+        to_pack_(reflector_.pack_from_reflector) {}
+
+  std::uint64_t capture(std::uint32_t y) {
+    rays_ = 0;
+    for (std::uint32_t x = 0; x < map_.width; ++x) capture_pixel(x, y);
+    return rays_;
   }
-  return rays;
-}
+
+ private:
+  struct Seen {
+    SeenLight light;
+    Vec3 at{0};  // what it ended on, or its image; scene space
+  };
+
+  Seen look(const Vec2& place) {
+    const Vec3 q(map_point(map_, place), 0);
+    const Vec3 from = pack_from_reflector(reflector_, q);
+    const Vec3 direction = glm::normalize(to_pack_ * glm::normalize(q - map_.eye));
+    Seen seen{see(surroundings_, outgoing_, map_.reflector, from, direction)};
+    seen.at = from + seen.light.sight.offset;
+    rays_ += seen.light.rays;
+    return seen;
+  }
+
+  static bool same_surface(const Seen& a, const Seen& b) {
+    const Sight &s = a.light.sight, &t = b.light.sight;
+    if (s.state != t.state || s.mirrored != t.mirrored) return false;
+    if (s.state == Sight::kSky) return true;
+    const float away = std::abs(glm::dot(s.normal, b.at - a.at));
+    return away <= kSameDistance * glm::length(s.offset) && glm::dot(s.normal, t.normal) >= kSameNormal;
+  }
+
+  void capture_pixel(std::uint32_t x, std::uint32_t y) {
+    const Vec2 middle = Vec2(x, y) + 0.5f;
+    const Seen centre = look(middle);
+    const Sight& sight = centre.light.sight;
+    Vec3 light = centre.light.radiance;
+    float count = 1;
+    for (std::size_t i = 0; centre.light.textured && i < kPlaces.size(); ++i) {
+      const Seen beside = look(middle + kPlaces[i]);
+      if (same_surface(centre, beside)) light += beside.light.radiance, ++count;
+    }
+    const std::size_t at = std::size_t{y} * map_.width + x;
+    map_.radiance[at] = light / count;
+    map_.valid[at] = sight.state;
+    map_.disparity[at] = sight.state == Sight::kSurface || sight.back
+                             ? disparity_of(map_, std::max(0.0f, glm::dot(sight.offset, to_pack_[2])))
+                             : 0;
+  }
+
+  const Surroundings& surroundings_;
+  const OutgoingRadiance& outgoing_;
+  RadianceMap& map_;
+  const Reflector& reflector_;
+  Mat3 to_pack_;
+  std::uint64_t rays_ = 0;
+};
 
 }  // namespace
 
@@ -77,7 +139,7 @@ Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& ou
   }
   UnitLoop loop{.stage = "radiance", .count = rows.size(), .rays = kRaysARow};
   loop.inputs = [&](std::size_t i, Archive& key) { key(frame_of(maps[rows[i].x]), rows[i].y); };
-  loop.compute = [&](std::size_t i) { return capture_row(surroundings, outgoing, rows[i].y, maps[rows[i].x]); };
+  loop.compute = [&](std::size_t i) { return MapRow(surroundings, outgoing, maps[rows[i].x]).capture(rows[i].y); };
   loop.results = [&](std::size_t i, Archive& archive) {
     RadianceMap& map = maps[rows[i].x];
     const std::size_t first = std::size_t{rows[i].y} * map.width;

@@ -18,19 +18,21 @@ Vec3 usable_light(const Vec3& c);
 // usable is seen. The reflector's emitters shine by way of other mirrors only.
 struct SeenLight {
   Sight sight;
-  Vec3 radiance{0};  // cd/m²
+  Vec3 radiance{0};       // cd/m²
+  bool textured = false;  // part of it comes from a surface whose colour or lobe an image tells
   std::uint64_t rays = 0;
 };
 SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction);
 
-// Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): one ray through each pixel's
-// centre, so that colour and depth belong to the same point, as Surroundings::look has them: what transmitting surfaces
-// hide and show is weighted by their transmittance, and mirrors add what they reflect. The reflector's own triangles
-// are never hit. The back of a one-sided surface keeps its depth, with radiance 0 and valid 0. Radiance that is not
-// finite or negative counts as 0. Maps of a reflector that lists emitters show those by way of other
-// mirrors only. Adds to `rays`
-// (may be null). The same bytes for any number of threads. Error kStopped.
+// Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth is that of the ray through
+// a pixel's centre; where that meets a texture, light is the mean over it and the rays through four more places of the
+// pixel that meet the same surface, so that fine textures do not alias and colour and depth still belong together. Both
+// as Surroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance, and
+// mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps its
+// depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
+// lists emitters show those by way of other mirrors only. Adds to `rays` (may be null). The same bytes for any number
+// of threads. Error kStopped.
 Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays = nullptr);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bake/radiance/reproject.h"
+#include "bake/trace/sampler.h"
 #include "tests/bake/radiance/mirror_room.h"
 
 namespace oriel {
@@ -125,6 +126,43 @@ TEST(Capture, TheSkyIsAtInfinity) {
     EXPECT_EQ(map.disparity[i], 0);
     EXPECT_EQ(map.radiance[i], Vec3(3, 4, 5));
   }
+}
+
+// Black and white dots, many to a pixel: one place of it tells nothing but black or white, the mean of five has a
+// fifth of that variance. Before it hangs a red panel, whose edge stays sharp: depth and light belong together.
+TEST(Capture, TexturesFinerThanAPixelDoNotAlias) {
+  const auto outgoing = [](const SeenSurface& seen) {
+    if (seen.hit.triangle >= 4) return Vec3(1, 0, 0);
+    const UVec2 place = glm::floatBitsToUint(seen.hit.barycentric);
+    return Vec3(0, static_cast<float>(mix64(std::uint64_t{place.x} << 32 | place.y) & 1), 0.5f);
+  };
+  const auto map_with = [&](std::int32_t image) {
+    return one_map(
+        [&](test::SceneParts& parts) {
+          SceneMaterial striped;
+          striped.base_color_texture.image = image;
+          const std::uint32_t material = parts.add(striped);
+          parts.quad("wall", material, {20, -20, 4}, {-40, 0, 0}, {0, 40, 0});
+          parts.quad("panel", material, {0, -20, 2}, {-20, 0, 0}, {0, 40, 0});
+        },
+        outgoing);
+  };
+  const RadianceMap plain = map_with(-1), textured = map_with(0);
+  EXPECT_EQ(plain.disparity, textured.disparity);
+  EXPECT_EQ(plain.valid, textured.valid);
+  double plain_squares = 0, squares = 0, count = 0;
+  for (std::size_t i = 0; i < plain.radiance.size(); ++i) {
+    const bool panel = plain.radiance[i] == Vec3(1, 0, 0);
+    EXPECT_EQ(textured.radiance[i].r, panel ? 1 : 0) << "of the surface that the depth is of";
+    EXPECT_EQ(textured.radiance[i].b, panel ? 0 : 0.5f);
+    if (panel) continue;
+    plain_squares += std::pow(plain.radiance[i].g - 0.5, 2);
+    squares += std::pow(textured.radiance[i].g - 0.5, 2), ++count;
+  }
+  ASSERT_GT(count, 50);
+  EXPECT_NEAR(plain_squares / count, 1.0 / 4, 1e-6);
+  EXPECT_NEAR(squares / count, 1.0 / 20, 3 * std::sqrt(1.6 / count) / 20)
+      << "three standard deviations: E x^4 = 2.6 / 400";
 }
 
 TEST(Capture, BacksOfOneSidedSurfacesAreSeenButNotValid) {
