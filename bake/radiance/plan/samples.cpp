@@ -89,7 +89,7 @@ std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::ui
   if (!(max_component(accel.transmittance({origin, towards, distance * (1 - 1e-4f)})) >= 0.5f)) return {};
   const Vec3 along = Vec3(-to_eye.x, -to_eye.y, to_eye.z) / distance;
   const Sight sight = look_along(surroundings, reflector, s.on_plane, along);
-  if (sight.state == Sight::kNothing || (sight.state == Sight::kSky && !shows_sky(accel.scene()))) return {};
+  if (sight.state == Sight::kNothing) return {};
   const float alpha = found.roughness * found.roughness;
   if (sight.state == Sight::kSurface) {
     const float away = glm::length(sight.offset);
@@ -124,6 +124,8 @@ Result<std::vector<ReflectedSample>> draw_samples(const Surroundings& surroundin
       if (sample) samples.push_back(*sample);
     }
   }
+  const auto is_sky = [](const ReflectedSample& s) { return s.image.w == 0; };
+  if (!shows_sky(surroundings.accel().scene()) && std::all_of(samples.begin(), samples.end(), is_sky)) samples.clear();
   for (ReflectedSample& s : samples) s.weight *= static_cast<float>(points.area()) / static_cast<float>(tries);
   return samples;
 }

@@ -25,8 +25,9 @@ inline void fields(Archive& archive, ReflectedSample& s) {
 }
 
 // Pairs of an eye (scene space, those of `eyes` in turn) and a point of the reflector that see each other: `count` of
-// them, or fewer where eyes seldom see it, or none. What shows the back of a surface or a black sky is left out. The
-// same for the same seed.
+// them, or fewer where eyes seldom see it, or none. What shows the back of a surface is left out. A black sky
+// counts, as it would be filled from the light beside it where no map tells, but none are given of a reflector that
+// shows nothing else. The same for the same seed.
 Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
                                                         std::span<const Vec3> eyes, std::uint32_t count,
                                                         std::uint64_t seed, Context& context);
