@@ -10,24 +10,6 @@
 namespace oriel {
 namespace {
 
-struct Unit {
-  std::string_view name;
-  double factor;
-};
-
-// A number and one of the units; a number alone is ambiguous (metres? centimetres?) and refused.
-Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what,
-                              const char* example) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-  if (error == std::errc() && std::isfinite(value) && value > 0)
-    for (const Unit& u : units)
-      if (unit == u.name) return value * u.factor;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
-}
-
 const char* directional_name(Directional directional) {
   return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
 }
@@ -52,14 +34,6 @@ Result<float> parse_length(const std::string& text) {
   static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
   ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));
   return static_cast<float>(metres);
-}
-
-Result<std::uint64_t> parse_bytes(const std::string& text) {
-  static constexpr Unit kUnits[] = {{"B", 1},      {"kB", 1e3},      {"MB", 1e6},        {"GB", 1e9},
-                                    {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};
-  ORIEL_TRY(const double bytes, parse_quantity(text, kUnits, "size", "64MiB or 2GB"));
-  if (bytes > 0x1p60) return fail(ErrorCode::kUsage, "", "found '{}', expected at most 1 EiB", text);
-  return static_cast<std::uint64_t>(bytes);
 }
 
 Result<double> parse_duration(const std::string& text) {

@@ -58,10 +58,9 @@ struct BakeOptions {
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
+// Bytes: parse_bytes of formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
-// "64MiB", "2GB", "500000B" as bytes; a unit is required. Error kUsage.
-Result<std::uint64_t> parse_bytes(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
 Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.

@@ -117,6 +117,39 @@ MappedFile::~MappedFile() {
   if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
+Result<OpenFile> OpenFile::open(const fs::path& path) {
+  const auto failed = [&](const char* what) {
+    return fail(ErrorCode::kIo, path.string(), "{}: {}", what, std::strerror(errno));
+  };
+  ORIEL_TRY_VOID(check_file(path));
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return failed("cannot be opened for reading");
+  OpenFile file(path, fd, 0);
+  struct stat status {};
+  if (::fstat(fd, &status) != 0) return failed("cannot be read");
+  file.size_ = static_cast<std::uint64_t>(status.st_size);
+  return file;
+}
+
+OpenFile::~OpenFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+Status OpenFile::read(std::uint64_t offset, std::span<std::byte> to) const {
+  for (std::size_t done = 0; done < to.size();) {
+    const ssize_t n = ::pread(fd_, to.data() + done, to.size() - done, static_cast<off_t>(offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      return fail(ErrorCode::kIo, path_.string(), "cannot be read at byte {}: {}", offset + done, std::strerror(errno));
+    if (n == 0)
+      return fail(ErrorCode::kIo, path_.string(),
+                  "found no byte {}, expected {} bytes from byte {}: the file was cut since it was opened",
+                  offset + done, to.size(), offset);
+    done += static_cast<std::size_t>(n);
+  }
+  return {};
+}
+
 Status print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     return fail(ErrorCode::kIo, "stdout", "cannot be written: {}", std::strerror(errno));

@@ -61,6 +61,29 @@ class MappedFile {
   std::span<const std::byte> bytes_;
 };
 
+// A file that stays open and is read in pieces, from any thread. Where somebody cuts or overwrites it meanwhile,
+// reading gives an error or other bytes; looking at a mapping would end the program.
+class OpenFile {
+ public:
+  // Error kIo where path is missing, no regular file or unreadable.
+  static Result<OpenFile> open(const std::filesystem::path& path);
+  OpenFile(OpenFile&& other) noexcept
+      : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)), size_(other.size_) {}
+  OpenFile& operator=(OpenFile&&) = delete;
+  ~OpenFile();
+
+  std::uint64_t size() const { return size_; }  // when it was opened
+  const std::filesystem::path& path() const { return path_; }
+  // Fills `to` from that offset on. Error kIo where the file is shorter, or the system's.
+  Status read(std::uint64_t offset, std::span<std::byte> to) const;
+
+ private:
+  OpenFile(std::filesystem::path path, int fd, std::uint64_t size) : path_(std::move(path)), fd_(fd), size_(size) {}
+  std::filesystem::path path_;
+  int fd_ = -1;
+  std::uint64_t size_ = 0;
+};
+
 // Text to standard output, flushed. Error kIo.
 Status print(std::string_view text);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numeric>
 
 namespace oriel {
@@ -24,6 +26,26 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what,
+                              const char* example) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  if (error == std::errc() && std::isfinite(value) && value > 0)
+    for (const Unit& u : units)
+      if (unit == u.name) return value * u.factor;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected a {} such as {}", text, what, example);
+}
+
+Result<std::uint64_t> parse_bytes(const std::string& text) {
+  static constexpr Unit kUnits[] = {{"B", 1},      {"kB", 1e3},      {"MB", 1e6},        {"GB", 1e9},
+                                    {"KiB", 1024}, {"MiB", 1048576}, {"GiB", 1073741824}};
+  ORIEL_TRY(const double bytes, parse_quantity(text, kUnits, "size", "64MiB or 2GB"));
+  if (bytes > 0x1p60) return fail(ErrorCode::kUsage, "", "found '{}', expected at most 1 EiB", text);
+  return static_cast<std::uint64_t>(bytes);
+}
 
 std::string names_like(const std::string& wanted, const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 5;

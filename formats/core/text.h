@@ -1,11 +1,14 @@
-// Letters and names.
+// Letters, names, numbers with units.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "formats/core/result.h"
 
 namespace oriel {
 
@@ -16,6 +19,17 @@ inline std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return lower;
 }
+
+struct Unit {
+  std::string_view name;
+  double factor;
+};
+// A number above 0 and one of the units; a number alone is ambiguous (metres? centimetres?) and refused. Error kUsage
+// says what was expected: "a length such as 10cm".
+Result<double> parse_quantity(const std::string& text, std::span<const Unit> units, const char* what,
+                              const char* example);
+// "64MiB", "2GB", "500000B" as bytes. Error kUsage.
+Result<std::uint64_t> parse_bytes(const std::string& text);
 
 // For a message about a name that is none of `names`: the few that are nearest to it, in quotes.
 std::string names_like(const std::string& wanted, const std::vector<std::string>& names);

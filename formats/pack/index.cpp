@@ -23,7 +23,8 @@ T load(std::span<const std::byte> file, std::size_t offset) {
   return value;
 }
 
-Result<FileHeader> read_header(std::span<const std::byte> file) {
+// file: the beginning, header and table, of file_bytes bytes.
+Result<FileHeader> read_header(std::span<const std::byte> file, std::uint64_t file_bytes) {
   const std::size_t magic_bytes = std::min(file.size(), kPackMagic.size());
   if (magic_bytes == 0 || std::memcmp(file.data(), kPackMagic.data(), magic_bytes) != 0)
     return invalid("header", "is not an .oriel pack: the first bytes are not its magic");
@@ -45,7 +46,7 @@ Result<FileHeader> read_header(std::span<const std::byte> file) {
   const std::uint64_t table_end = sizeof(FileHeader) + std::uint64_t{header.section_count} * sizeof(SectionRecord);
   if (table_end > file.size())
     return invalid("section table", "the file ends at byte {}, inside the table of {} sections, expected at least {}",
-                   file.size(), header.section_count, table_end);
+                   file_bytes, header.section_count, table_end);
   Bytes covered(file.begin(), file.begin() + offsetof(FileHeader, checksum));
   covered.insert(covered.end(), file.begin() + sizeof(FileHeader),
                  file.begin() + static_cast<std::ptrdiff_t>(table_end));
@@ -74,12 +75,12 @@ Status check_kind(const SectionInfo& section, std::uint64_t nth) {
   return {};
 }
 
-Status check_sizes(const SectionInfo& section, std::uint64_t expected_offset, std::span<const std::byte> file) {
+Status check_sizes(const SectionInfo& section, std::uint64_t expected_offset, std::uint64_t file_bytes) {
   if (section.offset != expected_offset)
     return invalid(section.label, "found it at byte {}, expected {}", section.offset, expected_offset);
-  if (section.offset > file.size() || section.stored_bytes > file.size() - section.offset)
+  if (section.offset > file_bytes || section.stored_bytes > file_bytes - section.offset)
     return invalid(section.label, "the file is truncated: it ends at byte {}, expected at least {} bytes from byte {}",
-                   file.size(), section.stored_bytes, section.offset);
+                   file_bytes, section.stored_bytes, section.offset);
   if (section.codec == static_cast<std::uint32_t>(Codec::kNone) && section.raw_bytes != section.stored_bytes)
     return invalid(section.label, "found {} raw bytes, expected the {} that are stored", section.raw_bytes,
                    section.stored_bytes);
@@ -108,8 +109,17 @@ std::string section_label(std::uint32_t kind, std::uint64_t nth) {
   return fmt::format("section {} {} ({})", kind_text(kind), nth, known->meaning);
 }
 
-Result<PackIndex> read_index(std::span<const std::byte> file) {
-  ORIEL_TRY(const FileHeader header, read_header(file));
+std::uint64_t index_bytes(std::span<const std::byte> front, std::uint64_t file_bytes) {
+  std::uint64_t bytes = sizeof(FileHeader);
+  if (front.size() >= sizeof(FileHeader)) {
+    const auto sections = std::min<std::uint64_t>(load<FileHeader>(front, 0).section_count, kMaxSections);
+    bytes += sections * sizeof(SectionRecord);
+  }
+  return std::min(bytes, file_bytes);
+}
+
+Result<PackIndex> read_index(std::span<const std::byte> file, std::uint64_t file_bytes) {
+  ORIEL_TRY(const FileHeader header, read_header(file, file_bytes));
   PackIndex index{header.version, header.file_bytes, {}};
   std::map<std::uint32_t, std::uint64_t> seen;
   std::uint64_t end = sizeof(FileHeader) + std::uint64_t{header.section_count} * sizeof(SectionRecord);
@@ -125,15 +135,13 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
                         record.raw_bytes,
                         record.count,
                         record.checksum,
+                        align(end) - end,
                         nth,
                         section_label(record.kind, nth)};
     if ((record.flags & ~kSectionOptional) != 0 || record.reserved0 != 0 || record.reserved1 != 0)
       return invalid(section.label, "found reserved bits that are not zero");
     ORIEL_TRY_VOID(check_kind(section, nth));
-    ORIEL_TRY_VOID(check_sizes(section, align(end), file));
-    const auto padding = file.subspan(end, section.offset - end);
-    if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; }))
-      return invalid(section.label, "the padding before it is not zero");
+    ORIEL_TRY_VOID(check_sizes(section, align(end), file_bytes));
     // Each addend is at most kMaxExpansion times the file's length; the sum is checked before it can wrap.
     if (section.raw_bytes > kMaxRawBytes || (raw_total += section.raw_bytes) > kMaxRawBytes)
       return invalid(section.label, "the sections hold more than the accepted {} bytes when decompressed",
@@ -147,9 +155,22 @@ Result<PackIndex> read_index(std::span<const std::byte> file) {
   if (header.file_bytes != end)
     return invalid("header", "found a file length of {} bytes, but the last section ends at {}", header.file_bytes,
                    end);
-  if (file.size() != end)
-    return invalid("header", "found {} bytes after the last section, expected none", file.size() - end);
+  if (file_bytes != end)
+    return invalid("header", "found {} bytes after the last section, expected none", file_bytes - end);
   return index;
+}
+
+Result<PackIndex> read_index(std::span<const std::byte> file) {
+  ORIEL_TRY(PackIndex index, read_index(file, file.size()));
+  for (const SectionInfo& section : index.sections)
+    ORIEL_TRY_VOID(check_padding(file.subspan(section.offset - section.padding, section.padding), section));
+  return index;
+}
+
+Status check_padding(std::span<const std::byte> padding, const SectionInfo& section) {
+  if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; }))
+    return invalid(section.label, "the padding before it is not zero");
+  return {};
 }
 
 std::span<const std::byte> stored_bytes(std::span<const std::byte> file, const SectionInfo& section) {
@@ -157,7 +178,11 @@ std::span<const std::byte> stored_bytes(std::span<const std::byte> file, const S
 }
 
 Status check_section(std::span<const std::byte> file, const SectionInfo& section) {
-  const std::uint64_t checksum = hash64(stored_bytes(file, section));
+  return check_stored(stored_bytes(file, section), section);
+}
+
+Status check_stored(std::span<const std::byte> stored, const SectionInfo& section) {
+  const std::uint64_t checksum = hash64(stored);
   if (checksum != section.checksum)
     return invalid(section.label, "checksum {:016x}, expected {:016x}", checksum, section.checksum);
   return {};
@@ -192,41 +217,65 @@ Status check_frame(std::span<const std::byte> stored, const SectionInfo& section
 
 Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInfo& section) {
   ORIEL_TRY_VOID(check_section(file, section));
-  const auto stored = stored_bytes(file, section);
-  RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(section.raw_bytes), section.raw_bytes};
+  return decompressed(stored_bytes(file, section), section, section.raw_bytes);
+}
+
+namespace {
+
+// Fills `out` with the beginning of a frame, of which `front` is the beginning; false where that is too short for it.
+Result<bool> decompress_head(std::span<const std::byte> front, const SectionInfo& section, ZSTD_outBuffer& out) {
+  ZSTD_DCtx* context = decompressor();
+  ZSTD_DCtx_reset(context, ZSTD_reset_session_only);
+  // No more is given at once than the decoder asks for: it would begin with the block behind what is wanted.
+  ZSTD_inBuffer in{front.data(), 0, 0};
+  for (std::size_t asked = 1; out.pos < out.size;) {
+    in.size = std::min(in.size + asked, front.size());
+    const std::size_t before = in.pos + out.pos;
+    asked = ZSTD_decompressStream(context, &out, &in);
+    if (ZSTD_isError(asked)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(asked));
+    if (in.pos + out.pos != before) continue;
+    if (front.size() < section.stored_bytes) return false;
+    return invalid(section.label, "decompressed to {} bytes, expected {}", out.pos, out.size);
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<RawBytes> decompressed(std::span<const std::byte> stored, const SectionInfo& section, std::uint64_t bytes) {
+  bytes = std::min(bytes, section.raw_bytes);
+  RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(bytes), bytes};
   if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
-    std::copy(stored.begin(), stored.end(), raw.data.get());
+    std::copy_n(stored.begin(), bytes, raw.data.get());
     return raw;
   }
   ORIEL_TRY_VOID(check_frame(stored, section));
+  if (bytes < section.raw_bytes) {
+    ZSTD_outBuffer out{raw.data.get(), raw.size, 0};
+    ORIEL_TRY_VOID(decompress_head(stored, section, out));
+    return raw;
+  }
   const std::size_t n = ZSTD_decompressDCtx(decompressor(), raw.data.get(), raw.size, stored.data(), stored.size());
   if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
   if (n != raw.size) return invalid(section.label, "decompressed to {} bytes, expected {}", n, raw.size);
   return raw;
 }
 
-Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes) {
-  const auto stored = stored_bytes(file, section);
+Result<Bytes> stored_head(std::span<const std::byte> front, const SectionInfo& section, std::size_t bytes) {
   Bytes head(std::min<std::uint64_t>(bytes, section.raw_bytes));
   if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
-    std::copy_n(stored.begin(), head.size(), head.begin());
+    if (front.size() < head.size()) return Bytes();
+    std::copy_n(front.begin(), head.size(), head.begin());
     return head;
   }
-  ORIEL_TRY_VOID(check_frame(stored, section));
-  ZSTD_DCtx* context = decompressor();
-  ZSTD_DCtx_reset(context, ZSTD_reset_session_only);
-  // No more is given at once than the decoder asks for: it would begin with the block behind what is wanted.
-  ZSTD_inBuffer in{stored.data(), 0, 0};
+  if (front.size() == section.stored_bytes) ORIEL_TRY_VOID(check_frame(front, section));
   ZSTD_outBuffer out{head.data(), head.size(), 0};
-  for (std::size_t asked = 1; out.pos < out.size;) {
-    in.size = std::min(in.size + asked, stored.size());
-    const std::size_t before = in.pos + out.pos;
-    asked = ZSTD_decompressStream(context, &out, &in);
-    if (ZSTD_isError(asked)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(asked));
-    if (in.pos + out.pos == before)
-      return invalid(section.label, "decompressed to {} bytes, expected {}", out.pos, out.size);
-  }
-  return head;
+  ORIEL_TRY(const bool enough, decompress_head(front, section, out));
+  return enough ? head : Bytes();
+}
+
+Result<Bytes> section_head(std::span<const std::byte> file, const SectionInfo& section, std::size_t bytes) {
+  return stored_head(stored_bytes(file, section), section, bytes);
 }
 
 }  // namespace oriel

@@ -3,6 +3,7 @@
 
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
+#include "formats/pack/encoding/half_page.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -89,13 +90,26 @@ Status decode(ByteReader& in, LightmapPage& page);
 Status decode(ByteReader& in, DirectionPage& page);
 Status decode(ByteReader& in, NormalMapping& mapping);
 Status decode(ByteReader& in, RadianceMap& map);
-// The same without the pixels: the first kRadianceMapPlaceBytes of the section.
+// The same without what is there by texel: the beginning of the section.
 struct RadianceMapScale {
   int exponent = 0;  // of 2: what radiance was divided by
   int shift = 0;     // disparity_from_code's
 };
 inline constexpr std::size_t kRadianceMapPlaceBytes = 52;
 Status decode_place(ByteReader& in, RadianceMap& map, RadianceMapScale& scale);
+Status decode_place(ByteReader& in, Texture& texture);
+Status decode_place(ByteReader& in, LightmapPage& page);
+Status decode_place(ByteReader& in, DirectionPage& page);
+struct SurroundMapScale {
+  int exponent = 0;   // of 2: what radiance was divided by
+  float nearest = 0;  // what codes of inverse distance are shares of
+};
+Status decode_place(ByteReader& in, SurroundMap& map, SurroundMapScale& scale);
+// Of a lightmap page all that lights surfaces, which is its beginning, light_bytes() of the section.
+inline std::size_t light_bytes(std::uint64_t texels) {
+  return 12 + 6 * texels;
+}
+Status decode(ByteReader& in, HalfPage& page);
 Status decode(ByteReader& in, CurvedReflector& reflector);
 Status decode(ByteReader& in, SurroundMap& map);
 Status decode(ByteReader& in, BrdfKernel& kernel);

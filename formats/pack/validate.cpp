@@ -193,19 +193,19 @@ void validate_unknown(const Pack& pack, IssueList& list) {
   }
 }
 
-std::vector<Issue> validate(const Pack& pack, MapPixels pixels) {
+std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   IssueList list;
   validate_texts(pack, list);
   validate_mesh(pack, list);
   validate_materials(pack, list);
-  validate_textures(pack, list);
-  validate_lightmaps(pack, list);
+  validate_textures(pack, pixels, list);
+  validate_lightmaps(pack, pixels, list);
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, pixels, list);
   validate_elements(pack, list);
   validate_emitters(pack, list);
   validate_curved_reflectors(pack, list);
-  validate_surround_maps(pack, list);
+  validate_surround_maps(pack, pixels, list);
   validate_kernels(pack, list);
   validate_kernel_fits(pack, list);
   validate_fresnel_maps(pack, list);

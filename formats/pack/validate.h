@@ -18,11 +18,11 @@ struct Issue {
   std::string message;  // how many, the first one, what was found and what was expected
 };
 
-// Whether radiance maps have their pixels, or are without until somebody wants them (deferred.h).
-enum class MapPixels { kHere, kDeferred };
+// Whether textures, lightmap pages and maps have their pixels, or are without until somebody wants them (deferred.h).
+enum class ImagePixels { kHere, kDeferred };
 
 // Everything that is wrong, in the order of the sections; one issue for all elements of an array that break the same
 // rule. A pack without errors is safe to draw: every index is in range and every number is finite. Never fails.
-std::vector<Issue> validate(const Pack& pack, MapPixels pixels = MapPixels::kHere);
+std::vector<Issue> validate(const Pack& pack, ImagePixels pixels = ImagePixels::kHere);
 
 }  // namespace oriel

@@ -177,7 +177,7 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
-  ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+  ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
   ORIEL_TRY(const Camera camera, choose_camera(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
   FrameOptions options = arguments.frame;

@@ -1,6 +1,7 @@
 // oriel-play: shows a pack in a window or in files.
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 
@@ -29,8 +30,8 @@ void list_cameras(const Pack& pack) {
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
 
-Status play(const PlayArguments& arguments) {
-  auto read = read_pack_deferred(arguments.pack);
+Status play(const PlayArguments& arguments, std::chrono::steady_clock::time_point started) {
+  auto read = open_pack(arguments.pack);
   // Started from a desktop there is no terminal that would say why.
   if (!read && !arguments.list && !arguments.offscreen && ::isatty(STDERR_FILENO) == 0)
     show_refusal(read.error().text(), stop_requested);
@@ -41,17 +42,18 @@ Status play(const PlayArguments& arguments) {
   }
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);
   return arguments.offscreen ? play_offscreen(std::move(pack), arguments)
-                             : play_in_window(std::move(pack), arguments, stop_requested);
+                             : play_in_window(std::move(pack), arguments, stop_requested, started);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    const auto started = std::chrono::steady_clock::now();
     const auto parsed = parse_arguments(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
     install_stop_handler();
-    const Status status = play(std::get<PlayArguments>(parsed));
+    const Status status = play(std::get<PlayArguments>(parsed), started);
     if (status) return 0;
     fmt::print(stderr, "oriel-play: {}\n", status.error().text());
     return static_cast<int>(status.error().code);

@@ -12,6 +12,12 @@ int mip_levels(int width, int height) {
 
 namespace {
 
+// Whether a texture can be allocated with all its levels at once: a driver that gets them one by one may guess wrong
+// and copy them later, in the middle of a frame.
+bool has_storage() {
+  return !epoxy_is_desktop_gl() || epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_texture_storage");
+}
+
 void set_sampling(GLenum target, const TextureOptions& options) {
   glTexParameteri(target, GL_TEXTURE_BASE_LEVEL, 0);
   glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, options.levels - 1);
@@ -31,26 +37,34 @@ Texture::Texture(const TextureFormat& format, int width, int height, const void*
   handle_ = Handle<ObjectKind::kTexture>(name);
   glBindTexture(GL_TEXTURE_2D, name);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const bool at_once = pixels == nullptr && levels_ > 1 && has_storage();
+  if (at_once) glTexStorage2D(GL_TEXTURE_2D, levels_, format.internal, width, height);
   for (int level = 0; level < levels_; ++level) {
     const int w = std::max(1, width >> level), h = std::max(1, height >> level);
-    glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(format.internal), w, h, 0, format.format, format.type,
-                 level == 0 ? pixels : nullptr);
+    if (!at_once)
+      glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(format.internal), w, h, 0, format.format, format.type,
+                   level == 0 ? pixels : nullptr);
     bytes_ += static_cast<std::size_t>(w) * h * format.bytes_per_texel;
   }
   set_sampling(GL_TEXTURE_2D, options);
   if (options.make_mipmaps && levels_ > 1) glGenerateMipmap(GL_TEXTURE_2D);
 }
 
-void Texture::upload(int level, const void* pixels) const {
+void Texture::upload(int level, int row, int rows, const void* pixels) const {
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, std::max(1, width_ >> level), std::max(1, height_ >> level),
-                  format_.format, format_.type, pixels);
+  glTexSubImage2D(GL_TEXTURE_2D, level, 0, row, std::max(1, width_ >> level), rows, format_.format, format_.type,
+                  pixels);
 }
 
 void Texture::bind(int unit) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, handle_.name());
+}
+
+void Texture::limit_levels(int levels) const {
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
 TextureArray::TextureArray(const TextureFormat& format, int width, int height, int layers,
@@ -60,10 +74,13 @@ TextureArray::TextureArray(const TextureFormat& format, int width, int height, i
   glGenTextures(1, &name);
   handle_ = Handle<ObjectKind::kTexture>(name);
   glBindTexture(GL_TEXTURE_2D_ARRAY, name);
+  const bool at_once = has_storage();
+  if (at_once) glTexStorage3D(GL_TEXTURE_2D_ARRAY, options.levels, format.internal, width, height, layers);
   for (int level = 0; level < options.levels; ++level) {
     const int w = std::max(1, width >> level), h = std::max(1, height >> level);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, level, static_cast<GLint>(format.internal), w, h, layers, 0, format.format,
-                 format.type, nullptr);
+    if (!at_once)
+      glTexImage3D(GL_TEXTURE_2D_ARRAY, level, static_cast<GLint>(format.internal), w, h, layers, 0, format.format,
+                   format.type, nullptr);
     bytes_ += static_cast<std::size_t>(w) * h * layers * format.bytes_per_texel;
   }
   set_sampling(GL_TEXTURE_2D_ARRAY, options);

@@ -1,6 +1,8 @@
 // Two-dimensional textures.
 #pragma once
 
+#include <algorithm>
+
 #include "formats/core/result.h"
 #include "player/gpu/handle.h"
 
@@ -47,9 +49,12 @@ class Texture {
   // height in [1, limits().texture_size].
   Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
 
-  // All of a level.
-  void upload(int level, const void* pixels) const;
+  // All of a level; some of its rows.
+  void upload(int level, const void* pixels) const { upload(level, 0, std::max(1, height_ >> level), pixels); }
+  void upload(int level, int row, int rows, const void* pixels) const;
   void bind(int unit) const;
+  // Only so many of its levels are looked at, from now on.
+  void limit_levels(int levels) const;
   GLuint name() const { return handle_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }

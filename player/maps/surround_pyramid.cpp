@@ -1,6 +1,7 @@
 #include "player/maps/surround_pyramid.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "formats/core/half.h"
 #include "formats/core/octahedral.h"
@@ -59,6 +60,11 @@ void each_with_border(int size, const Put& put) {
     for (int x = -1; x <= size; ++x) put(x + 1, y + 1, wrap_octahedral({x, y}, size));
 }
 
+IVec2 pyramid_extent(int size, int last) {
+  const IVec2 end = last > 0 ? pyramid_corner(size, last) + 3 : IVec2(3);
+  return {std::max(size + 2, last > 0 ? size + size / 2 + 4 : 0), std::max(size + 2, end.y)};
+}
+
 }  // namespace
 
 IVec2 pyramid_corner(int size, int level) {
@@ -76,8 +82,7 @@ SurroundPyramid make_surround_pyramid(const SurroundMap& map) {
   if (brightest > 0) out.scale = std::ldexp(1.0f, std::clamp(std::ilogb(brightest) - 14, -120, 120));
 
   const int last = static_cast<int>(levels.size()) - 1;
-  const IVec2 end = last > 0 ? pyramid_corner(out.size, last) + 3 : IVec2(3);
-  out.extent = {std::max(out.size + 2, last > 0 ? out.size + out.size / 2 + 4 : 0), std::max(out.size + 2, end.y)};
+  out.extent = pyramid_extent(out.size, last);
   out.light.resize(static_cast<std::size_t>(out.extent.x) * static_cast<std::size_t>(out.extent.y));
   for (int l = 0; l <= last; ++l) {
     const LightLevel& level = levels[static_cast<std::size_t>(l)];
@@ -98,16 +103,45 @@ SurroundPyramid make_surround_pyramid(const SurroundMap& map) {
   return out;
 }
 
+namespace {
+
+// Without pixels.
+SurroundData shape_of(int size, const IVec2& extent) {
+  SurroundData out;
+  out.light.format = gpu::kRgb9e5;
+  out.light.width = extent.x;
+  out.light.height = extent.y;
+  out.inverse_distance.format = gpu::kR32f;
+  out.inverse_distance.width = out.inverse_distance.height = size + 2;
+  for (TextureData* data : {&out.light, &out.inverse_distance})
+    data->options.min_filter = data->options.mag_filter = GL_LINEAR;
+  return out;
+}
+
+}  // namespace
+
+SurroundData surround_data(const SurroundMap& map) {
+  SurroundPyramid pyramid = make_surround_pyramid(map);
+  SurroundData out = shape_of(pyramid.size, pyramid.extent);
+  out.light.add(0, 0, 0, pyramid.extent.x, pyramid.extent.y, std::move(pyramid.light));
+  out.inverse_distance.add(0, 0, 0, pyramid.size + 2, pyramid.size + 2, std::move(pyramid.inverse_distance));
+  out.place.size = pyramid.size;
+  out.place.scale = pyramid.scale;
+  out.place.range = pyramid.range;
+  return out;
+}
+
+std::size_t surround_bytes(std::uint32_t size) {
+  const int side = static_cast<int>(size);
+  const SurroundData shape = shape_of(side, pyramid_extent(side, std::bit_width(size) - 1));
+  return shape.light.bytes() + shape.inverse_distance.bytes();
+}
+
 SurroundTextures upload_surround_map(const SurroundMap& map) {
-  const SurroundPyramid pyramid = make_surround_pyramid(map);
-  gpu::TextureOptions filtered;
-  filtered.min_filter = filtered.mag_filter = GL_LINEAR;
-  SurroundTextures out;
-  out.light = {gpu::kRgb9e5, pyramid.extent.x, pyramid.extent.y, pyramid.light.data(), filtered};
-  out.inverse_distance = {gpu::kR32f, pyramid.size + 2, pyramid.size + 2, pyramid.inverse_distance.data(), filtered};
-  out.size = pyramid.size;
-  out.scale = pyramid.scale;
-  out.range = pyramid.range;
+  SurroundData data = surround_data(map);
+  SurroundTextures out = std::move(data.place);
+  out.light = upload_texture(std::move(data.light));
+  out.inverse_distance = upload_texture(std::move(data.inverse_distance));
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "formats/assets/surround_map.h"
-#include "player/gpu/texture.h"
+#include "player/textures/texture_data.h"
 
 namespace oriel {
 
@@ -32,6 +32,13 @@ struct SurroundTextures {
   float scale = 1;
   Vec2 range{0};
 };
+struct SurroundData {
+  TextureData light, inverse_distance;
+  SurroundTextures place;  // without its textures
+};
+SurroundData surround_data(const SurroundMap& map);
+// On the device.
+std::size_t surround_bytes(std::uint32_t size);
 SurroundTextures upload_surround_map(const SurroundMap& map);
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "formats/core/text.h"
 #include "player/options/option_names.h"
 #include "player/session/keys.h"
 
@@ -235,6 +236,16 @@ void add_options(CLI::App& app, PlayArguments& out) {
       ->excludes(app.get_option("--frames"));
   app.add_option("--stats", out.stats, "Offscreen: time each pass and write times, counts and the options as JSON")
       ->type_name("FILE");
+  app.add_option_function<std::string>(
+         "--gpu-memory",
+         [&out](const std::string& text) {
+           const auto bytes = parse_bytes(text);
+           if (!bytes) throw CLI::ValidationError("--gpu-memory", bytes.error().message);
+           out.gpu_memory = *bytes;
+         },
+         "Textures, lightmap pages and maps take no more than this on the device: what is near and in view is shown as "
+         "it is, the rest coarser or not at all. Without it: no limit")
+      ->type_name("SIZE");
   app.add_flag("--panel", out.panel,
                "Open the panel at once: exposure, stages, reflections, times, what is under the pointer");
   app.add_flag("--gl-debug", out.gl_debug, "Print the messages of the OpenGL driver");

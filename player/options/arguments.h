@@ -8,6 +8,7 @@
 
 #include "formats/core/result.h"
 #include "formats/motion/mover_pose.h"
+#include "player/loading/residency.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
 
@@ -38,7 +39,8 @@ struct PlayArguments {
   float smooth_s = 0;  // standard deviation that the path is smoothed with
   std::string video;   // film of the path
   bool panorama = false;
-  std::string stats;  // a file for what the frames cost
+  std::string stats;                    // a file for what the frames cost
+  std::uint64_t gpu_memory = kNoLimit;  // bytes of images on the device
   bool panel = false;
   bool gl_debug = false;
 };

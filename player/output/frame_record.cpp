@@ -31,6 +31,10 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"points", s.points},
           {"image_pixels", s.image_pixels},
           {"map_bytes", s.map_bytes},
+          {"image_bytes", s.image_bytes},
+          {"most_image_bytes", s.most_image_bytes},
+          {"coarser_images", s.coarser_images},
+          {"missing_images", s.missing_images},
           {"reflected_pixels", s.reflected_pixels},
           {"holes", s.holes},
           {"mirror_pixels", s.mirror_pixels},
@@ -51,6 +55,8 @@ nlohmann::ordered_json as_json(const PlayArguments& arguments) {
           {"fresnel", name_of(kReflectances, o.reflectance)},
           {"pvs", name_of(kSwitch, o.visible_sets)},
           {"mipmaps", o.mipmaps},
+          {"gpu_memory",
+           arguments.gpu_memory == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(arguments.gpu_memory)},
           {"exposure", exposure}};
 }
 
@@ -60,6 +66,9 @@ std::string describe(const FrameStats& stats, bool in_zone) {
   std::string text = fmt::format("{} draws, {} triangles, {} reflectors, {} maps, {} points, {:.1f} MB of maps",
                                  stats.draws, stats.triangles, stats.reflectors, stats.maps, stats.points,
                                  static_cast<double>(stats.map_bytes) * 1e-6);
+  if (stats.coarser_images + stats.missing_images > 0)
+    text += fmt::format(", {:.1f} MB of images, {} coarser, {} left out", static_cast<double>(stats.image_bytes) * 1e-6,
+                        stats.coarser_images, stats.missing_images);
   if (stats.groups > 0) text += fmt::format(", {} of {} groups may be seen", stats.groups_seen, stats.groups);
   for (std::size_t i = 0; i < kPassNames.size(); ++i)
     if (stats.ms[i] > 0) text += fmt::format(", {} {:.1f} ms", kPassNames[i], stats.ms[i]);

@@ -107,6 +107,16 @@ void draw_movers(const Pack& pack, Session& session) {
   }
 }
 
+void draw_images(const LoadingState& images) {
+  const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; };
+  std::string line = fmt::format("{:.0f} MB of images", megabytes(images.used));
+  if (images.limit != kNoLimit) line += fmt::format(" of {:.0f}", megabytes(images.limit));
+  if (images.coarser > 0) line += fmt::format(", {} coarser", images.coarser);
+  if (images.left_out > 0) line += fmt::format(", {} left out", images.left_out);
+  if (images.failed > 0) line += fmt::format(", {} broken", images.failed);
+  text(line);
+}
+
 void draw_statistics(const FrameMeter& meter, const Pack& pack, FrameOptions& frame) {
   if (!pack.visible_sets.empty()) ImGui::Checkbox("only what may be seen", &frame.visible_sets);
   const std::vector<float> ms(meter.ms.begin(), meter.ms.end());
@@ -130,6 +140,7 @@ void draw_statistics(const FrameMeter& meter, const Pack& pack, FrameOptions& fr
   if (s.groups > 0) text(fmt::format("{} of {} groups of triangles may be seen", s.groups_seen, s.groups));
   text(fmt::format("{} reflectors, {} maps, {:.1f} MB of them", s.reflectors, s.maps,
                    static_cast<double>(s.map_bytes) * 1e-6));
+  draw_images(meter.loading);
   text(meter.device);
 }
 
@@ -158,6 +169,10 @@ void draw_picked(const std::optional<PickedSurface>& picked) {
   text(fmt::format("roughness {:.2f}, metallic {:.2f}", picked->roughness, picked->metallic));
   if (picked->page < 0) {
     ImGui::TextUnformatted("no lightmap: unlit");
+    return;
+  }
+  if (!picked->known) {
+    ImGui::TextUnformatted("its texels are not loaded yet");
     return;
   }
   text(fmt::format("{:.4g} ± {:.2g} lux", picked->lux, picked->lux_error));
@@ -214,6 +229,18 @@ void draw_line(const char* id, const std::string& line, float down) {
   ImGui::End();
 }
 
+// How much of what is wanted is there, in the middle of the lower edge.
+void draw_loading_bar(float share) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, size.y - scaled(kMargin)), ImGuiCond_Always, ImVec2(0.5f, 1));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::Begin("loading", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::ProgressBar(share, ImVec2(scaled(260), 0), fmt::format("loading, {:.0f} %", 100 * share).c_str());
+  ImGui::End();
+}
+
 }  // namespace
 
 void FrameMeter::add(float frame_ms) {
@@ -229,6 +256,8 @@ void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional
                   Session& session) {
   if (!meter.in_zone && meter.stats.reflectors > 0) draw_line("zone", "reflections were planned for other places", 1);
   if (!meter.message.empty()) draw_line("message", meter.message, 0);
+  if (meter.loading.busy) draw_loading_bar(meter.loading.share());
+  if (!meter.failure.empty()) draw_line("failure", "not all of it can be shown: " + meter.failure, 0.25f);
   if (session.recording)
     draw_line("recording", fmt::format("recording, {:.0f} s; F9 ends it", session.recording->keys.back().time_s), 0.5f);
   if (session.panel) draw_panel(pack, meter, picked, session);

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "player/loading/loading_state.h"
 #include "player/session/pick.h"
 #include "player/session/session.h"
 
@@ -16,6 +17,8 @@ struct FrameMeter {
   bool in_zone = true;
   std::string device;   // its name
   std::string message;  // for the user, while it is news
+  LoadingState loading;
+  std::string failure;  // the first image that could not be loaded; empty: none
 
   static constexpr std::size_t kKept = 120;
   void add(float frame_ms);

@@ -35,6 +35,15 @@ std::vector<DrawBatch> choose_shown(GpuScene& scene, const View& view, const Fra
   return scene.show(make_frustum(view.clip_from_pack), seen);
 }
 
+void count_images(GpuScene& scene, FrameStats& stats) {
+  const LoadingState state = scene.images().state();
+  stats.map_bytes = scene.map_bytes();
+  stats.image_bytes = state.used;
+  stats.most_image_bytes = state.most_used;
+  stats.coarser_images = static_cast<std::uint32_t>(state.coarser);
+  stats.missing_images = static_cast<std::uint32_t>(state.left_out);
+}
+
 template <class T>
 std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
   std::vector<T> rgb;
@@ -82,8 +91,8 @@ Status Renderer::ensure_frame(int width, int height) {
   return {};
 }
 
-std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, const View& view,
-                                                      const FrameOptions& options, FrameStats& stats) {
+Result<std::vector<Renderer::Candidate>> Renderer::draw_masks(GpuScene& scene, const View& view,
+                                                              const FrameOptions& options, FrameStats& stats) {
   std::vector<Candidate> candidates;
   marked_.clear();
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
@@ -93,18 +102,22 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     const Vec4 eye = eye_in_reflector(reflector, view);
     if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
-                        kMaskQueries * candidates.size()};
+                        kMaskQueries * candidates.size(), false};
     if (candidate.screen.empty) continue;
+    ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
+    candidate.waits = !shows;
     const bool see_through = scene.is_transparent(reflector.material);
     if (!see_through && marked_.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
-    if (!see_through) {
+    if (!see_through && !candidate.waits) {
       marked_.push_back(reflector.material);
       candidate.value = static_cast<GLint>(marked_.size());
     }
     while (queries_.size() < candidate.query + kMaskQueries) queries_.push_back(gpu::make_query());
     reflector_pass_.draw_mask(scene, reflector, view, candidate.screen,
                               see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
-                              see_through ? kSeeThroughBit : kReflectorBits,
+                              candidate.waits ? 0
+                              : see_through   ? kSeeThroughBit
+                                              : kReflectorBits,
                               std::span(queries_).subspan(candidate.query, kMaskQueries), stats);
     candidates.push_back(candidate);
   }
@@ -112,29 +125,31 @@ std::vector<Renderer::Candidate> Renderer::draw_masks(const GpuScene& scene, con
     candidate.screen =
         ReflectorPass::visible_part(candidate.screen, view, std::span(queries_).subspan(candidate.query, kMaskQueries));
   }
-  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.screen.empty; });
+  for (const Candidate& candidate : candidates)
+    if (candidate.waits && !candidate.screen.empty) scene.want_maps(*candidate.reflector);
+  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.screen.empty || candidate.waits; });
   return candidates;
 }
 
 // M into the image.
-void Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view,
-                                   const ImageRect& rect, const FrameOptions& options, FrameStats& stats) {
+Status Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view,
+                                     const ImageRect& rect, const FrameOptions& options, FrameStats& stats) {
   switch (options.reflections) {
     case Reflections::kPoints:
-      reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-      break;
+      return reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
     case Reflections::kGeometry:
       draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, options.white, stats);
-      break;
+      return {};
     default:
       march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+      return {};
   }
 }
 
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
-  ORIEL_TRY_VOID(scene.load_maps(reflector));
+  ORIEL_TRY_VOID(scene.bring_maps(reflector));
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
@@ -148,7 +163,8 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
     stats.mirror_pixels += count.pixels;
     stats.sharp += count.counted;
   }
-  clock_.time(Pass::kReflect, [&] { draw_mirrored_world(scene, reflector, view, rect, options, stats); });
+  ORIEL_TRY_VOID(
+      clock_.time(Pass::kReflect, [&] { return draw_mirrored_world(scene, reflector, view, rect, options, stats); }));
   if (counted) {
     const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_hole);
     stats.reflected_pixels += count.pixels;
@@ -176,14 +192,17 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
 }
 
 // Gives the see-through ones, whose light is added once the scene is drawn.
-std::vector<const GpuCurvedReflector*> Renderer::draw_curved(GpuScene& scene, const View& view,
-                                                             const FrameOptions& options,
-                                                             std::set<std::uint32_t>& reflective, FrameStats& stats) {
+Result<std::vector<const GpuCurvedReflector*>> Renderer::draw_curved(GpuScene& scene, const View& view,
+                                                                     const FrameOptions& options,
+                                                                     std::set<std::uint32_t>& reflective,
+                                                                     FrameStats& stats) {
   std::vector<const GpuCurvedReflector*> see_through;
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
   const Frustum frustum = make_frustum(view.clip_from_pack);
   for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
     if (!may_be_visible(frustum, reflector.bounds)) continue;
+    ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
+    if (!there) continue;
     if (scene.is_transparent(reflector.material)) {
       curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
       see_through.push_back(&reflector);
@@ -219,6 +238,7 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
+  if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
   clock_.start(options.timed);
@@ -236,23 +256,24 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   const std::vector<DrawBatch> shown = choose_shown(scene, view, options, stats);
   clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, shown, stats); });
   if (is_survey(options.show)) {
-    clock_.time(Pass::kScene, [&] { survey_pass_.draw(scene, view, shown, options.show, stats); });
+    ORIEL_TRY_VOID(
+        clock_.time(Pass::kScene, [&] { return survey_pass_.draw(scene, view, shown, options.show, stats); }));
     stats.ms = clock_.read();
     ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
     return stats;
   }
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
-  const std::vector<Candidate> candidates =
-      clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); });
+  ORIEL_TRY(const std::vector<Candidate> candidates,
+            clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); }));
   std::set<std::uint32_t> reflective;
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) continue;
     ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
     reflective.insert(candidate.reflector->material);
   }
-  const auto see_through =
-      clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); });
+  ORIEL_TRY(const auto see_through,
+            clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); }));
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
     ORIEL_TRY(const auto change, draw_change(scene, view, shown, movers, options, stats));
@@ -273,7 +294,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     for (const GpuCurvedReflector* reflector : see_through)
       curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
   });
-  stats.map_bytes = scene.map_bytes();
+  count_images(scene, stats);
   stats.ms = clock_.read();
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
   return stats;

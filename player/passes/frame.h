@@ -45,19 +45,21 @@ class Renderer {
     NdcRect screen;         // around what is visible of it
     GLint value = 0;        // in the stencil; 0: see-through
     std::size_t query = 0;  // first of kMaskQueries
+    bool waits = false;     // for its maps: nothing of it is drawn
   };
 
   Renderer() = default;
   Status ensure_frame(int width, int height);
-  std::vector<Candidate> draw_masks(const GpuScene& scene, const View& view, const FrameOptions& options,
-                                    FrameStats& stats);
-  void draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                           const FrameOptions& options, FrameStats& stats);
+  Result<std::vector<Candidate>> draw_masks(GpuScene& scene, const View& view, const FrameOptions& options,
+                                            FrameStats& stats);
+  Status draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                             const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
-  std::vector<const GpuCurvedReflector*> draw_curved(GpuScene& scene, const View& view, const FrameOptions& options,
-                                                     std::set<std::uint32_t>& reflective, FrameStats& stats);
+  Result<std::vector<const GpuCurvedReflector*>> draw_curved(GpuScene& scene, const View& view,
+                                                             const FrameOptions& options,
+                                                             std::set<std::uint32_t>& reflective, FrameStats& stats);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
                                                   std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,

@@ -53,7 +53,8 @@ void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View&
   glBindVertexArray(no_vertices_.name());
   const Reflector& shape = scene.pack().reflectors[reflector.index];
   const float beyond = 4 * (reflector.size + std::fabs(reflected.mirrored_eye.z));
-  for (const ReflectorElement& element : reflector.elements) {
+  for (std::size_t e = 0; e < reflector.elements.size(); ++e) {
+    const ReflectorElement& element = reflector.elements[e];
     const PlaneRect served = served_by(element, shape, beyond);
     const std::array<Vec3, 4> corners{Vec3(served.from, 0), Vec3(served.to.x, served.from.y, 0), Vec3(served.to, 0),
                                       Vec3(served.from.x, served.to.y, 0)};
@@ -62,14 +63,14 @@ void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View&
     program_.set("u_to", served.to);
     program_.set("u_lower", element.lower);
     program_.set("u_upper", element.upper);
-    choose_maps(scene, element, reflected.mirrored_eye, options, stats);
+    choose_maps(scene, element, scene.map_array(reflector, e), reflected.mirrored_eye, options, stats);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     ++stats.draws;
   }
 }
 
-void MarchPass::choose_maps(GpuScene& scene, const ReflectorElement& element, const Vec4& mirrored_eye,
-                            const FrameOptions& options, FrameStats& stats) const {
+void MarchPass::choose_maps(const GpuScene& scene, const ReflectorElement& element, const MapArray& array,
+                            const Vec4& mirrored_eye, const FrameOptions& options, FrameStats& stats) const {
   const std::vector<RadianceMap>& maps = scene.pack().radiance_maps;
   std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element, options.selection);
   // Where not all can be asked, residual ones come before the worst of the others.
@@ -79,7 +80,6 @@ void MarchPass::choose_maps(GpuScene& scene, const ReflectorElement& element, co
   if (excess > 0) chosen.erase(residual - std::min(excess, residual - chosen.begin()), residual);
   chosen.resize(std::min(chosen.size(), kMostMapsPerElement));
 
-  const MapArray& array = scene.map_array(element);
   array.light.bind(0);
   array.disparity.bind(1);
   array.ranges.bind(2);
@@ -87,7 +87,7 @@ void MarchPass::choose_maps(GpuScene& scene, const ReflectorElement& element, co
   for (const WeighedMap& m : chosen) {
     const RadianceMap& map = maps[element.maps[m.map]];
     eyes.emplace_back(map.eye, m.weight);
-    sizes.emplace_back(map.width, map.height, m.map, array.scale[m.map]);
+    sizes.emplace_back(Vec2(array.sizes[m.map]), m.map, array.scale[m.map]);
   }
   program_.set("u_eyes", eyes);
   program_.set("u_maps", sizes);

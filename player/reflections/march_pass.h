@@ -19,8 +19,8 @@ class MarchPass {
             const ImageTarget& target, const FrameOptions& options, FrameStats& stats, bool measure = false) const;
 
  private:
-  void choose_maps(GpuScene& scene, const ReflectorElement& element, const Vec4& mirrored_eye,
-                   const FrameOptions& options, FrameStats& stats) const;
+  void choose_maps(const GpuScene& scene, const ReflectorElement& element, const MapArray& array,
+                   const Vec4& mirrored_eye, const FrameOptions& options, FrameStats& stats) const;
   gpu::Program program_;
   gpu::VertexArray no_vertices_;
 };

@@ -30,8 +30,8 @@ Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
   return pass;
 }
 
-void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                         const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
+Status ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                           const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
   clear_image(target, rect);
   const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
   const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
@@ -56,19 +56,22 @@ void ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const V
     const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t map = element.maps[maps[i].map];
-      if (!scene.pack().radiance_maps[map].residual) draw_map(scene, map, reflector, view, stats);
+      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(scene, map, reflector, view, stats));
     }
   }
+  return {};
 }
 
-void ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuReflector& reflector, const View& view,
-                             FrameStats& stats) const {
+Status ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuReflector& reflector, const View& view,
+                               FrameStats& stats) const {
   const RadianceMap& map = scene.pack().radiance_maps[index];
   const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y;
   const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);
   const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
-  scene.radiance_map(index).bind(0);
+  ORIEL_TRY(const gpu::Texture* const points, scene.radiance_map(index));
+  if (points == nullptr) return {};
+  points->bind(0);
   program_.set("u_map_size", IVec2(width, height));
   program_.set("u_step", step);
   program_.set("u_columns", columns);
@@ -79,6 +82,7 @@ void ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuRefl
   ++stats.draws;
   ++stats.maps;
   stats.points += static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+  return {};
 }
 
 }  // namespace oriel

@@ -14,12 +14,12 @@ class ReprojectPass {
 
   // Clears the image and draws the chosen maps of all elements that it shows. The reflector's front faces the eye.
   // Holes keep a = 0.
-  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-            const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const;
+  Status draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+              const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const;
 
  private:
-  void draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view,
-                FrameStats& stats) const;
+  Status draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view,
+                  FrameStats& stats) const;
   gpu::Program program_;
   gpu::VertexArray no_vertices_;
   float point_max_ = 1;

@@ -69,27 +69,28 @@ Status check_rectangle(const std::string& where, const Vec2& lower, const Vec2& 
                  upper.x, upper.y);
 }
 
-Status check_images(const Pack& pack, const gpu::Device& device, MapPixels pixels) {
-  for (std::size_t i = 0; i < pack.textures.size(); ++i) {
-    const Texture& t = pack.textures[i];
-    ORIEL_TRY_VOID(check_size(fmt::format("texture {}", i), t.width, t.height, t.texels.size(), 4, device));
-  }
-  for (std::size_t i = 0; i < pack.normal_textures.size(); ++i) {
-    const Texture& t = pack.normal_textures[i];
-    ORIEL_TRY_VOID(check_size(fmt::format("normal texture {}", i), t.width, t.height, t.texels.size(), 4, device));
-  }
+Status check_images(const Pack& pack, const gpu::Device& device, ImagePixels pixels) {
+  // Deferred ones have sizes only.
+  const auto check = [&](const std::string& where, const auto& image, std::uint64_t found,
+                         std::uint32_t per_texel) -> Status {
+    const std::uint64_t all = std::uint64_t{image.width} * image.height * per_texel;
+    return check_size(where, image.width, image.height, pixels == ImagePixels::kHere ? found : all, per_texel, device);
+  };
+  for (std::size_t i = 0; i < pack.textures.size(); ++i)
+    ORIEL_TRY_VOID(check(fmt::format("texture {}", i), pack.textures[i], pack.textures[i].texels.size(), 4));
+  for (std::size_t i = 0; i < pack.normal_textures.size(); ++i)
+    ORIEL_TRY_VOID(
+        check(fmt::format("normal texture {}", i), pack.normal_textures[i], pack.normal_textures[i].texels.size(), 4));
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const LightmapPage& p = pack.lightmaps[i];
     const std::string where = fmt::format("lightmap {}", i);
-    ORIEL_TRY_VOID(check_size(where, p.width, p.height, p.irradiance.size(), 1, device));
-    if (!p.direction.empty()) ORIEL_TRY_VOID(check_size(where, p.width, p.height, p.direction.size(), 1, device));
+    ORIEL_TRY_VOID(check(where, p, p.irradiance.size(), 1));
+    if (!p.direction.empty()) ORIEL_TRY_VOID(check(where, p, p.direction.size(), 1));
   }
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& m = pack.radiance_maps[i];
     const std::string where = fmt::format("radiance map {}", i);
-    const bool here = pixels == MapPixels::kHere;
-    const std::uint64_t found = here ? m.radiance.size() : std::uint64_t{m.width} * m.height;
-    ORIEL_TRY_VOID(check_size(where, m.width, m.height, found, 1, device));
+    ORIEL_TRY_VOID(check(where, m, m.radiance.size(), 1));
     if (m.disparity.size() != m.radiance.size() || m.valid.size() != m.radiance.size()) {
       return invalid(where, "found {} disparities and {} states, expected {}", m.disparity.size(), m.valid.size(),
                      m.radiance.size());
@@ -210,7 +211,7 @@ Status check_emitters(const Pack& pack) {
   return {};
 }
 
-Status check_curved_reflectors(const Pack& pack, const gpu::Device& device) {
+Status check_curved_reflectors(const Pack& pack, const gpu::Device& device, ImagePixels pixels) {
   for (std::size_t i = 0; i < pack.curved_reflectors.size(); ++i) {
     const CurvedReflector& r = pack.curved_reflectors[i];
     const std::string where = fmt::format("curved reflector {} '{}'", i, r.name);
@@ -229,6 +230,7 @@ Status check_curved_reflectors(const Pack& pack, const gpu::Device& device) {
       return fail(ErrorCode::kRuntime, where, "found {} texels a side, expected a power of two up to {} ({})", map.size,
                   device.texture_size / 2, device.renderer);
     }
+    if (pixels == ImagePixels::kDeferred) continue;
     for (const std::size_t found : {map.radiance.size(), map.inverse_distance.size(), map.valid.size()})
       ORIEL_TRY_VOID(check_size(where, map.size, map.size, found, 1, device));
   }
@@ -316,13 +318,13 @@ Status check_movers(const Pack& pack, const gpu::Device& device) {
 
 }  // namespace
 
-Status check_drawable(const Pack& pack, const gpu::Device& device, MapPixels pixels) {
+Status check_drawable(const Pack& pack, const gpu::Device& device, ImagePixels pixels) {
   ORIEL_TRY_VOID(check_mesh(pack, pack.mesh, "mesh"));
   ORIEL_TRY_VOID(check_materials(pack));
   ORIEL_TRY_VOID(check_kernels(pack, device));
   ORIEL_TRY_VOID(check_fresnel_maps(pack, device));
   ORIEL_TRY_VOID(check_images(pack, device, pixels));
-  ORIEL_TRY_VOID(check_curved_reflectors(pack, device));
+  ORIEL_TRY_VOID(check_curved_reflectors(pack, device, pixels));
   ORIEL_TRY_VOID(check_emitters(pack));
   ORIEL_TRY_VOID(check_reflectors(pack, device));
   ORIEL_TRY_VOID(check_field(pack.light_field));

@@ -7,6 +7,6 @@
 namespace oriel {
 
 // Error kInvalid names the first index, size or number that does not fit; kRuntime names what exceeds the device.
-Status check_drawable(const Pack& pack, const gpu::Device& device, MapPixels pixels = MapPixels::kHere);
+Status check_drawable(const Pack& pack, const gpu::Device& device, ImagePixels pixels = ImagePixels::kHere);
 
 }  // namespace oriel

@@ -74,6 +74,10 @@ struct FrameStats {
   std::uint64_t points = 0;        // of them
   std::uint64_t image_pixels = 0;  // of planar reflectors' images, with their margins
   std::uint64_t map_bytes = 0;     // of all radiance and surround maps on the device so far
+  // All images on the device; the most they ever were; how many are coarser than the pack's, or left out, for the
+  // limit.
+  std::uint64_t image_bytes = 0, most_image_bytes = 0;
+  std::uint32_t coarser_images = 0, missing_images = 0;
   // Of opaque reflectors, where they are counted.
   std::uint64_t reflected_pixels = 0, holes = 0;
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.

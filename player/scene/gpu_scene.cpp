@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "formats/core/threads/parallel.h"
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
 
@@ -12,47 +11,38 @@ namespace {
 
 constexpr int kKernelTaps = 48;
 
-// Over the pixels of a reflector's maps.
-struct MapMeans {
-  Vec3 radiance{0};
-  float distance = 0;
-};
-
-MapMeans means_of_maps(const Pack& pack, const Reflector& reflector) {
-  DVec3 radiance(0);
-  double count = 0, distance = 0, surfaces = 0;
-  for (std::uint32_t m = 0; m < reflector.map_count; ++m) {
-    const RadianceMap& map = pack.radiance_maps[reflector.first_map + m];
-    for (std::size_t i = 0; i < map.radiance.size(); ++i) {
-      if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
-      radiance += DVec3(map.radiance[i]);
-      count += 1;
-      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
-      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
-                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
-      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
-      distance += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
-      surfaces += 1;
-    }
+// Where the images of ranges are seen.
+void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
+              std::vector<ImageUse>& uses) {
+  const auto add = [&](ImageKind kind, std::int32_t index, const DrawRange& range) {
+    if (index >= 0) uses.push_back({{kind, static_cast<std::uint32_t>(index)}, placed(range.bounds), range.group});
+  };
+  for (const DrawRange& range : ranges) {
+    const Material& m = pack.materials[range.material];
+    add(ImageKind::kColor, m.base_color_texture, range);
+    add(ImageKind::kNormal, m.normal_texture, range);
+    add(ImageKind::kLight, range.lightmap_page, range);
   }
-  MapMeans out;
-  if (count > 0) out.radiance = Vec3(radiance / count);
-  if (surfaces > 0) out.distance = static_cast<float>(distance / surfaces);
-  return out;
+}
+
+Status first_of(const std::vector<Error>& errors) {
+  if (errors.empty()) return {};
+  return tl::unexpected<Error>(errors.front());
 }
 
 }  // namespace
 
-Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu::Device& device) {
-  ORIEL_TRY_VOID(check_drawable(pack.pack, device, pack.maps ? MapPixels::kDeferred : MapPixels::kHere));
+Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu::Device& device,
+                                                   const LoadingOptions& loading) {
+  ORIEL_TRY_VOID(check_drawable(pack.pack, device, pack.images ? ImagePixels::kDeferred : ImagePixels::kHere));
   std::unique_ptr<GpuScene> scene(new GpuScene);
   static std::atomic<std::uint64_t> scenes{0};
   scene->serial_ = ++scenes;
   scene->pack_ = std::move(pack.pack);
-  scene->deferred_ = std::move(pack.maps);
   scene->upload_geometry();
-  scene->upload_images();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
+  scene->upload_images(std::move(pack.images), loading);
+  if (!loading.background && loading.limit == kNoLimit) ORIEL_TRY_VOID(first_of(scene->advance_all()));
   ORIEL_TRY_VOID(gpu::check_gl("uploading the pack"));
   return scene;
 }
@@ -114,31 +104,58 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
-  loaded_.resize(reflectors_.size());
 }
 
-Status GpuScene::load_maps(const GpuReflector& reflector) {
-  if (loaded_[reflector.index]) return {};
-  const Reflector& r = pack_.reflectors[reflector.index];
-  if (deferred_) {
-    std::vector<Status> loaded(r.map_count);
-    for_each_parallel(r.map_count, core_count(), [&](std::size_t m) {
-      RadianceMap& place = pack_.radiance_maps[r.first_map + m];
-      Result<RadianceMap> map = deferred_->load(r.first_map + m);
-      if (!map) {
-        loaded[m] = tl::unexpected<Error>(std::move(map).error());
-        return;
-      }
-      map->residual = place.residual;
-      place = std::move(*map);
-    });
-    for (const Status& status : loaded) ORIEL_TRY_VOID(status);
-  }
-  const MapMeans means = means_of_maps(pack_, r);
+Result<bool> GpuScene::may_show_maps(const GpuReflector& reflector) {
+  const ImageName name{ImageKind::kMaps, reflector.index};
+  if (images_->has(name)) return true;
+  if (images_->in_background()) return false;
+  if (images_->state().limit == kNoLimit) return true;
+  images_->want(name);
+  ORIEL_TRY_VOID(first_of(advance_all()));
+  return images_->has(name);
+}
+
+Status GpuScene::bring_maps(const GpuReflector& reflector) {
+  const ImageName name{ImageKind::kMaps, reflector.index};
+  images_->want(name);
+  if (!images_->has(name)) ORIEL_TRY_VOID(first_of(advance_all()));
+  const MapMeans& means = images_->maps(reflector.index).means;
   reflectors_[reflector.index].mean_radiance = means.radiance;
   reflectors_[reflector.index].mean_distance = means.distance;
-  loaded_[reflector.index] = true;
   return {};
+}
+
+Result<bool> GpuScene::bring_surround_map(std::uint32_t index) {
+  const ImageName name{ImageKind::kSurround, index};
+  images_->want(name);
+  if (!images_->has(name) && !images_->in_background()) ORIEL_TRY_VOID(first_of(advance_all()));
+  return images_->has(name);
+}
+
+Status GpuScene::aim(const View& view) {
+  if (!images_->in_background() && images_->state().limit == kNoLimit) return {};  // all is there
+  const SeenMask seen = view.orthographic ? std::nullopt : seen_from(Vec3(view.eye));
+  images_->begin_wants();
+  images_->aim(Vec3(view.eye), make_frustum(view.clip_from_pack), seen ? &*seen : nullptr);
+  return images_->in_background() ? Status() : first_of(advance_all());
+}
+
+std::vector<Error> GpuScene::advance(SceneImages::Clock::duration budget) {
+  std::vector<Error> errors = images_->advance(budget);
+  keep_texels();
+  return errors;
+}
+
+std::vector<Error> GpuScene::advance_all(SceneImages::Clock::time_point until) {
+  std::vector<Error> errors = images_->finish(until);
+  keep_texels();
+  return errors;
+}
+
+// For those who look at texels, not at textures.
+void GpuScene::keep_texels() {
+  for (auto& [index, texture] : images_->take_texels()) pack_.textures[index].texels = std::move(texture.texels);
 }
 
 void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {
@@ -174,71 +191,45 @@ void GpuScene::make_curved_reflectors(std::vector<std::uint32_t>& indices) {
   }
 }
 
-void GpuScene::upload_images() {
+void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading) {
   const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
   white_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, white.data());
   no_lightmap_.texture = gpu::Texture(gpu::kRgba8, 1, 1, white.data());
   const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
   flat_ = gpu::Texture(gpu::kRgba8, 1, 1, flat.data());
-  std::vector<std::vector<Material>> users(pack_.textures.size());
-  for (const Material& m : pack_.materials)
-    if (m.base_color_texture >= 0) users[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
-  for (std::size_t i = 0; i < users.size(); ++i) albedos_.push_back(upload_color_texture(pack_.textures[i], users[i]));
-  for (const Texture& texture : pack_.normal_textures) normal_maps_.push_back(upload_normal_texture(texture));
-  for (const LightmapPage& page : pack_.lightmaps) lightmaps_.push_back(upload_lightmap(page));
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
-  radiance_maps_.resize(pack_.radiance_maps.size());
-  surround_maps_.resize(pack_.surround_maps.size());
   sphere_maps_.resize(pack_.fresnel_maps.size());
-}
 
-void GpuScene::use_mipmaps(bool on) {
-  if (on == mipmaps_) return;
-  mipmaps_ = on;
-  for (const auto* textures : {&albedos_, &normal_maps_})
-    for (const gpu::Texture& texture : *textures) {
-      texture.bind(0);
-      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, on ? texture.levels() - 1 : 0);
-    }
+  std::vector<ImageUse> uses;
+  const auto as_it_is = [](const Bounds& bounds) { return bounds; };
+  add_uses(pack_, opaque_, as_it_is, uses);
+  add_uses(pack_, transparent_, as_it_is, uses);
+  // Movers may be anywhere.
+  for (const GpuMover& mover : movers_)
+    add_uses(
+        pack_, mover.ranges, [&](const Bounds&) { return bounds_; }, uses);
+  std::vector<std::vector<ReflectorElement>> elements;
+  for (const GpuReflector& reflector : reflectors_) {
+    Bounds bounds;
+    for (const Vec3& corner : reflector.corners) bounds.extend(corner);
+    uses.push_back({{ImageKind::kMaps, reflector.index}, bounds, DrawRange::kNoGroup});
+    elements.push_back(reflector.elements);
+  }
+  for (const GpuCurvedReflector& reflector : curved_reflectors_)
+    uses.push_back({{ImageKind::kSurround, reflector.map}, reflector.bounds, DrawRange::kNoGroup});
+  images_ = std::make_unique<SceneImages>(ImageSource(pack_, std::move(deferred), std::move(elements)), uses, loading);
 }
 
 const gpu::Texture& GpuScene::albedo(std::int32_t index) const {
-  return index < 0 ? white_ : albedos_[static_cast<std::size_t>(index)];
+  return index < 0 ? white_ : images_->color(static_cast<std::uint32_t>(index));
 }
 
 const gpu::Texture& GpuScene::normal_map(std::int32_t index) const {
-  return index < 0 ? flat_ : normal_maps_[static_cast<std::size_t>(index)];
+  return index < 0 ? flat_ : images_->normal(static_cast<std::uint32_t>(index));
 }
 
 const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {
-  return index < 0 ? no_lightmap_ : lightmaps_[static_cast<std::size_t>(index)];
-}
-
-const gpu::Texture& GpuScene::radiance_map(std::uint32_t index) {
-  gpu::Texture& texture = radiance_maps_[index];
-  if (!texture) {
-    texture = upload_radiance_map(pack_.radiance_maps[index]);
-    map_bytes_ += texture.bytes();
-  }
-  return texture;
-}
-
-const MapArray& GpuScene::map_array(const ReflectorElement& element) {
-  const auto [at, added] = map_arrays_.try_emplace(element.maps.front());
-  if (added) {
-    at->second = MapArray::upload(pack_.radiance_maps, element.maps);
-    map_bytes_ += at->second.bytes();
-  }
-  return at->second;
-}
-
-const SurroundTextures& GpuScene::surround_map(std::uint32_t index) {
-  SurroundTextures& textures = surround_maps_[index];
-  if (!textures.light) {
-    textures = upload_surround_map(pack_.surround_maps[index]);
-    map_bytes_ += textures.light.bytes() + textures.inverse_distance.bytes();
-  }
-  return textures;
+  return index < 0 ? no_lightmap_ : images_->light(static_cast<std::uint32_t>(index));
 }
 
 const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {

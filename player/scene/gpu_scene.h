@@ -6,17 +6,14 @@
 #include <optional>
 #include <vector>
 
-#include "formats/pack/deferred.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/device.h"
-#include "player/maps/map_array.h"
-#include "player/maps/map_choice.h"
-#include "player/maps/surround_pyramid.h"
+#include "player/loading/scene_images.h"
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
-#include "player/view/culling.h"
+#include "player/view/view.h"
 
 namespace oriel {
 
@@ -28,7 +25,7 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
-  // Once load_maps() has been called:
+  // Once bring_maps() has been called:
   Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
   float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
   GpuEmitters emitters;     // that its maps leave out
@@ -53,10 +50,22 @@ struct GpuKernel {
 class GpuScene {
  public:
   // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
-  static Result<std::unique_ptr<GpuScene>> create(DeferredPack pack, const gpu::Device& device);
-  static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device) {
-    return create(DeferredPack{std::move(pack), nullptr}, device);
+  // Not in the background: errors of the pack's images too.
+  static Result<std::unique_ptr<GpuScene>> create(DeferredPack pack, const gpu::Device& device,
+                                                  const LoadingOptions& loading = {});
+  static Result<std::unique_ptr<GpuScene>> create(Pack pack, const gpu::Device& device,
+                                                  const LoadingOptions& loading = {}) {
+    return create(DeferredPack{std::move(pack), nullptr}, device, loading);
   }
+
+  // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
+  // background all of that is there afterwards, but for maps. Errors of images.
+  Status aim(const View& view);
+  SceneImages& images() { return *images_; }
+  // In the background, between frames: brings images to the device for about so long. Errors, each once.
+  std::vector<Error> advance(SceneImages::Clock::duration budget);
+  // All that is wanted, or what is there by then.
+  std::vector<Error> advance_all(SceneImages::Clock::time_point until = SceneImages::Clock::time_point::max());
 
   const Pack& pack() const { return pack_; }
   // Of this scene alone, for what others keep of it.
@@ -75,7 +84,7 @@ class GpuScene {
   bool is_transparent(std::uint32_t material) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
-  void use_mipmaps(bool on);
+  void use_mipmaps(bool on) { images_->use_mipmaps(on); }
 
   void bind_geometry() const {
     glBindVertexArray(vertex_array_.name());
@@ -95,15 +104,25 @@ class GpuScene {
   // Scale 0 where index is -1.
   const LightmapTexture& lightmap(std::int32_t index) const;
   const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
-  // To be called before a reflector's maps are used: brings their pixels from the file, the first time. Errors of
-  // DeferredMaps::load.
-  Status load_maps(const GpuReflector& reflector);
-  // Uploaded on first use and kept.
-  const gpu::Texture& radiance_map(std::uint32_t index);       // as points
-  const MapArray& map_array(const ReflectorElement& element);  // to march through; layers as element.maps
-  const SurroundTextures& surround_map(std::uint32_t index);
+  // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
+  Result<bool> may_show_maps(const GpuReflector& reflector);
+  void want_maps(const GpuReflector& reflector) { images_->want({ImageKind::kMaps, reflector.index}); }
+  // To be called before a reflector's maps are used, where they may be shown: brings them, the first time. Errors of
+  // images.
+  Status bring_maps(const GpuReflector& reflector);
+  // The same of a curved reflector: whether its map is there.
+  Result<bool> bring_surround_map(std::uint32_t index);
+  // As points, uploaded on first use and kept; null where there is no room.
+  Result<const gpu::Texture*> radiance_map(std::uint32_t index) { return images_->points(index); }
+  // To march through, of an element of the reflector; layers as its maps.
+  const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
+    return images_->maps(reflector.index).elements[element];
+  }
+  const SurroundTextures& surround_map(std::uint32_t index) const { return images_->surround(index); }
+  // Of Pack::lightmaps with all that the bake knows; null: not yet.
+  Result<const LightmapPage*> page(std::uint32_t index) { return images_->page(index, pack_.lightmaps[index]); }
   // Of radiance and surround maps on the device.
-  std::uint64_t map_bytes() const { return map_bytes_; }
+  std::uint64_t map_bytes() const { return images_->map_bytes(); }
   const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
   // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
   const GpuKernel& kernel(std::uint32_t material, KernelPlace place);
@@ -114,13 +133,12 @@ class GpuScene {
   // Of Pack::kernels and Pack::fresnel_maps, -1: a mirror's, none.
   const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place);
   void upload_geometry();
-  void upload_images();
+  void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
+  void keep_texels();
   void make_reflectors(std::vector<std::uint32_t>& indices);
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   Pack pack_;
-  std::shared_ptr<const DeferredMaps> deferred_;  // null: all pixels are in pack_
-  std::vector<bool> loaded_;                      // by reflector
   std::uint64_t serial_ = 0;
   SeenGroups seen_groups_;
   Bounds bounds_;
@@ -128,21 +146,17 @@ class GpuScene {
   std::vector<std::vector<DrawRange>> emitters_;
   std::vector<GpuReflector> reflectors_;
   std::vector<GpuCurvedReflector> curved_reflectors_;
-  std::vector<SurroundTextures> surround_maps_;
   std::vector<GpuMover> movers_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;
   gpu::Buffer index_buffer_;
   std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
   std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
-  std::vector<gpu::Texture> albedos_, normal_maps_, radiance_maps_, sphere_maps_;
-  std::vector<LightmapTexture> lightmaps_;
+  std::vector<gpu::Texture> sphere_maps_;
   gpu::Texture white_, flat_, reflectance_tables_;
   LightmapTexture no_lightmap_;
-  std::map<std::uint32_t, MapArray> map_arrays_;  // by the first map of the element
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace>, GpuKernel> kernels_;
-  std::uint64_t map_bytes_ = 0;
-  bool mipmaps_ = true;
+  std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-// The pack's images on the GPU.
+// The pack's tables on the GPU.
 #pragma once
 
 #include <span>
@@ -8,24 +8,6 @@
 #include "player/scene/kernel_taps.h"
 
 namespace oriel {
-
-// With mipmaps.
-gpu::Texture upload_normal_texture(const Texture& texture);
-// The same. Where all materials that use it cut parts of it away or blend it, these parts take no share in the colours
-// of coarser levels (cutout_mips).
-gpu::Texture upload_color_texture(const Texture& texture, std::span<const Material> used_by);
-
-// Half floats of irradiance / scale; scale is a power of two that puts the brightest texel in [16384, 32768), so that
-// the relative error stays 2^-11 down to a billionth of it. 0: the page is black.
-struct LightmapTexture {
-  gpu::Texture texture;
-  float scale = 0;
-  gpu::Texture direction;  // of a directional lightmap, else empty
-};
-LightmapTexture upload_lightmap(const LightmapPage& page);
-
-// Float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.
-gpu::Texture upload_radiance_map(const RadianceMap& map);
 
 // One row a map, as wide as the longest table; not filtered.
 gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps);

@@ -12,6 +12,7 @@ Vec3 albedo_at(const Pack& pack, const Material& material, const Vec2& uv, const
   Vec3 albedo = material.base_color * vertex_color;
   if (material.base_color_texture >= 0) {
     const Texture& texture = pack.textures[static_cast<std::size_t>(material.base_color_texture)];
+    if (texture.texels.empty()) return albedo;
     const auto texel = [](float coordinate, std::uint32_t size, Wrap wrap) {
       const float inside = wrap == Wrap::kClamp ? std::clamp(coordinate, 0.0f, 1.0f) : glm::fract(coordinate);
       const auto i = static_cast<std::uint32_t>(inside * static_cast<float>(size));
@@ -26,8 +27,8 @@ Vec3 albedo_at(const Pack& pack, const Material& material, const Vec2& uv, const
   return albedo;
 }
 
-void read_texel(const Pack& pack, const Vec2& uv, PickedSurface& out) {
-  const LightmapPage& page = pack.lightmaps[static_cast<std::size_t>(out.page)];
+void read_texel(const LightmapPage& page, const Vec2& uv, PickedSurface& out) {
+  out.known = true;
   const IVec2 size(page.width, page.height);
   out.texel = glm::clamp(IVec2(glm::floor(uv * Vec2(size))), IVec2(0), size - 1);
   const auto i = static_cast<std::size_t>(out.texel.y) * page.width + static_cast<std::size_t>(out.texel.x);
@@ -38,7 +39,7 @@ void read_texel(const Pack& pack, const Vec2& uv, PickedSurface& out) {
 
 }  // namespace
 
-std::optional<PickedSurface> pick_surface(const Pack& pack, const PickRay& ray) {
+std::optional<PickedSurface> pick_surface(const Pack& pack, const PickRay& ray, const PageOf& page_of) {
   const Mesh& mesh = pack.mesh;
   const std::optional<TriangleHit> hit = first_triangle(mesh, ray.from, ray.direction);
   if (!hit) return std::nullopt;
@@ -66,7 +67,8 @@ std::optional<PickedSurface> pick_surface(const Pack& pack, const PickRay& ray) 
   }
   out.albedo = albedo_at(pack, material, between(mesh.uvs), vertex_color);
   out.page = part->lightmap_page;
-  if (out.page >= 0) read_texel(pack, between(mesh.lightmap_uvs), out);
+  const LightmapPage* page = out.page >= 0 ? page_of(static_cast<std::uint32_t>(out.page)) : nullptr;
+  if (page != nullptr) read_texel(*page, between(mesh.lightmap_uvs), out);
   return out;
 }
 

@@ -12,17 +12,26 @@ Result<SurveyPass> SurveyPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void SurveyPass::draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show,
-                      FrameStats& stats) {
+Status SurveyPass::paint(GpuScene& scene, Show show) {
   if (painted_ != show || scene_ != scene.serial()) {
     pages_.clear();
-    for (const LightmapPage& page : scene.pack().lightmaps) {
-      const std::vector<std::uint8_t> colors = survey_colors(page, show);
-      pages_.emplace_back(gpu::kSrgbAlpha8, static_cast<int>(page.width), static_cast<int>(page.height), colors.data());
-    }
+    pages_.resize(scene.pack().lightmaps.size());
     painted_ = show;
     scene_ = scene.serial();
   }
+  for (std::size_t i = 0; i < pages_.size(); ++i) {
+    if (pages_[i]) continue;
+    ORIEL_TRY(const LightmapPage* const page, scene.page(static_cast<std::uint32_t>(i)));
+    if (page == nullptr) continue;
+    const std::vector<std::uint8_t> colors = survey_colors(*page, show);
+    pages_[i] = {gpu::kSrgbAlpha8, static_cast<int>(page->width), static_cast<int>(page->height), colors.data()};
+  }
+  return {};
+}
+
+Status SurveyPass::draw(GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show,
+                        FrameStats& stats) {
+  ORIEL_TRY_VOID(paint(scene, show));
   program_.use();
   program_.set("u_clip_from_pack", view.clip_from_pack);
   program_.set("u_base_texture", kBaseUnit);
@@ -37,10 +46,12 @@ void SurveyPass::draw(const GpuScene& scene, const View& view, std::span<const D
     program_.set("u_alpha", m.alpha);
     program_.set("u_alpha_cutoff", cutoff_of(m));
     scene.albedo(m.base_color_texture).bind(kBaseUnit);
-    program_.set("u_surveyed", batch.lightmap_page >= 0 ? 1 : 0);
-    if (batch.lightmap_page >= 0) pages_[static_cast<std::size_t>(batch.lightmap_page)].bind(kLightmapUnit);
+    const bool surveyed = batch.lightmap_page >= 0 && pages_[static_cast<std::size_t>(batch.lightmap_page)];
+    program_.set("u_surveyed", surveyed ? 1 : 0);
+    if (surveyed) pages_[static_cast<std::size_t>(batch.lightmap_page)].bind(kLightmapUnit);
     draw_batch(batch, stats);
   }
+  return {};
 }
 
 }  // namespace oriel

@@ -13,10 +13,12 @@ class SurveyPass {
   static Result<SurveyPass> create(gpu::Dialect dialect);
 
   // Opaque surfaces, what of them is shown, over their depth, in the colours of `show`; those without a lightmap are
-  // grey. Colours are kept until another `show` or scene is asked for.
-  void draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show, FrameStats& stats);
+  // grey, and those whose page has not come yet. Colours are kept until another `show` or scene is asked for. Errors of
+  // pages.
+  Status draw(GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show, FrameStats& stats);
 
  private:
+  Status paint(GpuScene& scene, Show show);
   gpu::Program program_;
   std::vector<gpu::Texture> pages_;
   Show painted_ = Show::kAll;

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "formats/camera/camera_spec.h"
 #include "formats/camera/path.h"
+#include "player/loading/loading_watch.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
 #include "player/panel/gui.h"
@@ -71,13 +73,19 @@ std::string next_name(const char* ending) {
 
 constexpr IVec2 kRefusalSize{640, 200};
 constexpr double kMessage_s = 6;
+constexpr double kAim_s = 0.2;  // what images matter is asked that often
+// For images to come to the device: of each frame, and before the first one of a pack.
+constexpr std::chrono::milliseconds kUpload{8}, kBeforeFirst{150};
+// Frames do not come faster while images do: a rasteriser on the CPU would leave nothing to those that make them ready.
+constexpr std::chrono::milliseconds kLoadingFrame{33};
 constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scene
 
 class Loop {
  public:
   Loop(GlfwWindow& window, std::unique_ptr<GpuScene> scene, Renderer& renderer, const PlayArguments& arguments,
-       const Camera& camera, const CameraPath& path, const gpu::Device& device)
-      : window_(window),
+       const Camera& camera, const CameraPath& path, const gpu::Device& device, Clock::time_point started)
+      : watch_(started),
+        window_(window),
         scene_(std::move(scene)),
         renderer_(renderer),
         device_(device),
@@ -111,7 +119,10 @@ class Loop {
         continue;
       }
       ORIEL_TRY_VOID(draw(width, height, dt_s));
+      watch_.frame(Clock::now(), meter_.loading.busy);
+      if (const auto news = watch_.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
       meter_.add(static_cast<float>(1000 * seconds_since(last)));
+      if (meter_.loading.busy) std::this_thread::sleep_until(last + kLoadingFrame);
       if (++frames == arguments_.frames) return {};
     }
   }
@@ -139,7 +150,9 @@ class Loop {
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
     view_ = make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+    load_images();
     ORIEL_TRY(const FrameStats stats, renderer_.render(*scene_, view_, session_.frame));
+    meter_.loading = scene_->images().state();  // with what the frame wanted
     ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
     adapt_exposure(metered, dt_s, session_);
     if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
@@ -153,6 +166,23 @@ class Loop {
     gui_.end();
     glfwSwapBuffers(window_.get());
     return {};
+  }
+
+  // What the frame shows comes first. Some of it before the first frame: most packs are there then.
+  void load_images() {
+    if (seconds_since(aimed_) >= kAim_s) {
+      if (const Status aimed = scene_->aim(view_); !aimed) tell_failure(aimed.error());
+      aimed_ = Clock::now();
+    }
+    const bool first = std::exchange(first_, false);
+    const auto errors = first ? scene_->advance_all(Clock::now() + kBeforeFirst) : scene_->advance(kUpload);
+    for (const Error& error : errors) tell_failure(error);
+  }
+
+  // It stays on the frame: something of the pack is missing there.
+  void tell_failure(const Error& error) {
+    fmt::print(stderr, "oriel-play: {}\n", error.text());
+    if (meter_.failure.empty()) meter_.failure = error.text();
   }
 
   void keep_screenshot(const std::string& name, int width, int height) {
@@ -171,8 +201,8 @@ class Loop {
 
   // The pack's file as it is now, seen from where the user is. Where it cannot be shown the old one stays.
   void reload() {
-    Result<DeferredPack> pack = read_pack_deferred(arguments_.pack);
-    auto scene = pack ? GpuScene::create(std::move(*pack), device_)
+    Result<DeferredPack> pack = open_pack(arguments_.pack);
+    auto scene = pack ? GpuScene::create(std::move(*pack), device_, {true, arguments_.gpu_memory})
                       : Result<std::unique_ptr<GpuScene>>(tl::unexpect, pack.error());
     if (!scene) return say("not loaded again: " + scene.error().text());
     auto poses = poses_at((*scene)->pack(), session_.moves, 0);
@@ -182,6 +212,9 @@ class Loop {
     for (Camera* camera : {&session_.camera, &session_.home}) camera->eye = Vec3(DVec3(camera->eye) + moved);
     session_.recording.reset();  // it is in the old pack's space
     scene_ = std::move(*scene);
+    meter_.failure.clear();
+    aimed_ = {};
+    first_ = true;
     take_path(scene_->pack(), session_);
     session_.grip.reset();
     picked_.reset();
@@ -197,6 +230,14 @@ class Loop {
     said_ = Clock::now();
   }
 
+  void pick() {
+    const PageOf page_of = [&](std::uint32_t page) -> const LightmapPage* {
+      const auto found = scene_->page(page);
+      return found ? *found : nullptr;
+    };
+    picked_ = pick_surface(scene_->pack(), ray_through(view_, pointer_), page_of);
+  }
+
   bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
 
   // The panel's and the title's numbers, twice a second.
@@ -207,15 +248,19 @@ class Loop {
     meter_.in_zone = zone_.holds(session_.camera.eye);
     ++frames_;
     if (!session_.frame.timed) return;
-    if (session_.panel && !input_.grabbed()) picked_ = pick_surface(scene_->pack(), ray_through(view_, pointer_));
+    if (session_.panel && !input_.grabbed()) pick();
     const std::string title =
-        fmt::format("{} – {:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack, frames_ / seconds_since(numbers_start_),
-                    session_.shown_ev100, describe(stats, meter_.in_zone));
+        fmt::format("{} – {}{:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
+                    meter_.loading.busy ? fmt::format("loading {:.0f} %, ", 100 * meter_.loading.share()) : "",
+                    frames_ / seconds_since(numbers_start_), session_.shown_ev100, describe(stats, meter_.in_zone));
     glfwSetWindowTitle(window_.get(), title.c_str());
     numbers_start_ = Clock::now();
     frames_ = 0;
   }
 
+  LoadingWatch watch_;
+  bool first_ = true;  // frame of the scene
+  Clock::time_point aimed_{};
   GlfwWindow& window_;
   std::unique_ptr<GpuScene> scene_;
   Renderer& renderer_;
@@ -255,11 +300,12 @@ void show_refusal(const std::string& reason, const std::function<bool()>& stoppe
   }
 }
 
-Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped) {
+Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped,
+                      Clock::time_point started) {
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
-  ORIEL_TRY(auto scene, GpuScene::create(std::move(pack), device));
+  ORIEL_TRY(auto scene, GpuScene::create(std::move(pack), device, {true, arguments.gpu_memory}));
   const Pack& shown = scene->pack();
   const CameraChoices choices{shown.cameras, shown.paths, shown.mesh.origin};
   Camera camera = initial_camera(choices, scene->bounds().lower, scene->bounds().upper);
@@ -271,7 +317,7 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
     ORIEL_TRY(path, choose_path(arguments.path, shown.paths, shown.mesh.origin));
   }
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device).run(stopped);
+  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device, started).run(stopped);
 }
 
 }  // namespace oriel

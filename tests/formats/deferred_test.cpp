@@ -1,7 +1,9 @@
-// Packs whose radiance maps stay in the file.
+// Packs whose images stay in the file.
 #include "formats/pack/deferred.h"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 #include "formats/pack/sections.h"
 #include "tests/formats/hostile.h"
@@ -16,7 +18,7 @@ class Deferred : public ::testing::Test {
  protected:
   Result<DeferredPack> read(const Bytes& file) {
     EXPECT_TRUE(write_file_atomically(path_, file));
-    return read_pack_deferred(path_);
+    return open_pack(path_);
   }
   std::string refusal_of(const Bytes& file) {
     const auto pack = read(file);
@@ -27,44 +29,141 @@ class Deferred : public ::testing::Test {
   std::filesystem::path path_ = folder_.path() / "a.oriel";
 };
 
-void expect_same_pixels(const RadianceMap& a, const RadianceMap& b) {
-  EXPECT_EQ(a.radiance, b.radiance);
-  EXPECT_EQ(a.disparity, b.disparity);
-  EXPECT_EQ(a.valid, b.valid);
+bool is_image(std::uint32_t kind) {
+  return kind == kTextureSection || kind == kNormalTextureSection || kind == kLightmapSection ||
+         kind == kDirectionSection || kind == kRadianceMapSection || kind == kSurroundMapSection;
 }
 
-TEST_F(Deferred, IsThePackOnceItsMapsAreLoaded) {
-  Forge plain = Forge::from(tiny_file());  // maps as zstd frames, and as they are
+template <class Image, class Load>
+void load_all(std::vector<Image>& images, const Load& load) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    auto loaded = load(i);
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    images[i] = std::move(*loaded);
+  }
+}
+
+// All images into the pack.
+void load_images(DeferredPack& deferred) {
+  Pack& pack = deferred.pack;
+  const DeferredImages& images = *deferred.images;
+  load_all(pack.textures, [&](std::size_t i) { return images.texture(i); });
+  load_all(pack.normal_textures, [&](std::size_t i) { return images.normal_texture(i); });
+  load_all(pack.lightmaps, [&](std::size_t i) { return images.lightmap(i); });
+  load_all(pack.surround_maps, [&](std::size_t i) { return images.surround_map(i); });
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    auto map = images.radiance_map(i);
+    ASSERT_TRUE(map) << map.error().text();
+    map->residual = pack.radiance_maps[i].residual;
+    pack.radiance_maps[i] = std::move(*map);
+  }
+}
+
+Bytes plain_file() {
+  Forge plain = Forge::from(tiny_file());
   for (auto& section : plain.sections)
-    if (section.record.kind == kRadianceMapSection) Forge::set_raw(section, Forge::raw(section));
-  for (const Bytes& file : {tiny_file(), plain.file()}) {
+    if (is_image(section.record.kind)) Forge::set_raw(section, Forge::raw(section));
+  return plain.file();
+}
+
+TEST_F(Deferred, IsThePackOnceItsImagesAreLoaded) {
+  for (const Bytes& file :
+       {tiny_file(), plain_file(), *encode_pack(tiny_mapped_pack())}) {  // as zstd frames, and as they are
     auto deferred = read(file);
     ASSERT_TRUE(deferred) << deferred.error().text();
-    const Pack whole = *read_pack(path_);
-    ASSERT_EQ(deferred->pack.radiance_maps.size(), whole.radiance_maps.size());
-    for (std::size_t i = 0; i < whole.radiance_maps.size(); ++i) {
-      RadianceMap& map = deferred->pack.radiance_maps[i];
+    for (const RadianceMap& map : deferred->pack.radiance_maps)
       EXPECT_TRUE(map.radiance.empty() && map.disparity.empty() && map.valid.empty());
-      EXPECT_EQ(map.residual, whole.radiance_maps[i].residual);
-      auto loaded = deferred->maps->load(i);
-      ASSERT_TRUE(loaded) << loaded.error().text();
-      expect_same_pixels(*loaded, whole.radiance_maps[i]);
-      loaded->residual = map.residual;
-      map = std::move(*loaded);
-    }
+    for (const LightmapPage& page : deferred->pack.lightmaps) EXPECT_TRUE(page.irradiance.empty());
+    load_images(*deferred);
+    const Pack whole = *read_pack(path_);
+    deferred->pack.unknown = whole.unknown;  // which nobody needs who only reads
     EXPECT_EQ(*encode_pack(deferred->pack), *encode_pack(whole));
   }
 }
 
-TEST_F(Deferred, DamageIsFoundWhenThePackIsOpened) {
-  const Bytes file = tiny_file();
-  const PackIndex index = *read_index(file);
-  for (const auto& section : index.sections) {
-    Bytes damaged = file;
-    damaged[section.offset + section.stored_bytes / 2] ^= std::byte{1};
-    EXPECT_NE(refusal_of(damaged).find(section.label + ": checksum"), std::string::npos) << section.label;
+TEST_F(Deferred, LightIsThePagesIrradiance) {
+  for (const Bytes& file : {tiny_file(), plain_file(), *encode_pack(tiny_mapped_pack())}) {
+    const auto deferred = read(file);
+    ASSERT_TRUE(deferred);
+    const Pack whole = *read_pack(path_);
+    ASSERT_FALSE(whole.lightmaps.empty());
+    for (std::size_t i = 0; i < whole.lightmaps.size(); ++i) {
+      const LightmapPage& page = whole.lightmaps[i];
+      const auto light = deferred->images->light(i);
+      ASSERT_TRUE(light) << light.error().text();
+      ASSERT_EQ(light->light.size(), page.irradiance.size());
+      EXPECT_EQ(light->direction.size(), page.direction.size());
+      EXPECT_EQ(deferred->images->directional(i), !page.direction.empty());
+      for (std::size_t t = 0; t < page.irradiance.size(); ++t)
+        for (int c = 0; c < 3; ++c)
+          EXPECT_EQ(float_from_half(light->light[t][static_cast<std::size_t>(c)]) * light->scale,
+                    page.irradiance[t][c]);
+      for (std::size_t t = 0; t < page.direction.size(); ++t)
+        EXPECT_EQ(light->direction[t], halves_of(page.direction[t]));
+    }
   }
+}
+
+TEST_F(Deferred, DamageIsFoundWhenThePackIsOpenedOrTheImageWanted) {
+  for (const Bytes& file : {tiny_file(), *encode_pack(tiny_mapped_pack())}) {
+    const PackIndex index = *read_index(file);
+    for (std::size_t i = 0; i < index.sections.size(); ++i) {
+      const SectionInfo& section = index.sections[i];
+      Bytes damaged = file;
+      damaged[section.offset + section.stored_bytes - 1] ^= std::byte{1};
+      auto pack = read(damaged);
+      const std::string expected = path_.string() + ": " + section.label + ": checksum";
+      if (!pack) {
+        EXPECT_EQ(pack.error().text().find(expected), 0u) << pack.error().text();
+        continue;
+      }
+      EXPECT_TRUE(is_image(section.kind) || !find_section_kind(section.kind)) << section.label;
+      for (std::size_t s = 0; s < pack->images->sections(); ++s) {
+        const Status checked = pack->images->check(s);
+        EXPECT_EQ(checked.has_value(), s != i);
+        if (!checked) {
+          EXPECT_EQ(checked.error().text().find(expected), 0u) << checked.error().text();
+        }
+      }
+      const auto refused = [&](const auto& loaded) {
+        ASSERT_FALSE(loaded);
+        EXPECT_EQ(loaded.error().text().find(expected), 0u) << loaded.error().text();
+      };
+      if (section.kind == kTextureSection) refused(pack->images->texture(section.nth));
+      if (section.kind == kNormalTextureSection) refused(pack->images->normal_texture(section.nth));
+      if (section.kind == kLightmapSection) refused(pack->images->lightmap(section.nth));
+      if (section.kind == kLightmapSection) refused(pack->images->light(section.nth));
+      if (section.kind == kRadianceMapSection) refused(pack->images->radiance_map(section.nth));
+      if (section.kind == kSurroundMapSection) refused(pack->images->surround_map(section.nth));
+    }
+  }
+  const Bytes file = tiny_file();
   EXPECT_NE(refusal_of(Bytes(file.begin(), file.end() - 1)).find("is truncated"), std::string::npos);
+}
+
+// The file under an open pack: a mapping would end the program.
+TEST_F(Deferred, AFileThatIsCutOrOverwrittenMeanwhileGivesErrors) {
+  const Bytes file = *encode_pack(tiny_mapped_pack());
+  const auto cut = read(file);
+  ASSERT_TRUE(cut);
+  std::filesystem::resize_file(path_, 100);
+  const auto page = cut->images->lightmap(0);
+  ASSERT_FALSE(page);
+  EXPECT_EQ(page.error().code, ErrorCode::kIo);
+  EXPECT_NE(page.error().text().find("the file was cut"), std::string::npos) << page.error().text();
+  const auto overwritten = read(file);
+  ASSERT_TRUE(overwritten);
+  std::ofstream(path_, std::ios::binary) << std::string(file.size(), 'x');
+  for (const bool whole : {false, true}) {
+    const Status light = whole ? Status(overwritten->images->lightmap(0).map([](const auto&) {}))
+                               : overwritten->images->light(0).map([](const auto&) {});
+    ASSERT_FALSE(light);
+    EXPECT_NE(light.error().text().find(": section L"), std::string::npos) << light.error().text();
+  }
+  const auto replaced = read(file);
+  ASSERT_TRUE(replaced);
+  ASSERT_TRUE(write_file_atomically(path_, Bytes(10)));  // another file under the name: this one stays
+  EXPECT_TRUE(replaced->images->light(0));
 }
 
 // So that opening a pack decompresses no pixels: what lies behind the place's block is not asked for.
@@ -94,14 +193,13 @@ TEST_F(Deferred, APlaceIsToBeHadWithoutThePixels) {
 // Sections are decoded side by side where there are many bytes; which error is told does not depend on that.
 TEST_F(Deferred, OfTwoDamagedSectionsTheFirstIsNamed) {
   Pack pack = tiny_pack();
-  Texture& texture = pack.textures[0];
-  texture.width = texture.height = 1024;
-  texture.texels.resize(4 << 20);
-  std::uint32_t random = 1;
-  for (auto& byte : texture.texels) byte = static_cast<std::uint8_t>((random = random * 1664525 + 1013904223) >> 24);
+  pack.plan.assign(2 << 20, ' ');
+  pack.plan.front() = '{';
+  pack.plan.back() = '}';
   const Bytes file = *encode_pack(pack);
-  ASSERT_TRUE(read(file));
-  const PackIndex index = *read_index(file);
+  ASSERT_TRUE(read(file)) << refusal_of(file);
+  PackIndex index = *read_index(file);
+  std::erase_if(index.sections, [](const SectionInfo& s) { return is_image(s.kind) || !find_section_kind(s.kind); });
   for (std::size_t first = 0; first + 1 < index.sections.size(); ++first) {
     Bytes damaged = file;
     for (std::size_t i = first; i < index.sections.size(); i += index.sections.size() - 1 - first)
@@ -136,16 +234,16 @@ TEST_F(Deferred, PixelsThatMeanNothingAreFoundWhenTheyAreLoaded) {
   Forge::set_raw(section, raw);
   const auto pack = read(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();
-  const auto map = pack->maps->load(0);
+  const auto map = pack->images->radiance_map(0);
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().code, ErrorCode::kInvalid);
   EXPECT_NE(map.error().text().find(path_.string() + ": section RMAP 0 (radiance map): issue 417"), std::string::npos)
       << map.error().text();
-  EXPECT_TRUE(pack->maps->load(1));
+  EXPECT_TRUE(pack->images->radiance_map(1));
 }
 
 TEST_F(Deferred, FilesThatAreNotThere) {
-  EXPECT_EQ(read_pack_deferred(path_).error().code, ErrorCode::kIo);
+  EXPECT_EQ(open_pack(path_).error().code, ErrorCode::kIo);
   EXPECT_NE(refusal_of({}).find("is not an .oriel pack"), std::string::npos);
 }
 

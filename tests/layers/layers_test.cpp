@@ -101,10 +101,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
-  m["player/textures"] = assets;
-  m["player/maps"] = plus(assets, {"player/gpu"});  // one element's radiance maps: no frame, no scene
-  m["player/scene"] = plus(m["player/maps"], {"formats/light", "formats/lobes", "formats/pack", "formats/visibility",
-                                              "player/maps", "player/textures", "player/view"});
+  m["player/textures"] = plus(assets, {"formats/pack/encoding", "player/gpu"});  // images as the device takes them
+  m["player/maps"] =
+      plus(m["player/textures"], {"player/textures"});  // one element's radiance maps: no frame, no scene
+  m["player/loading"] =
+      plus(m["player/maps"], {"formats/pack", "player/maps", "player/view"});  // images: which, how fine, when
+  m["player/scene"] =
+      plus(m["player/loading"], {"formats/light", "formats/lobes", "formats/visibility", "player/loading"});
   m["player/paths"] = plus(assets, {"formats/camera"});  // walks: files, recorded, smoothed
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
@@ -139,8 +142,8 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"imgui", {"player/panel"}},
     {"backends/imgui", {"player/panel"}},
     {"epoxy/",
-     {"player/gpu", "player/maps", "player/scene", "player/movers", "player/reflections", "player/survey",
-      "player/passes", "player/window", "player/app"}},
+     {"player/gpu", "player/loading", "player/maps", "player/scene", "player/movers", "player/reflections",
+      "player/survey", "player/passes", "player/window", "player/app"}},
 };
 
 bool is_source(const fs::path& path) {

@@ -91,15 +91,18 @@ void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list);
 void validate_movers(const Pack& pack, IssueList& list);
 void validate_light_field(const Pack& pack, IssueList& list);
 void validate_materials(const Pack& pack, IssueList& list);
-void validate_textures(const Pack& pack, IssueList& list);
-void validate_lightmaps(const Pack& pack, IssueList& list);
+void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
+void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_reflectors(const Pack& pack, IssueList& list);
-void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& list);
-// Of one map, in the section that the list is in.
+void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
+// Of one image, in the section that the list is in.
+void validate_pixels(const Texture& texture, IssueList& list);
+void validate_pixels(const LightmapPage& page, IssueList& list);
 void validate_pixels(const RadianceMap& map, IssueList& list);
+void validate_pixels(const SurroundMap& map, IssueList& list);
 void validate_elements(const Pack& pack, IssueList& list);
 void validate_curved_reflectors(const Pack& pack, IssueList& list);
-void validate_surround_maps(const Pack& pack, IssueList& list);
+void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_kernels(const Pack& pack, IssueList& list);
 void validate_fresnel_maps(const Pack& pack, IssueList& list);
 void validate_split_reflectance(const Pack& pack, IssueList& list);

@@ -24,6 +24,7 @@ const auto text1 = [](float v) { return text_of(v); };
 const auto text3 = [](const Vec3& v) { return text_of(v); };
 const auto light = [](const Vec3& v) { return not_negative(v); };
 constexpr std::size_t kMuch = 1 << 17;  // texels: looking at them takes longer than starting threads
+constexpr float kFarthest = 1e18f;      // of lengths and their inverses, so that their squares stay finite
 constexpr const char* kLight = "finite numbers from 0 up";
 
 bool is_rigid(const Mat4& m) {
@@ -104,37 +105,50 @@ void validate_map_place(const Pack& pack, std::size_t i, IssueList& list) {
 
 }  // namespace
 
-void validate_textures(const Pack& pack, IssueList& list) {
+void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list) {
   const auto check = [&](std::uint32_t kind, const std::vector<Texture>& textures) {
     for (std::size_t i = 0; i < textures.size(); ++i) {
-      const Texture& texture = textures[i];
       list.in_section(kind, i);
-      if (check_area(211, texture.width, texture.height, {}, list) &&
-          texture.texels.size() != std::size_t{4} * texture.width * texture.height)
-        list.error(211, "found {} bytes of texels, expected 4 x {} x {}", texture.texels.size(), texture.width,
-                   texture.height);
+      if (pixels == ImagePixels::kHere)
+        validate_pixels(textures[i], list);
+      else
+        check_area(211, textures[i].width, textures[i].height, {}, list);
     }
   };
   check(kTextureSection, pack.textures);
   check(kNormalTextureSection, pack.normal_textures);
 }
 
-void validate_lightmaps(const Pack& pack, IssueList& all) {
+void validate_pixels(const Texture& texture, IssueList& list) {
+  if (check_area(211, texture.width, texture.height, {}, list) &&
+      texture.texels.size() != std::size_t{4} * texture.width * texture.height)
+    list.error(211, "found {} bytes of texels, expected 4 x {} x {}", texture.texels.size(), texture.width,
+               texture.height);
+}
+
+void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& all) {
   std::size_t texels = 0;
   for (const LightmapPage& page : pack.lightmaps) texels += page.irradiance.size();
   all.side_by_side(pack.lightmaps.size(), texels > kMuch, [&](std::size_t i, IssueList& list) {
     const LightmapPage& page = pack.lightmaps[i];
     list.in_section(kLightmapSection, i);
-    if (!check_area(301, page.width, page.height,
-                    {page.irradiance.size(), page.standard_error.size(), page.state.size()}, list))
-      return;
-    list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
-    list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
-    if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
-    list.each(
-        304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
-        "length 1 at most");
+    if (pixels == ImagePixels::kHere)
+      validate_pixels(page, list);
+    else
+      check_area(301, page.width, page.height, {}, list);
   });
+}
+
+void validate_pixels(const LightmapPage& page, IssueList& list) {
+  if (!check_area(301, page.width, page.height, {page.irradiance.size(), page.standard_error.size(), page.state.size()},
+                  list))
+    return;
+  list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
+  list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
+  if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
+  list.each(
+      304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,
+      "length 1 at most");
 }
 
 void validate_reflectors(const Pack& pack, IssueList& list) {
@@ -142,14 +156,14 @@ void validate_reflectors(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) validate_reflector(pack, i, list);
 }
 
-void validate_radiance_maps(const Pack& pack, MapPixels pixels, IssueList& all) {
+void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& all) {
   std::size_t texels = 0;
   for (const RadianceMap& map : pack.radiance_maps) texels += map.radiance.size();
   all.side_by_side(pack.radiance_maps.size(), texels > kMuch, [&](std::size_t i, IssueList& list) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
     validate_map_place(pack, i, list);
-    if (pixels == MapPixels::kHere)
+    if (pixels == ImagePixels::kHere)
       validate_pixels(map, list);
     else
       check_area(411, map.width, map.height, {}, list);
@@ -176,23 +190,28 @@ void validate_curved_reflectors(const Pack& pack, IssueList& list) {
   }
 }
 
-void validate_surround_maps(const Pack& pack, IssueList& list) {
-  constexpr float kLimit = 1e18f;  // of lengths and their inverses, so that their squares stay finite
+void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& list) {
   for (std::size_t i = 0; i < pack.surround_maps.size(); ++i) {
     const SurroundMap& map = pack.surround_maps[i];
     list.in_section(kSurroundMapSection, i);
-    if (!within(map.centre, -kLimit, kLimit))
+    if (!within(map.centre, -kFarthest, kFarthest))
       list.error(441, "found centre {}, expected finite numbers", text_of(map.centre));
     if (!std::has_single_bit(map.size)) list.error(442, "found {} texels a side, expected a power of two", map.size);
-    if (!check_area(442, map.size, map.size, {map.radiance.size(), map.inverse_distance.size(), map.valid.size()},
-                    list))
-      continue;
-    list.each(443, "texels of radiance", map.radiance, light, text3, kLight);
-    list.each(
-        444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kLimit); }, text1,
-        "0 to 1e18");
-    check_validity(445, map.valid, list);
+    if (pixels == ImagePixels::kHere)
+      validate_pixels(map, list);
+    else
+      check_area(442, map.size, map.size, {}, list);
   }
+}
+
+void validate_pixels(const SurroundMap& map, IssueList& list) {
+  if (!check_area(442, map.size, map.size, {map.radiance.size(), map.inverse_distance.size(), map.valid.size()}, list))
+    return;
+  list.each(443, "texels of radiance", map.radiance, light, text3, kLight);
+  list.each(
+      444, "texels of inverse distance", map.inverse_distance, [](float d) { return within(d, 0, kFarthest); }, text1,
+      "0 to 1e18");
+  check_validity(445, map.valid, list);
 }
 
 }  // namespace oriel

@@ -102,14 +102,18 @@ void encode(ByteWriter& out, const Texture& texture) {
   put_planes(out, std::span(reinterpret_cast<const Rgba8*>(texture.texels.data()), texture.texels.size() / 4));
 }
 
-Status decode(ByteReader& in, Texture& texture) {
+Status decode_place(ByteReader& in, Texture& texture) {
   texture.name = in.get_string();
   ORIEL_TRY_VOID(get_size(in, texture.width, texture.height));
   ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_s));
   ORIEL_TRY_VOID(get_choice(in, "wrap mode", 2, texture.wrap_t));
   ORIEL_TRY_VOID(get_choice(in, "nearest flag", 1, texture.nearest));
   std::uint8_t reserved = 0;
-  ORIEL_TRY_VOID(get_choice(in, "reserved byte", 0, reserved));
+  return get_choice(in, "reserved byte", 0, reserved);
+}
+
+Status decode(ByteReader& in, Texture& texture) {
+  ORIEL_TRY_VOID(decode_place(in, texture));
   const auto texels = get_planes<Rgba8>(in, std::uint64_t{texture.width} * texture.height);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(texels.data());
   texture.texels.assign(bytes, bytes + texels.size() * sizeof(Rgba8));
@@ -124,8 +128,12 @@ void encode(ByteWriter& out, const LightmapPage& page) {
   put_planes(out, std::span(reinterpret_cast<const std::uint8_t*>(page.state.data()), page.state.size()));
 }
 
+Status decode_place(ByteReader& in, LightmapPage& page) {
+  return get_size(in, page.width, page.height);
+}
+
 Status decode(ByteReader& in, LightmapPage& page) {
-  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  ORIEL_TRY_VOID(decode_place(in, page));
   const std::uint64_t texels = std::uint64_t{page.width} * page.height;
   ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
   ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
@@ -142,9 +150,42 @@ void encode(ByteWriter& out, const DirectionPage& page) {
   put_planes(out, std::span<const Half3>(halves));
 }
 
-Status decode(ByteReader& in, DirectionPage& page) {
-  page.page = in.get<std::uint32_t>();
+Status decode(ByteReader& in, HalfPage& page) {
   ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  page.scale = std::ldexp(1.0f, exponent);
+  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+  constexpr std::uint16_t kOne = 0x3c00;
+  unsigned signs = 0;  // as get_halves
+  for_each_plane_block<6>(in, texels, [&](const PlaneBlock<6>& block) {
+    if (page.light.empty()) page.light.reserve(texels);
+    std::array<Half4, kPlaneBlock> made;
+    for (std::size_t i = 0; i < block.size; ++i) made[i][3] = kOne;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < block.size; ++i) {
+        const std::uint16_t half = half_at(block, c, i);
+        signs |= half | (half + 0x400u);
+        made[i][c] = half;
+      }
+    page.light.insert(page.light.end(), made.begin(), made.begin() + static_cast<std::ptrdiff_t>(block.size));
+  });
+  if ((signs & 0x8000) == 0) return {};
+  const auto bad = std::find_if(page.light.begin(), page.light.end(),
+                                [](const Half4& h) { return h[0] >= 0x7c00 || h[1] >= 0x7c00 || h[2] >= 0x7c00; });
+  return invalid("",
+                 "found irradiance halves {:#06x} {:#06x} {:#06x} at texel {}, expected finite ones that are not "
+                 "negative",
+                 (*bad)[0], (*bad)[1], (*bad)[2], bad - page.light.begin());
+}
+
+Status decode_place(ByteReader& in, DirectionPage& page) {
+  page.page = in.get<std::uint32_t>();
+  return get_size(in, page.width, page.height);
+}
+
+Status decode(ByteReader& in, DirectionPage& page) {
+  ORIEL_TRY_VOID(decode_place(in, page));
   const auto halves = get_planes<Half3>(in, std::uint64_t{page.width} * page.height);
   page.direction.resize(halves.size());
   for (std::size_t i = 0; i < halves.size(); ++i)
@@ -240,19 +281,25 @@ void encode(ByteWriter& out, const SurroundMap& map) {
   put_planes(out, std::span<const std::uint8_t>(map.valid));
 }
 
-Status decode(ByteReader& in, SurroundMap& map) {
+Status decode_place(ByteReader& in, SurroundMap& map, SurroundMapScale& scale) {
   map.centre = get_vec3(in);
   map.size = in.get<std::uint32_t>();
   if (in.ok() && (map.size > kMaxSide || !std::has_single_bit(map.size)))
     return invalid("", "found {} texels a side, expected a power of two up to {}", map.size, kMaxSide);
-  int exponent = 0;
-  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
-  const auto nearest = in.get<float>();
+  ORIEL_TRY_VOID(get_scale_exponent(in, scale.exponent));
+  scale.nearest = in.get<float>();
+  return {};
+}
+
+Status decode(ByteReader& in, SurroundMap& map) {
+  SurroundMapScale scale;
+  ORIEL_TRY_VOID(decode_place(in, map, scale));
   const std::uint64_t texels = std::uint64_t{map.size} * map.size;
-  map.radiance = get_rgb9e5(in, texels, exponent);
+  map.radiance = get_rgb9e5(in, texels, scale.exponent);
   const auto codes = get_planes<std::uint16_t>(in, texels);
   map.inverse_distance.resize(codes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) map.inverse_distance[i] = disparity_from_code(codes[i], 0) * nearest;
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    map.inverse_distance[i] = disparity_from_code(codes[i], 0) * scale.nearest;
   map.valid = get_planes<std::uint8_t>(in, texels);
   return {};
 }

@@ -1,0 +1,35 @@
+// A lightmap page as graphics devices take it: half floats.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "formats/core/half.h"
+#include "formats/core/vec.h"
+
+namespace oriel {
+
+using Half4 = std::array<std::uint16_t, 4>;  // a is 1
+
+struct HalfPage {
+  std::uint32_t width = 0, height = 0;
+  float scale = 0;               // a power of two; 0: the page is black
+  std::vector<Half4> light;      // irradiance / scale, finite and >= 0
+  std::vector<Half4> direction;  // of a directional lightmap, as LightmapPage's, else empty
+};
+
+inline Half4 halves_of(const Vec3& v, float scale = 1) {
+  constexpr std::uint16_t kOne = 0x3c00;
+  if (!is_finite(v)) return {0, 0, 0, kOne};
+  return {half_from_float(v.x * scale), half_from_float(v.y * scale), half_from_float(v.z * scale), kOne};
+}
+
+inline std::vector<Half4> halves_of(const std::vector<Vec3>& directions) {
+  std::vector<Half4> out;
+  out.reserve(directions.size());
+  for (const Vec3& d : directions) out.push_back(halves_of(d));
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,55 @@
+// A texture whose pixels are ready, so that who draws only has to hand them over: at once, or some rows at a time.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "player/gpu/texture.h"
+
+namespace oriel {
+
+struct TextureData {
+  // Whole rows from the left edge of a layer's level.
+  struct Block {
+    int level = 0, layer = 0, row = 0, width = 0, height = 0;
+    std::shared_ptr<const void> pixels;
+  };
+  gpu::TextureFormat format;
+  int width = 1, height = 1;
+  int layers = 0;  // of an array; 0: a plain texture, whose blocks are as wide as their levels
+  gpu::TextureOptions options;
+  std::vector<Block> blocks;
+
+  template <class T>
+  void add(int level, int layer, int row, int block_width, int block_height, std::vector<T> pixels) {
+    auto kept = std::make_shared<const std::vector<T>>(std::move(pixels));
+    const void* first = kept->data();
+    blocks.push_back({level, layer, row, block_width, block_height, {std::move(kept), first}});
+  }
+  // On the device.
+  std::size_t bytes() const;
+};
+
+// Hands TextureData over.
+class TextureUpload {
+ public:
+  // Allocates the texture; its contents are undefined until step() says that all is there.
+  explicit TextureUpload(TextureData data);
+  // Some more rows, of at most `bytes` and at least one; true once all is there.
+  bool step(std::size_t bytes);
+  std::size_t bytes_left() const { return left_; }
+
+  gpu::Texture texture;     // of data with layers 0
+  gpu::TextureArray array;  // else
+
+ private:
+  TextureData data_;
+  std::size_t block_ = 0, left_ = 0;
+  int row_ = 0;  // of the block
+};
+
+gpu::Texture upload_texture(TextureData data);
+gpu::TextureArray upload_array(TextureData data);
+
+}  // namespace oriel
