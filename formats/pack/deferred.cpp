@@ -28,14 +28,18 @@ Status read_of(const OpenFile& file, const SectionInfo& section, std::uint64_t o
   return status;
 }
 
+// So many bytes of a buffer that is used again, so that the system need not find memory each time. Sections are of all
+// sizes: a large one's memory is not kept for long.
+std::span<std::byte> some_of(RawBytes& buffer, std::uint64_t bytes) {
+  if (buffer.size < bytes || buffer.size > 4 * bytes + kPiece)
+    buffer = {std::make_unique_for_overwrite<std::byte[]>(bytes), bytes};
+  return {buffer.data.get(), bytes};
+}
+
 // The stored bytes of a section as the file has them, in memory of this thread until the next call.
 Result<std::span<const std::byte>> stored_in(const OpenFile& file, const SectionInfo& section) {
   thread_local RawBytes buffer;
-  const std::uint64_t bytes = section.padding + section.stored_bytes;
-  // Sections are of all sizes: a large one's memory is not kept for long.
-  if (buffer.size < bytes || buffer.size > 4 * bytes + kPiece)
-    buffer = {std::make_unique_for_overwrite<std::byte[]>(bytes), bytes};
-  const std::span<std::byte> to(buffer.data.get(), bytes);
+  const std::span<std::byte> to = some_of(buffer, section.padding + section.stored_bytes);
   ORIEL_TRY_VOID(read_of(file, section, section.offset - section.padding, to));
   ORIEL_TRY_VOID(check_padding(to.first(section.padding), section));
   const std::span<const std::byte> stored = to.subspan(section.padding);
@@ -63,7 +67,8 @@ Status check_in(const OpenFile& file, const SectionInfo& section) {
 // The first `bytes` of the raw ones, without the checksum, of which as few stored bytes are read as will do.
 Result<Bytes> head_in(const OpenFile& file, const SectionInfo& section, std::size_t bytes) {
   Bytes front;
-  for (std::uint64_t take : {std::uint64_t{512}, kPiece / 4, kPiece, section.stored_bytes}) {
+  // A little, all that one of zstd's blocks takes, all.
+  for (std::uint64_t take : {std::uint64_t{512}, kPiece / 2 + 64, section.stored_bytes}) {
     take = std::min(take, section.stored_bytes);
     if (take == front.size() && take > 0) continue;
     front.resize(take);
@@ -315,14 +320,15 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
   checked_[at] = true;
   auto loaded = without_exceptions([&]() -> Result<HalfPage> {
     ORIEL_TRY(const auto stored, stored_in(file_, section));
-    const std::uint64_t wanted = light_bytes(area(sizes_[at].x, sizes_[at].y));
-    ORIEL_TRY(const RawBytes raw, decompressed(stored, section, wanted));
-    ByteReader in(raw.span());
+    thread_local RawBytes buffer;
+    const std::span<std::byte> raw = some_of(buffer, light_bytes(area(sizes_[at].x, sizes_[at].y)));
+    ORIEL_TRY_VOID(decompress(stored, section, raw));
+    ByteReader in(raw);
     HalfPage page;
     if (auto status = decode(in, page); !status && in.ok())
       return invalid(section.label, "element 0: {}", status.error().message);
     ORIEL_TRY_VOID(expect_size(size_of(page), sizes_[at], section));
-    if (!in.ok()) return invalid(section.label, "found {} bytes, expected {} of light", raw.size, wanted);
+    if (!in.ok()) return invalid(section.label, "found {} bytes, expected more of light", raw.size());
     page.direction = halves_of(directions);
     return page;
   });

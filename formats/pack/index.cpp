@@ -245,20 +245,25 @@ Result<bool> decompress_head(std::span<const std::byte> front, const SectionInfo
 Result<RawBytes> decompressed(std::span<const std::byte> stored, const SectionInfo& section, std::uint64_t bytes) {
   bytes = std::min(bytes, section.raw_bytes);
   RawBytes raw{std::make_unique_for_overwrite<std::byte[]>(bytes), bytes};
+  ORIEL_TRY_VOID(decompress(stored, section, {raw.data.get(), raw.size}));
+  return raw;
+}
+
+Status decompress(std::span<const std::byte> stored, const SectionInfo& section, std::span<std::byte> to) {
   if (section.codec == static_cast<std::uint32_t>(Codec::kNone)) {
-    std::copy_n(stored.begin(), bytes, raw.data.get());
-    return raw;
+    std::copy_n(stored.begin(), to.size(), to.begin());
+    return {};
   }
   ORIEL_TRY_VOID(check_frame(stored, section));
-  if (bytes < section.raw_bytes) {
-    ZSTD_outBuffer out{raw.data.get(), raw.size, 0};
+  if (to.size() < section.raw_bytes) {
+    ZSTD_outBuffer out{to.data(), to.size(), 0};
     ORIEL_TRY_VOID(decompress_head(stored, section, out));
-    return raw;
+    return {};
   }
-  const std::size_t n = ZSTD_decompressDCtx(decompressor(), raw.data.get(), raw.size, stored.data(), stored.size());
+  const std::size_t n = ZSTD_decompressDCtx(decompressor(), to.data(), to.size(), stored.data(), stored.size());
   if (ZSTD_isError(n)) return invalid(section.label, "cannot be decompressed: {}", ZSTD_getErrorName(n));
-  if (n != raw.size) return invalid(section.label, "decompressed to {} bytes, expected {}", n, raw.size);
-  return raw;
+  if (n != to.size()) return invalid(section.label, "decompressed to {} bytes, expected {}", n, to.size());
+  return {};
 }
 
 Result<Bytes> stored_head(std::span<const std::byte> front, const SectionInfo& section, std::size_t bytes) {

@@ -58,6 +58,8 @@ Result<RawBytes> section_bytes(std::span<const std::byte> file, const SectionInf
 // The same parts apart, of stored bytes. The first `bytes` of what is decompressed, at most raw_bytes.
 Status check_stored(std::span<const std::byte> stored, const SectionInfo& section);
 Result<RawBytes> decompressed(std::span<const std::byte> stored, const SectionInfo& section, std::uint64_t bytes);
+// The same into memory that is there: as many as it holds, at most raw_bytes.
+Status decompress(std::span<const std::byte> stored, const SectionInfo& section, std::span<std::byte> to);
 
 // The first of them, of a section that check_section accepts: at most `bytes`, fewer where the section holds fewer.
 // What follows in the section is not looked at.

@@ -1,0 +1,132 @@
+// The program itself: a limit of memory, broken packs and files that change under the window.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "formats/core/file.h"
+#include "formats/pack/index.h"
+#include "formats/pack/writer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out;  // stdout and stderr together
+};
+
+// A page of more than one block of zstd, so that its damage is not met when the pack is opened.
+Pack pack_with_a_large_page() {
+  Pack pack = testing::tiny_pack();
+  LightmapPage& page = pack.lightmaps[0];
+  page.width = page.height = 256;
+  page.irradiance.clear();
+  std::uint32_t random = 1;
+  for (int i = 0; i < 256 * 256; ++i) {
+    random = random * 1664525 + 1013904223;
+    page.irradiance.push_back(Vec3(1 + static_cast<float>(random >> 16)));
+  }
+  page.standard_error.assign(page.irradiance.size(), Vec3(1));
+  page.state.assign(page.irradiance.size(), TexelState::kValid);
+  return pack;
+}
+
+class PlayLoading : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(write_pack(folder() / "tiny.oriel", pack_with_a_large_page())); }
+  fs::path folder() const { return folder_.path(); }
+
+  // In the folder, with $PLAY.
+  Outcome shell(const std::string& command) {
+    const std::string program = (fs::path(ORIEL_BIN_DIR) / "oriel-play").string();
+    const int status = std::system(
+        ("cd '" + folder().string() + "' && PLAY='" + program + "' && { " + command + "; } > log 2>&1").c_str());
+    std::ifstream in(folder() / "log");
+    std::stringstream text;
+    text << in.rdbuf();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
+  }
+  Outcome run(const std::string& arguments) {
+    return shell("env -u DISPLAY -u WAYLAND_DISPLAY \"$PLAY\" " + arguments);
+  }
+  Outcome in_display(const std::string& script) {
+    std::ofstream(folder() / "script.sh") << script;
+    return shell("export PLAY; xvfb-run -a -s '-screen 0 640x480x24 -noreset' bash script.sh");
+  }
+  static bool has_display() {
+    return std::system("command -v xvfb-run >/dev/null && command -v xdotool >/dev/null") == 0;
+  }
+  void damage_the_page() {
+    const fs::path path = folder() / "tiny.oriel";
+    Bytes file = *read_file(path);
+    const PackIndex index = *read_index(file);
+    for (const SectionInfo& section : index.sections)
+      if (section.kind == kLightmapSection) file[section.offset + section.stored_bytes - 1] ^= std::byte{1};
+    ASSERT_TRUE(write_file_atomically(path, file));
+  }
+  static ::testing::AssertionResult ends(const Outcome& r, int code, const std::string& says) {
+    if (r.code == code && r.out.find(says) != std::string::npos) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says
+                                         << "' in: " << r.out;
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(PlayLoading, AMemoryLimitIsHeldAndTold) {
+  for (const char* bad : {"0MB", "-1GB", "12", "many", "1e99GB", "nan", "''", "5 parsecs"})
+    EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen -o a.png --gpu-memory ") + bad), 1, "--gpu-memory"))
+        << bad;
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o a.png --gpu-memory 1GiB --stats a.json"), 0, "a.png"));
+  ASSERT_TRUE(ends(run("tiny.oriel --offscreen -o b.png --gpu-memory 100B --stats b.json"), 0, "left out"));
+  const auto whole = nlohmann::json::parse(std::ifstream(folder() / "a.json"))["frames"][0];
+  EXPECT_EQ(whole["coarser_images"], 0);
+  EXPECT_GT(whole["image_bytes"], 100);
+  const auto limited = nlohmann::json::parse(std::ifstream(folder() / "b.json"));
+  EXPECT_EQ(limited["options"]["gpu_memory"], 100);
+  EXPECT_LE(limited["frames"][0]["most_image_bytes"], 100);
+  EXPECT_GT(limited["frames"][0]["missing_images"], 0);
+}
+
+TEST_F(PlayLoading, OffscreenABrokenPageIsAnError) {
+  damage_the_page();
+  EXPECT_TRUE(ends(run("tiny.oriel --offscreen -o a.png"), 3, "section LMAP 0 (lightmap page): checksum"));
+  EXPECT_FALSE(fs::exists(folder() / "a.png"));
+  EXPECT_TRUE(ends(run("tiny.oriel --list"), 0, "camera 0")) << "which looks at no page";
+}
+
+TEST_F(PlayLoading, TheWindowTellsABrokenPageAndStays) {
+  if (!has_display()) GTEST_SKIP() << "xvfb-run or xdotool is not installed";
+  damage_the_page();
+  const Outcome r = in_display("\"$PLAY\" tiny.oriel --size 160x90 --frames 20\n");
+  EXPECT_TRUE(ends(r, 0, "section LMAP 0 (lightmap page): checksum"));
+  EXPECT_NE(r.out.find("first frame after"), std::string::npos) << r.out;
+}
+
+// Cut in place while it is shown, which would end who looks at a mapping; F5 then says why it cannot be shown again.
+TEST_F(PlayLoading, AFileThatIsCutUnderTheWindow) {
+  if (!has_display()) GTEST_SKIP() << "xvfb-run or xdotool is not installed";
+  const Outcome r = in_display(R"(
+"$PLAY" tiny.oriel --size 160x90 & pid=$!
+window=$(timeout 30 xdotool search --sync --onlyvisible --pid $pid --name Oriel | head -1)
+truncate -s 1000 tiny.oriel
+xdotool windowfocus "$window"; sleep 0.5
+kill -0 $pid && echo "still there"
+xdotool key --window "$window" F5; sleep 0.5
+xdotool key --window "$window" Escape
+wait $pid
+)");
+  EXPECT_TRUE(ends(r, 0, "still there"));
+  EXPECT_NE(r.out.find("not loaded again"), std::string::npos) << r.out;
+}
+
+}  // namespace
+}  // namespace oriel
