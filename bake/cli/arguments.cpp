@@ -3,6 +3,7 @@
 #include "bake/cli/lux_arguments.h"
 #include "bake/cli/render_arguments.h"
 #include "bake/run/version.h"
+#include "formats/core/text.h"
 
 namespace oriel {
 namespace {

@@ -174,6 +174,10 @@ Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarse
     std::vector<RadianceMap> maps(element.maps.size());
     std::vector<Status> loaded(maps.size());
     for_each_parallel(maps.size(), core_count(), [&](std::size_t m) {
+      if (*abandoned_) {
+        loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
+        return;
+      }
       Result<RadianceMap> map = radiance_map(element.maps[m]);
       if (map)
         maps[m] = std::move(*map);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <memory>
 
 #include "formats/pack/deferred.h"
 #include "player/maps/map_array.h"
@@ -48,6 +50,9 @@ class ImageSource {
   int coarsest(const ImageName& name) const;
   std::size_t bytes(const ImageName& name, int coarser) const;
 
+  // What is being prepared in other threads ends soon, with kStopped.
+  void abandon() { *abandoned_ = true; }
+
   Result<RadianceMap> radiance_map(std::uint32_t index) const;
   const DeferredImages* deferred() const { return deferred_.get(); }
   std::array<std::size_t, 5> counts() const;  // by ImageKind
@@ -62,6 +67,7 @@ class ImageSource {
   std::vector<IVec2> textures_, normal_textures_, pages_, maps_;
   std::vector<bool> directional_;  // by page
   std::vector<std::uint32_t> surrounds_;
+  std::unique_ptr<std::atomic<bool>> abandoned_ = std::make_unique<std::atomic<bool>>(false);
 };
 
 }  // namespace oriel

@@ -47,6 +47,10 @@ class SceneImages {
   // without a use come last.
   SceneImages(ImageSource source, const std::vector<ImageUse>& uses, const LoadingOptions& options);
 
+  ~SceneImages() { source_.abandon(); }
+  SceneImages(const SceneImages&) = delete;
+  SceneImages& operator=(const SceneImages&) = delete;
+
   // All that is wanted, now or until then; the first errors otherwise.
   std::vector<Error> finish(Clock::time_point until = Clock::time_point::max());
   // What is near or in view of the eye comes first, from now on. seen: by group.

@@ -25,6 +25,7 @@ Status SurveyPass::paint(GpuScene& scene, Show show) {
     if (page == nullptr) continue;
     const std::vector<std::uint8_t> colors = survey_colors(*page, show);
     pages_[i] = {gpu::kSrgbAlpha8, static_cast<int>(page->width), static_cast<int>(page->height), colors.data()};
+    if (scene.images().in_background()) return {};  // one a frame: it takes some milliseconds
   }
   return {};
 }

@@ -242,6 +242,48 @@ TEST_F(Deferred, PixelsThatMeanNothingAreFoundWhenTheyAreLoaded) {
   EXPECT_TRUE(pack->images->radiance_map(1));
 }
 
+// Whatever an image's section holds: read at once or when it is wanted, the answer is the same.
+TEST_F(Deferred, BrokenImagesAreRefusedEitherWay) {
+  const auto loads = [](const Result<DeferredPack>& pack) {
+    if (!pack) return false;
+    const DeferredImages& images = *pack->images;
+    bool good = true;
+    const auto all = [&](std::size_t count, const auto& load) {
+      for (std::size_t i = 0; i < count; ++i) good = load(i).has_value() && good;
+    };
+    all(pack->pack.textures.size(), [&](std::size_t i) { return images.texture(i); });
+    all(pack->pack.normal_textures.size(), [&](std::size_t i) { return images.normal_texture(i); });
+    all(pack->pack.lightmaps.size(), [&](std::size_t i) {
+      const auto whole = images.lightmap(i);
+      EXPECT_TRUE(!whole || images.light(i)) << "light is a part of the page";
+      return whole;
+    });
+    all(pack->pack.radiance_maps.size(), [&](std::size_t i) { return images.radiance_map(i); });
+    all(pack->pack.surround_maps.size(), [&](std::size_t i) { return images.surround_map(i); });
+    return good;
+  };
+  const Forge whole = Forge::from(*encode_pack(tiny_mapped_pack()));
+  std::uint32_t random = 5;
+  const auto below = [&](std::size_t n) { return (random = random * 1664525 + 1013904223) / 65536 % n; };
+  int accepted = 0, refused = 0;
+  for (int round = 0; round < 400; ++round) {
+    Forge forge = whole;
+    ForgedSection* section = nullptr;
+    while (section == nullptr || !is_image(section->record.kind))
+      section = &forge.sections[below(forge.sections.size())];
+    Bytes raw = Forge::raw(*section);
+    raw[below(below(2) == 0 ? std::min<std::size_t>(raw.size(), 24) : raw.size())] ^=
+        static_cast<std::byte>(1 << below(8));
+    if (below(10) == 0) raw.resize(raw.size() - 1 - below(std::min<std::size_t>(raw.size() - 1, 40)));
+    below(2) == 0 ? Forge::set_raw(*section, raw) : Forge::set_compressed(*section, raw);
+    const bool deferred = loads(read(forge.file()));
+    ASSERT_EQ(deferred, read_pack(path_).has_value()) << "round " << round << ", " << refusal_of(forge.file());
+    (deferred ? accepted : refused) += 1;
+  }
+  EXPECT_GT(accepted, 50);
+  EXPECT_GT(refused, 50);
+}
+
 TEST_F(Deferred, FilesThatAreNotThere) {
   EXPECT_EQ(open_pack(path_).error().code, ErrorCode::kIo);
   EXPECT_NE(refusal_of({}).find("is not an .oriel pack"), std::string::npos);

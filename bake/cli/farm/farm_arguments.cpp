@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "formats/core/text.h"
+
 namespace oriel {
 namespace {
 

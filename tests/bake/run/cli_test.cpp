@@ -13,6 +13,7 @@
 #include "bake/run/measure.h"
 #include "bake/run/options.h"
 #include "formats/core/file.h"
+#include "formats/core/text.h"
 #include "formats/image/exr.h"
 #include "formats/pack/reader.h"
 
