@@ -97,19 +97,16 @@ Status load(const std::string& path) {
   };
   tell("open");
   const Pack& p = pack->pack;
-  std::vector<HalfPage> light(p.lightmaps.size());
-  std::vector<Texture> textures(p.textures.size()), normals(p.normal_textures.size());
-  const auto keep = [](auto loaded, auto& to) -> Status {
-    if (!loaded) return tl::unexpected<Error>(std::move(loaded).error());
-    to = std::move(*loaded);
+  // What was decoded is let go, as by the player once it is on the device.
+  const auto status_of = [](const auto& loaded) -> Status {
+    if (!loaded) return tl::unexpected<Error>(loaded.error());
     return {};
   };
   Work shown, rest;
-  for (std::size_t i = 0; i < light.size(); ++i) shown.push_back([&, i] { return keep(images.light(i), light[i]); });
-  for (std::size_t i = 0; i < textures.size(); ++i)
-    shown.push_back([&, i] { return keep(images.texture(i), textures[i]); });
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    shown.push_back([&, i] { return keep(images.normal_texture(i), normals[i]); });
+  for (std::size_t i = 0; i < p.lightmaps.size(); ++i) shown.push_back([&, i] { return status_of(images.light(i)); });
+  for (std::size_t i = 0; i < p.textures.size(); ++i) shown.push_back([&, i] { return status_of(images.texture(i)); });
+  for (std::size_t i = 0; i < p.normal_textures.size(); ++i)
+    shown.push_back([&, i] { return status_of(images.normal_texture(i)); });
   for (std::size_t i = 0; i < images.sections(); ++i)
     rest.push_back([&, i] { return images.was_checked(i) ? Status() : images.check(i); });
   ORIEL_TRY(const double shown_s, done(shown));
