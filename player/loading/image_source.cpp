@@ -47,10 +47,6 @@ IVec2 coarser_size(const IVec2& size, int coarser) {
   return glm::max(size >> coarser, IVec2(1));
 }
 
-Result<Texture> copy_of(const Texture& texture) {
-  return texture;
-}
-
 }  // namespace
 
 std::size_t PreparedImage::bytes() const {
@@ -132,14 +128,19 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
   PreparedImage out;
   switch (name.kind) {
     case ImageKind::kColor: {
-      ORIEL_TRY(out.texture, deferred_ ? deferred_->texture(name.index) : copy_of(pack_->textures[name.index]));
-      out.textures.push_back(color_texture_data(out.texture, users_[name.index], coarser));
+      if (deferred_) {
+        ORIEL_TRY(out.texture, deferred_->texture(name.index));
+      }
+      out.textures.push_back(
+          color_texture_data(deferred_ ? out.texture : pack_->textures[name.index], users_[name.index], coarser));
       return out;
     }
     case ImageKind::kNormal: {
-      ORIEL_TRY(const Texture texture,
-                deferred_ ? deferred_->normal_texture(name.index) : copy_of(pack_->normal_textures[name.index]));
-      out.textures.push_back(normal_texture_data(texture, coarser));
+      Texture deferred;
+      if (deferred_) {
+        ORIEL_TRY(deferred, deferred_->normal_texture(name.index));
+      }
+      out.textures.push_back(normal_texture_data(deferred_ ? deferred : pack_->normal_textures[name.index], coarser));
       return out;
     }
     case ImageKind::kLight: {

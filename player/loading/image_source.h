@@ -34,7 +34,7 @@ struct PreparedImage {
   std::vector<std::vector<IVec2>> map_sizes;
   MapMeans means;
   SurroundTextures surround;  // without its textures
-  Texture texture;            // of colours, as in the pack
+  Texture texture;            // of colours that were deferred, as in the pack
 
   std::size_t bytes() const;  // on the device
 };

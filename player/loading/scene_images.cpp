@@ -250,7 +250,7 @@ void SceneImages::settle(Upload& upload) {
       gpu::Texture& texture = (item.name.kind == ImageKind::kColor ? colors_ : normals_)[i];
       texture = std::move(textures[0].texture);
       texture.limit_levels(mipmaps_ ? texture.levels() : 1);
-      if (item.name.kind == ImageKind::kColor) texels_.emplace_back(i, std::move(upload.image.texture));
+      if (!upload.image.texture.texels.empty()) texels_.emplace_back(i, std::move(upload.image.texture));
       break;
     }
     case ImageKind::kLight:
