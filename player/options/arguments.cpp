@@ -19,7 +19,8 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n"
     "  oriel-play gallery.oriel --offscreen --path oriel-000.json --smooth 0.3 --video walk.mp4\n"
-    "  oriel-play gallery.oriel --offscreen --camera mirror --panorama -o around.png\n";
+    "  oriel-play gallery.oriel --offscreen --camera mirror --panorama -o around.png\n"
+    "  oriel-play before.oriel after.oriel                          both, beside each other\n";
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
@@ -190,6 +191,16 @@ void add_path_options(CLI::App& app, PlayArguments& out) {
 
 void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("pack", out.pack, "The .oriel pack")->required()->type_name("PACK");
+  app.add_option(
+         "other", out.other,
+         "Another pack of the building, or a picture (.exr linear cd/m2, .png as shown), to be seen beside it by "
+         "the same camera")
+      ->type_name("OTHER");
+  app.add_option("--split", out.divider,
+                 "Beside OTHER: the share of the width that shows PACK; the window's divider can be dragged from there")
+      ->check(CLI::Range(0.0f, 1.0f))
+      ->type_name("X")
+      ->capture_default_str();
   app.add_flag("--list", out.list, "Print the cameras and paths of the pack, and stop");
   app.add_flag("--offscreen", out.offscreen, "Draw pictures into files: needs no display and no window");
   app.add_option_function<std::string>(
@@ -246,6 +257,9 @@ std::string contradiction(const PlayArguments& out) {
   if (compares && out.toned && std::filesystem::path(out.reference).extension() == ".exr")
     return "--compare shows linear light without a tone curve: leave --tonemap out";
   if (compares && !out.offscreen) return "--compare needs --offscreen";
+  if (out.divided && out.other.empty()) return "--split parts two: a second pack or a picture is missing";
+  if (compares && !out.other.empty()) return "found both --compare and " + out.other + ", expected one of them";
+  if (out.panorama && !out.other.empty()) return "--panorama shows one pack: leave " + out.other + " out";
   if (compares && measures) return "--compare draws one frame: leave --path and --stats out";
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
   if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
@@ -290,6 +304,7 @@ std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* ar
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = app.get_option("--tonemap")->count() > 0;
+  out.divided = app.get_option("--split")->count() > 0;
   const std::string complaint = contradiction(out);
   if (!complaint.empty()) {
     std::fprintf(stderr, "oriel-play: %s\nRun with --help for more information.\n", complaint.c_str());

@@ -15,6 +15,9 @@ namespace oriel {
 
 struct PlayArguments {
   std::string pack;
+  std::string other;     // pack or picture that it is shown beside; none
+  float divider = 0.5f;  // of the two, share of the width
+  bool divided = false;  // --split was given
   bool list = false;
   bool offscreen = false;
   int width = 1280, height = 720;

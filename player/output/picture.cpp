@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "formats/camera/camera_notes.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "player/options/option_names.h"
@@ -10,18 +11,11 @@
 namespace oriel {
 namespace {
 
-std::string text_of(const DVec3& v) {
-  return fmt::format("{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
-}
-
 std::map<std::string, std::string> texts_of(const PictureNotes& notes) {
-  const Camera& camera = notes.camera;
-  return {{"oriel.camera", notes.name},
-          {"oriel.eye", text_of(DVec3(camera.eye) + notes.origin)},
-          {"oriel.forward", text_of(DVec3(camera.forward))},
-          {"oriel.up", text_of(DVec3(camera.up))},
-          {"oriel.vertical_fov_deg", fmt::format("{:.6g}", double{camera.vertical_fov_rad} * 180 / kPi)},
-          {"oriel.ev100", fmt::format("{:.3f}", notes.ev100)}};
+  auto texts = camera_notes(notes.camera, notes.origin);
+  texts["oriel.camera"] = notes.name;
+  texts["oriel.ev100"] = fmt::format("{:.3f}", notes.ev100);
+  return texts;
 }
 
 }  // namespace

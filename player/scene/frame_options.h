@@ -45,6 +45,8 @@ struct FrameOptions {
   MoverLights mover_lights = MoverLights::kShadowed;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+
+  bool operator==(const FrameOptions&) const = default;
 };
 
 enum class Pass {
