@@ -16,7 +16,8 @@ struct Cover {
 std::vector<Cover> covers(std::uint32_t frame, std::uint32_t picture, double from, double step) {
   std::vector<Cover> out(frame);
   for (std::uint32_t i = 0; i < frame; ++i) {
-    const double lower = std::max(from + i * step, 0.0), upper = std::min(from + (i + 1) * step, static_cast<double>(picture));
+    const double lower = std::max(from + i * step, 0.0),
+                 upper = std::min(from + (i + 1) * step, static_cast<double>(picture));
     if (!(upper - lower > 1e-6 * step)) continue;
     out[i].first = static_cast<std::size_t>(lower);
     for (std::size_t p = out[i].first; static_cast<double>(p) < upper; ++p) {

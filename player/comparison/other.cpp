@@ -39,7 +39,8 @@ Result<std::unique_ptr<Other>> Other::open(const std::string& path, const gpu::D
     ORIEL_TRY_VOID(other->read_picture());
   } else {
     if (std::filesystem::path(path).extension() != ".oriel")
-      return fail(ErrorCode::kUsage, path, "found '{}', expected a pack (.oriel) or a picture (.exr, .png) beside the pack",
+      return fail(ErrorCode::kUsage, path,
+                  "found '{}', expected a pack (.oriel) or a picture (.exr, .png) beside the pack",
                   std::filesystem::path(path).extension().string());
     ORIEL_TRY(DeferredPack pack, read_pack_deferred(path));
     ORIEL_TRY(other->scene_, GpuScene::create(std::move(pack), device));

@@ -15,8 +15,8 @@ namespace oriel {
 
 class Other {
  public:
-  // A pack, .exr (linear light, cd/m²) or .png (as shown). Errors: those of reading them and of GpuScene::create; kUsage
-  // for another kind of file.
+  // A pack, .exr (linear light, cd/m²) or .png (as shown). Errors: those of reading them and of GpuScene::create;
+  // kUsage for another kind of file.
   static Result<std::unique_ptr<Other>> open(const std::string& path, const gpu::Device& device);
 
   const std::string& path() const { return path_; }

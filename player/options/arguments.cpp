@@ -68,10 +68,11 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
          "--show", out.frame.show,
          "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
          "(MKR), the diffuse light alone (D), or the whole frame (all); or of each texel its illuminance (lux), "
-         "standard error "
-         "(error) or state (texels) in colours")
+         "standard error (error), state (texels) or chart (charts) in colours; how many surfaces each pixel is drawn "
+         "by "
+         "(overdraw); or where reflections were planned for (zones)")
       ->transform(CLI::CheckedTransformer(kStages).description(""))
-      ->type_name("M|MK|MKR|D|all|lux|error|texels")
+      ->type_name("M|MK|MKR|D|all|lux|error|texels|charts|overdraw|zones")
       ->default_str("all");
   app.add_option(
          "--reflections", out.frame.reflections,

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "player/panel/comparison_panel.h"
+#include "player/panel/legend.h"
 #include "player/panel/widgets.h"
-#include "player/survey/survey_colors.h"
 
 namespace oriel {
 namespace {
@@ -24,24 +24,6 @@ void draw_light(Session& session) {
   if (ImGui::SliderFloat("EV 100", &ev100, kLeastEv100, kMostEv100, "%.1f")) session.manual_ev100 = ev100;
   text(fmt::format("white: {:.4g} cd/m²", white_of_exposure(session.shown_ev100)));
   choose("tone curve", kToneCurves, session.curve);
-}
-
-// The colours of a survey with their values, from dark to white.
-void draw_legend(Show show) {
-  if (show == Show::kTexels) {
-    ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
-    return;
-  }
-  const HeatScale scale = heat_scale(show);
-  const float decades = std::log10(scale.highest / scale.lowest);
-  for (float d = 0; d < decades + 0.5f; d += 1) {
-    const Vec3 c = heat(d / decades);
-    if (d > 0) ImGui::SameLine();
-    ImGui::TextColored(ImVec4(std::max(c.r, 0.2f), std::max(c.g, 0.2f), c.b, 1), "%g",
-                       static_cast<double>(scale.lowest * std::pow(10.0f, d)));
-  }
-  ImGui::SameLine();
-  ImGui::TextUnformatted(scale.unit);
 }
 
 void draw_reflections(FrameOptions& frame) {

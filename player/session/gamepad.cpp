@@ -31,8 +31,8 @@ PadMotion pad_motion(const PadState& now, const PadState& before, float dt_s, co
   PadMotion out;
   const Vec2 walk = stick_of({value(now, PadAxis::kLeftX), value(now, PadAxis::kLeftY)}, options.dead_zone);
   const Vec2 look = stick_of({value(now, PadAxis::kRightX), value(now, PadAxis::kRightY)}, options.dead_zone);
-  const float rise = trigger(now, PadAxis::kRightTrigger, options.dead_zone) -
-                     trigger(now, PadAxis::kLeftTrigger, options.dead_zone);
+  const float rise =
+      trigger(now, PadAxis::kRightTrigger, options.dead_zone) - trigger(now, PadAxis::kLeftTrigger, options.dead_zone);
   out.move.stick = {walk.x, rise, -walk.y};
   const float turn = options.turn_px_per_s * std::clamp(std::isfinite(dt_s) ? dt_s : 0.0f, 0.0f, 0.1f);
   out.move.mouse_x_px = turn * look.x;

@@ -25,7 +25,7 @@ struct PadOptions {
 
 // What is added to keys and mouse.
 struct PadMotion {
-  MoveInput move;  // stick, mouse_x_px, mouse_y_px, fast
+  MoveInput move;                 // stick, mouse_x_px, mouse_y_px, fast
   std::vector<Command> commands;  // of buttons that have gone down
 };
 PadMotion pad_motion(const PadState& now, const PadState& before, float dt_s, const PadOptions& options = {});

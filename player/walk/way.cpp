@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kMostTime_s = 5;     // of a way, however long
+constexpr float kMostTime_s = 5;  // of a way, however long
 constexpr float kStuck_s = 0.5f;
 constexpr std::size_t kMostCells = 2'000'000;  // that are looked at: a second or two
 

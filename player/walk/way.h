@@ -12,9 +12,9 @@ struct WayOptions {
   StepOptions step;
 };
 
-// The eyes at the corners of a short way from `eye` to where somebody stands at `goal` (a point of a floor, pack space);
-// without the first. Straight between its corners every step is one that Floors::walk takes. Empty: nobody can stand
-// there, or come there from here.
+// The eyes at the corners of a short way from `eye` to where somebody stands at `goal` (a point of a floor, pack
+// space); without the first. Straight between its corners every step is one that Floors::walk takes. Empty: nobody can
+// stand there, or come there from here.
 std::vector<Vec3> find_way(const Floors& floors, const Vec3& eye, const Vec3& goal, const WayOptions& options = {});
 
 // Walking along one.

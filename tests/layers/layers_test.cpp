@@ -106,9 +106,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
-  m["player/survey"] = plus(m["player/scene"], {"formats/image", "player/scene"});
-  m["player/passes"] = plus(m["player/reflections"], {"player/survey", "formats/image", "formats/motion",
-                                                      "player/movers", "player/reflections"});
+  m["player/survey"] = plus(m["player/scene"], {"formats/camera", "formats/image", "player/scene", "player/walk"});
+  m["player/passes"] =
+      plus(m["player/reflections"], {"player/survey", "formats/image", "formats/motion", "player/movers",
+                                     "player/reflections", "player/walk", "formats/camera"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] =
       plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});

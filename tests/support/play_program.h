@@ -62,8 +62,9 @@ class PlayWindow : public Play {
   }
   // Runs a script with $PLAY and $PACK under a virtual display.
   Outcome in_display(const std::string& script) {
-    std::ofstream(folder() / "script.sh") << "PLAY='" << (std::filesystem::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n"
-                                          << script;
+    std::ofstream(folder() / "script.sh")
+        << "PLAY='" << (std::filesystem::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n"
+        << script;
     // Without -noreset the server signals xvfb-run anew when the last window closes, while that cleans up.
     return shell("xvfb-run -a -s '-screen 0 640x480x24 -noreset' bash script.sh");
   }

@@ -15,7 +15,9 @@ using namespace testing;
 
 class OtherTest : public FrameTest {
  protected:
-  Result<std::unique_ptr<Other>> open(const char* name) { return Other::open((folder_.path() / name).string(), device_); }
+  Result<std::unique_ptr<Other>> open(const char* name) {
+    return Other::open((folder_.path() / name).string(), device_);
+  }
   TemporaryFolder folder_;
 };
 
@@ -48,7 +50,9 @@ TEST_F(OtherTest, PacksOfOtherOriginsAreSeenFromTheSamePlace) {
 TEST_F(OtherTest, PicturesLieOverTheFrame) {
   const Vec3 color(1, 20, 300);
   ASSERT_TRUE(write_exr(folder_.path() / "a.exr", rgb_image(2, 2, std::vector<Vec3>(4, color)),
-                        {{"oriel.eye", "101,5,-3"}, {"oriel.forward", "0,0,-1"}, {"oriel.up", "0,1,0"},
+                        {{"oriel.eye", "101,5,-3"},
+                         {"oriel.forward", "0,0,-1"},
+                         {"oriel.up", "0,1,0"},
                          {"oriel.vertical_fov_deg", "40"}}));
   auto other = open("a.exr");
   ASSERT_TRUE(other) << other.error().text();

@@ -64,7 +64,8 @@ TEST(Ways, FindTheWayThroughAMaze) {
 }
 
 TEST(Ways, ThereIsNoneThroughWalls) {
-  const Floors floors({grid_of({"....#....", "....#....", "....#....", "....#....", "....#....", "....#....", "....#...."})});
+  const Floors floors(
+      {grid_of({"....#....", "....#....", "....#....", "....#....", "....#....", "....#....", "....#...."})});
   EXPECT_TRUE(find_way(floors, eye_at(0, 0), at(8, 3)).empty());
   EXPECT_FALSE(find_way(floors, eye_at(0, 0), at(4, 3)).empty()) << "the wall's foot: beside it";
   EXPECT_TRUE(find_way(floors, eye_at(0, 0), at(2, 3, 2.5f)).empty()) << "no floor at that height";
