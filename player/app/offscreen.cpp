@@ -42,8 +42,9 @@ class Studio {
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
+    const int n = arguments_.supersample;
     const View view =
-        make_view(shot.camera, arguments_.width, arguments_.height, bounds_with_movers(scene_, options_.poses));
+        make_view(shot.camera, n * arguments_.width, n * arguments_.height, bounds_with_movers(scene_, options_.poses));
     std::vector<FrameRecord> records;
     for (int i = 0; i < times; ++i) {
       if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
@@ -85,8 +86,9 @@ class Studio {
     ORIEL_TRY(const float ev100, expose(shot));
     const PictureNotes notes{shot.camera, scene_.pack().mesh.origin, shot.name, ev100, arguments_.curve};
     if (other_ != nullptr)
-      ORIEL_TRY_VOID(other_->draw({shot.camera, scene_.pack().mesh.origin, arguments_.width, arguments_.height,
-                                   options_, arguments_.moves, arguments_.time_s + shot.time_s}));
+      ORIEL_TRY_VOID(
+          other_->draw({shot.camera, scene_.pack().mesh.origin, renderer_.frame_size().x, renderer_.frame_size().y,
+                        options_, arguments_.moves, arguments_.time_s + shot.time_s}));
     if (!shot.file.empty()) ORIEL_TRY_VOID(write(shot.file, notes));
     if (film == nullptr) return {};
     ORIEL_TRY(ByteImage frame, as_shown(notes));
@@ -101,15 +103,15 @@ class Studio {
 
  private:
   Status write(const fs::path& file, const PictureNotes& notes) {
-    if (other_ != nullptr) return write_beside(renderer_, *other_, arguments_.divider, file.string(), notes);
-    return write_picture(renderer_, file.string(), arguments_.width, arguments_.height, notes);
+    const auto n = static_cast<std::uint32_t>(arguments_.supersample);
+    if (other_ != nullptr) return write_beside(renderer_, *other_, arguments_.divider, file.string(), notes, n);
+    return write_picture(renderer_, file.string(), notes, n);
   }
 
   Result<ByteImage> as_shown(const PictureNotes& notes) {
-    if (other_ != nullptr) return shown_beside(renderer_, *other_, arguments_.divider, notes);
-    ByteImage frame{static_cast<std::uint32_t>(arguments_.width), static_cast<std::uint32_t>(arguments_.height), 3, {}};
-    ORIEL_TRY(frame.pixels, renderer_.read_display(notes.ev100, notes.curve));
-    return frame;
+    const auto n = static_cast<std::uint32_t>(arguments_.supersample);
+    if (other_ != nullptr) return shown_beside(renderer_, *other_, arguments_.divider, notes, n);
+    return shown_picture(renderer_, notes, n);
   }
 
   GpuScene& scene_;

@@ -100,22 +100,20 @@ Status Other::show(const FloatImage& rgba) {
   return renderer_->take_light(rgba);
 }
 
-Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes) {
-  const UVec2 size(first.frame_size());
-  ByteImage left{size.x, size.y, 3, {}}, right = left;
-  ORIEL_TRY(left.pixels, first.read_display(notes.ev100, notes.curve));
-  ORIEL_TRY(right.pixels, other.read_display(notes.ev100, notes.curve));
+Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes,
+                               std::uint32_t n) {
+  ORIEL_TRY(const ByteImage left, shown_picture(first, notes, n));
+  ORIEL_TRY(const ByteImage right, shown_picture(other.renderer(), notes, n));
   return join_split(left, right, divider);
 }
 
-Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes) {
+Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes,
+                    std::uint32_t n) {
   if (!is_linear_file(path)) {
-    ORIEL_TRY(const ByteImage shown, shown_beside(first, other, divider, notes));
+    ORIEL_TRY(const ByteImage shown, shown_beside(first, other, divider, notes, n));
     return write_shown(path, shown, notes);
   }
-  const UVec2 size(first.frame_size());
-  const FloatImage left{size.x, size.y, 3, first.read_light()}, right{size.x, size.y, 3, other.read_light()};
-  return write_light(path, join_split(left, right, divider), notes);
+  return write_light(path, join_split(light_picture(first, n), light_picture(other.renderer(), n), divider), notes);
 }
 
 }  // namespace oriel

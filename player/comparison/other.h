@@ -40,6 +40,7 @@ class Other {
     return renderer_->read_display(ev100, curve);
   }
   std::vector<float> read_light() const { return renderer_->read_light(); }
+  Renderer& renderer() { return *renderer_; }
   // Any other RGBA picture instead, as Renderer::take_light().
   Status show(const FloatImage& rgba);
 
@@ -56,9 +57,11 @@ class Other {
   std::map<std::string, std::string> notes_;
 };
 
-// What both have drawn last, as shown: the first's up to the divider [0, 1], from there on the other's.
-Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes);
-// As write_picture, of what that.
-Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes);
+// shown_picture() and write_picture() of what both have drawn last: the first's up to the divider [0, 1], from there on
+// the other's.
+Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes,
+                               std::uint32_t n = 1);
+Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes,
+                    std::uint32_t n = 1);
 
 }  // namespace oriel

@@ -226,6 +226,12 @@ void add_options(CLI::App& app, PlayArguments& out) {
                  "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")
       ->type_name("FILE|DIR");
   add_compare_options(app, out);
+  app.add_option("--supersample", out.supersample,
+                 "Pictures and F12 are drawn so many times as wide and as high, and averaged: smooth edges")
+      ->check(CLI::Range(1, 16))
+      ->excludes(app.get_option("--compare"))
+      ->type_name("N")
+      ->capture_default_str();
   app.add_option("--format", out.format, "Of the files written to a folder")
       ->check(CLI::IsMember({"png", "exr"}))
       ->excludes(app.get_option("--compare"))
@@ -277,6 +283,7 @@ std::string contradiction(const PlayArguments& out) {
   if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";
   if (!out.video.empty() && !std::filesystem::path(out.video).has_extension())
     return "--video takes the kind of film from its name: expected an extension, as .mp4";
+  if (out.panorama && out.supersample > 1) return "--panorama is drawn at its size: leave --supersample out";
   if (out.panorama && !out.stats.empty()) return "--panorama is not timed: leave --stats out";
   if (out.panorama && out.width != 2 * out.height)
     return "found --size " + std::to_string(out.width) + "x" + std::to_string(out.height) +

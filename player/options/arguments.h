@@ -21,6 +21,7 @@ struct PlayArguments {
   bool list = false;
   bool offscreen = false;
   int width = 1280, height = 720;
+  int supersample = 1;               // pixels averaged to one of a picture, on each axis
   bool sized = false;                // --size was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::vector<MoverMove> moves;

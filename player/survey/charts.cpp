@@ -117,7 +117,8 @@ std::vector<std::vector<std::uint8_t>> chart_colors(const Pack& pack) {
       std::array<Vec2, 3> corners;
       for (std::uint32_t c = 0; c < 3; ++c) corners[c] = mesh.lightmap_uvs[mesh.indices[i + c]];
       touched_texels(corners, size, [&](std::size_t texel) {
-        for (int c = 0; c < 3; ++c) out[p][4 * texel + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(color[c]);
+        for (int c = 0; c < 3; ++c)
+          out[p][4 * texel + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(color[c]);
       });
     }
   }

@@ -70,11 +70,12 @@ void BesideView::display(const Renderer& first, const Session& session) const {
   other_->display(session.shown_ev100, session.curve);
 }
 
-Status BesideView::write(Renderer& first, const Session& session, const std::string& path, const PictureNotes& notes) {
+Status BesideView::write(Renderer& first, const Session& session, const std::string& path, const PictureNotes& notes,
+                         std::uint32_t n) {
   const Comparison& c = session.comparison;
   const bool whole = c.beside == Beside::kFirst || (c.beside == Beside::kDifference && !shows_flip_);
-  if (whole) return write_picture(first, path, first.frame_size().x, first.frame_size().y, notes);
-  return write_beside(first, *other_, c.beside == Beside::kSplit ? c.divider : 0.0f, path, notes);
+  if (whole) return write_picture(first, path, notes, n);
+  return write_beside(first, *other_, c.beside == Beside::kSplit ? c.divider : 0.0f, path, notes, n);
 }
 
 }  // namespace oriel

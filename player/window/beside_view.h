@@ -18,8 +18,9 @@ class BesideView {
   Status draw(Renderer& first, const Other::Seen& seen, Session& session, double now_s);
   // Into the bound framebuffer.
   void display(const Renderer& first, const Session& session) const;
-  // What is seen, as a file.
-  Status write(Renderer& first, const Session& session, const std::string& path, const PictureNotes& notes);
+  // What is seen, as a file, n x n pixels averaged to one.
+  Status write(Renderer& first, const Session& session, const std::string& path, const PictureNotes& notes,
+               std::uint32_t n);
 
  private:
   Status draw_difference(Renderer& first, const Other::Seen& seen, Session& session, double now_s);

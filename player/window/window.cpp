@@ -147,6 +147,7 @@ class Loop {
     move_on(input.move, floors_, dt_s, session_);
     if (const auto walk = std::exchange(session_.recorded, std::nullopt)) keep(*walk);
     drag(input);
+    meter_.gamepad = input.gamepad;
   }
 
   // The divider of two frames, else movers; a click beside both grabs the mouse.
@@ -154,13 +155,12 @@ class Loop {
     int width = 1;
     glfwGetWindowSize(window_.get(), &width, nullptr);
     const float reach = kDividerReach_px / static_cast<float>(std::max(width, 1));
+    const Vec2 last = std::exchange(pointer_, input.pointer);
     if (drag_divider(input.pointer, input.clicked, input.holding, reach, session_.comparison)) return;
-    const Dragged dragged = drag_movers({input.pointer, pointer_, input.clicked, input.holding, input.turning},
+    const Dragged dragged = drag_movers({input.pointer, last, input.clicked, input.holding, input.turning},
                                         scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
     if (dragged.missed) input_.grab(true);
     if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
-    pointer_ = input.pointer;
-    meter_.gamepad = input.gamepad;
   }
 
   Status draw(int width, int height, float dt_s) {
@@ -168,7 +168,7 @@ class Loop {
     session_.frame.white = white_of_exposure(session_.shown_ev100);
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
-    view_ = make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+    view_ = view_of(width, height);
     ORIEL_TRY(const FrameStats stats, renderer_.render(*scene_, view_, session_.frame));
     ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
     adapt_exposure(metered, dt_s, session_);
@@ -190,12 +190,34 @@ class Loop {
     return {};
   }
 
+  View view_of(int width, int height) const {
+    return make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+  }
+
   void keep_screenshot(const std::string& name, int width, int height) {
+    const Status written = write_screenshot(name, width, height);
+    say(written ? name : written.error().text());
+  }
+
+  // Supersampled, it is drawn anew, and the frame again after it. FLIP is of the window's own pixels.
+  Status write_screenshot(const std::string& name, int width, int height) {
+    const bool flip = beside_ && session_.comparison.beside == Beside::kDifference;
+    const int n = flip ? 1 : arguments_.supersample;
     const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
                              session_.curve};
-    const Status written = beside_ ? beside_->write(renderer_, session_, name, notes)
-                                   : write_picture(renderer_, name, width, height, notes);
-    say(written ? name : written.error().text());
+    const auto times = static_cast<std::uint32_t>(n);
+    Status status = n > 1 ? redraw(n * width, n * height) : Status();
+    if (status)
+      status = beside_ ? beside_->write(renderer_, session_, name, notes, times)
+                       : write_picture(renderer_, name, notes, times);
+    if (n > 1) ORIEL_TRY_VOID(redraw(width, height));
+    return status;
+  }
+
+  Status redraw(int width, int height) {
+    ORIEL_TRY_VOID(renderer_.render(*scene_, view_of(width, height), session_.frame));
+    if (!beside_) return {};
+    return beside_->draw(renderer_, seen(width, height), session_, seconds_since(start_));
   }
 
   Other::Seen seen(int width, int height) const {

@@ -114,10 +114,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/session"] =
       plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});
   m["player/options"] = plus(m["player/session"], {"player/session"});
-  m["player/output"] = plus(m["player/options"], {"player/options", "formats/image", "formats/camera"});
+  m["player/output"] =
+      plus(m["player/options"], {"player/options", "formats/image", "formats/metrics", "formats/camera"});
   m["player/panel"] = plus(m["player/options"], {"player/options", "player/survey"});
   // What a frame is shown beside.
-  m["player/comparison"] = plus(m["player/output"], {"player/output", "formats/metrics"});
+  m["player/comparison"] = plus(m["player/output"], {"player/output"});
   m["player/window"] = plus(m["player/comparison"], {"player/comparison", "player/panel"});
   m["player/app"] = plus(m["player/window"], {"player/window"});
   m["scenes/kit"] = core;

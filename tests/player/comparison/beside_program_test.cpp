@@ -1,4 +1,5 @@
 // Two packs in one picture, and in one window.
+#include "formats/core/color.h"
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
@@ -52,6 +53,34 @@ TEST_F(Beside, SaysWhyThereIsNothingBeside) {
   EXPECT_EQ(run("tiny.oriel dark.oriel --offscreen -o a.png --split 1.1").code, 1);
   EXPECT_TRUE(ends(run("tiny.oriel dark.oriel --offscreen --compare a.png"), 1, "dark.oriel"));
   EXPECT_TRUE(ends(run("tiny.oriel dark.oriel --offscreen --panorama -o a.png"), 1, "--panorama"));
+}
+
+// The mean of the pixels of a frame so many times as large, as light; and as the display shines.
+TEST_F(Beside, SupersampledPicturesAreMeans) {
+  const std::string draw = "tiny.oriel --offscreen --camera 0 --exposure 5 ";
+  ASSERT_EQ(run(draw + "--size 48x27 -o large.exr").code, 0);
+  ASSERT_EQ(run(draw + "--size 48x27 -o large.png").code, 0);
+  ASSERT_EQ(run(draw + "--size 16x9 --supersample 3 -o small.exr").code, 0);
+  ASSERT_EQ(run(draw + "--size 16x9 --supersample 3 -o small.png").code, 0);
+  const auto large = read_exr(folder() / "large.exr"), small = read_exr(folder() / "small.exr");
+  const auto large_png = read_png(folder() / "large.png"), small_png = read_png(folder() / "small.png");
+  ASSERT_TRUE(large && small && large_png && small_png);
+  ASSERT_EQ(small->width, 16u);
+  ASSERT_EQ(small_png->height, 9u);
+  for (std::size_t i = 0; i < small->pixels.size(); ++i) {
+    const std::size_t x = i / 3 % 16, y = i / 48, c = i % 3;
+    double light = 0, shone = 0;
+    for (std::size_t j = 0; j < 9; ++j) {
+      const std::size_t at = ((3 * y + j / 3) * 48 + 3 * x + j % 3) * 3 + c;
+      light += double{large->pixels[at]} / 9;
+      shone += double{linear_from_srgb8(large_png->pixels[at])} / 9;
+    }
+    ASSERT_NEAR(small->pixels[i], light, 1e-5 * (1 + light));
+    ASSERT_NEAR(small_png->pixels[i], 255 * srgb_from_linear(static_cast<float>(shone)), 0.51);
+  }
+  EXPECT_TRUE(ends(run(draw + "--size 30000x9 --supersample 16 -o a.png"), 1, "480000x144"));
+  EXPECT_EQ(run(draw + "--supersample 0 -o a.png").code, 1);
+  EXPECT_TRUE(ends(run(draw + "--panorama --supersample 2 -o a.png"), 1, "--supersample"));
 }
 
 class BesideWindow : public PlayWindow {};
