@@ -23,7 +23,7 @@ inline void text(const std::string& line) {
 // A choice by the names that the command line has for it.
 template <class T>
 void choose(const char* label, const std::map<std::string, T>& names, T& value) {
-  if (!ImGui::BeginCombo(label, name_of(names, value).c_str())) return;
+  if (!ImGui::BeginCombo(label, name_of(names, value).c_str(), ImGuiComboFlags_HeightLargest)) return;
   for (const auto& [name, each] : names)
     if (ImGui::Selectable(name.c_str(), each == value)) value = each;
   ImGui::EndCombo();

@@ -51,15 +51,18 @@ const std::map<std::string, Try> kTries{
     {"W A S D", {"shot start; hold w; shot w; hold s; shot s; hold a; shot a; hold d; shot d"}},
     {"Q E", {"key f; shot flying; hold e; shot e; hold q; shot q", "flying"}},
     {"Shift", {"key Home; shot slow; xdotool keydown shift; hold w; xdotool keyup shift; shot fast"}},
-    {"wheel", {"key Home; xdotool mousemove --window $window 40 20; for i in 1 2 3 4 5 6 7 8; do xdotool click 5; done; pause; hold w; shot wheel; "
-               "for i in 1 2 3 4 5 6 7 8; do xdotool click 4; done"}},
+    {"wheel",
+     {"key Home; xdotool mousemove --window $window 40 20; for i in 1 2 3 4 5 6 7 8; do xdotool click 5; done; pause; "
+      "hold w; shot wheel; "
+      "for i in 1 2 3 4 5 6 7 8; do xdotool click 4; done"}},
     {"mouse, arrows",
      {"key Home; hold Right; shot right; hold Up; shot up; key Home; xdotool mousemove --window $window 40 20 click 1; "
       "pause; for i in 1 2 3 4; do xdotool mousemove_relative -- -15 8; sleep 0.05; done; key Escape; shot looked; "
       "xdotool mousemove --window $window 30 30; pause; shot released"}},
     {"Backspace", {"key BackSpace", "nothing moves here"}},
     {"double click",
-     {"key Home; xdotool mousemove --window $window 60 70; pause; xdotool click --repeat 2 --delay 60 1; sleep 1; shot went; "
+     {"key Home; xdotool mousemove --window $window 60 70; pause; xdotool click --repeat 2 --delay 60 1; sleep 1; shot "
+      "went; "
       "key Home; xdotool click 2; sleep 1; shot middle"}},
     {"G", {"key Home; hold Down; hold Down; key g; sleep 1; shot g"}},
     {"F", {"key f; key f", "walking"}},
