@@ -158,8 +158,9 @@ void add_compare_options(CLI::App& app, PlayArguments& out) {
          "--compare", out.reference,
          "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
          "reflectors; -o is then the picture of reference, frame and FLIP side by side. Or with an earlier frame: "
-         "how many pixels have changed, and how much; -o is then FLIP's")
-      ->type_name("FILE.exr|png");
+         "how many pixels have changed, and how much; -o is then FLIP's. Or with another pack by the same camera, "
+         "likewise")
+      ->type_name("FILE.exr|png|oriel");
   app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
   app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
       ->check(CLI::Range(0.0, 1.0))

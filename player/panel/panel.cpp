@@ -22,7 +22,10 @@ void draw_light(Session& session) {
   }
   float ev100 = session.shown_ev100;
   if (ImGui::SliderFloat("EV 100", &ev100, kLeastEv100, kMostEv100, "%.1f")) session.manual_ev100 = ev100;
-  text(fmt::format("white: {:.4g} cd/m²", white_of_exposure(session.shown_ev100)));
+  float white = white_of_exposure(session.shown_ev100);
+  if (ImGui::SliderFloat("white, cd/m²", &white, white_of_exposure(kLeastEv100), white_of_exposure(kMostEv100), "%.4g",
+                         ImGuiSliderFlags_Logarithmic))
+    session.manual_ev100 = exposure_of_white(white);
   choose("tone curve", kToneCurves, session.curve);
 }
 

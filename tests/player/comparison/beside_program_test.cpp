@@ -55,6 +55,15 @@ TEST_F(Beside, SaysWhyThereIsNothingBeside) {
   EXPECT_TRUE(ends(run("tiny.oriel dark.oriel --offscreen --panorama -o a.png"), 1, "--panorama"));
 }
 
+TEST_F(Beside, APackIsComparedWithAnother) {
+  const std::string compare = "tiny.oriel --offscreen --size 33x17 --camera 0 --max-flip 0 --json a.json --compare ";
+  EXPECT_TRUE(ends(run(compare + "tiny.oriel"), 0, "33x17: 0 pixels changed"));
+  EXPECT_TRUE(ends(run(compare + "dark.oriel -o flip.png"), 5, "found a FLIP of"));
+  EXPECT_TRUE(ends(shell("cat a.json"), 0, "\"passed\": false"));
+  EXPECT_EQ(read_png(folder() / "flip.png")->width, 33u);
+  EXPECT_TRUE(ends(run(compare + "absent.oriel"), 2, "absent.oriel"));
+}
+
 // The mean of the pixels of a frame so many times as large, as light; and as the display shines.
 TEST_F(Beside, SupersampledPicturesAreMeans) {
   const std::string draw = "tiny.oriel --offscreen --camera 0 --exposure 5 ";
