@@ -46,12 +46,14 @@ void draw_comparison(Comparison& comparison) {
 }
 
 void draw_names(const Comparison& comparison) {
+  const std::string second =
+      file_name(comparison.second) + (comparison.elsewhere ? ", which was taken from elsewhere" : "");
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   switch (comparison.beside) {
     case Beside::kFirst:
       return draw_line("beside", file_name(comparison.first), 0);
     case Beside::kSecond:
-      return draw_line("beside", file_name(comparison.second), 0);
+      return draw_line("beside", second, 0);
     case Beside::kDifference:
       return draw_flip(comparison);
     case Beside::kSplit:
@@ -61,16 +63,15 @@ void draw_names(const Comparison& comparison) {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   list->AddRectFilled(ImVec2(at - half, 0), ImVec2(at + half, size.y), IM_COL32(255, 255, 255, 200));
   // Beside the divider, at the bottom: the panel and messages are at the top.
-  const auto name = [&](const std::string& path, float side) {
-    const std::string shown = file_name(path);
+  const auto name = [&](const std::string& shown, float side) {
     const ImVec2 extent = ImGui::CalcTextSize(shown.c_str());
     const float left = side < 0 ? at - extent.x - scaled(kMargin) : at + scaled(kMargin);
     const ImVec2 corner(left, size.y - extent.y - scaled(kMargin));
     list->AddText(ImVec2(corner.x + 1, corner.y + 1), IM_COL32_BLACK, shown.c_str());
     list->AddText(corner, IM_COL32_WHITE, shown.c_str());
   };
-  name(comparison.first, -1);
-  name(comparison.second, 1);
+  name(file_name(comparison.first), -1);
+  name(second, 1);
 }
 
 }  // namespace oriel

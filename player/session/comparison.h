@@ -16,6 +16,7 @@ struct Comparison {
   Beside beside = Beside::kSplit;
   float divider = 0.5f;  // share of the window's width that shows the first
   bool dragged = false;
+  bool elsewhere = false;  // the second is a picture that was taken from another place than the camera's
   // Of the frame, once it has been found: FLIP's mean and its largest value.
   std::optional<Vec2> flip;
 

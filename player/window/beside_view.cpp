@@ -17,6 +17,12 @@ class Columns {
   Columns& operator=(const Columns&) = delete;
 };
 
+bool is_elsewhere(const Camera& camera, const std::optional<Camera>& taken) {
+  constexpr float kSamePlace_m = 0.01f, kSameDirection = 1e-3f;
+  return taken && (glm::distance(camera.eye, taken->eye) > kSamePlace_m ||
+                   glm::distance(camera.forward, taken->forward) > kSameDirection);
+}
+
 }  // namespace
 
 void BesideView::replace(std::unique_ptr<Other> other) {
@@ -26,6 +32,7 @@ void BesideView::replace(std::unique_ptr<Other> other) {
 }
 
 Status BesideView::draw(Renderer& first, const Other::Seen& seen, Session& session, double now_s) {
+  session.comparison.elsewhere = is_elsewhere(seen.camera, other_->camera(seen.origin));
   if (session.comparison.beside == Beside::kDifference) return draw_difference(first, seen, session, now_s);
   session.comparison.flip.reset();
   shows_flip_ = false;
