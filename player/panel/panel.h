@@ -14,8 +14,9 @@ struct FrameMeter {
   std::deque<float> ms;  // of the last frames, the newest last
   FrameStats stats;      // of the newest; with passes' times of the last one that was timed
   bool in_zone = true;
-  std::string device;   // its name
-  std::string message;  // for the user, while it is news
+  bool gamepad = false;  // there is one
+  std::string device;    // its name
+  std::string message;   // for the user, while it is news
 
   static constexpr std::size_t kKept = 120;
   void add(float frame_ms);
