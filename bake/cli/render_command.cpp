@@ -3,6 +3,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/run/pipeline.h"
 #include "bake/scene/motion/movers.h"
+#include "formats/camera/camera_notes.h"
 #include "formats/camera/camera_spec.h"
 #include "formats/image/exr.h"
 
@@ -48,10 +49,11 @@ Status run_render(const RenderArguments& args, Context& context) {
                   {"error", std::move(frame.noise)},
                   {"diffuse_error", std::move(frame.diffuse_noise)},
                   {"specular_error", std::move(frame.specular_noise)}};
-  image.attributes = {{"oriel.camera", args.camera.empty() ? camera.name : args.camera},
-                      {"oriel.unit", "cd/m2"},
-                      {"oriel.samples", std::to_string(frame.samples)},
-                      {"oriel.noise", fmt::format("{:.4g}", frame.relative_noise)}};
+  image.attributes = camera_notes(camera, scene.origin);
+  image.attributes["oriel.camera"] = args.camera.empty() ? camera.name : args.camera;
+  image.attributes["oriel.unit"] = "cd/m2";
+  image.attributes["oriel.samples"] = std::to_string(frame.samples);
+  image.attributes["oriel.noise"] = fmt::format("{:.4g}", frame.relative_noise);
   return write_exr(args.output, image);
 }
 

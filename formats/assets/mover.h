@@ -14,6 +14,8 @@ namespace oriel {
 struct MoverPose {
   Vec3 position{0};           // metres
   Vec4 rotation{0, 0, 0, 1};  // unit quaternion x, y, z, w
+
+  bool operator==(const MoverPose&) const = default;
 };
 
 struct MoverKey {

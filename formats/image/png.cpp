@@ -65,6 +65,23 @@ Result<Bytes> text_chunks(const PngTexts& texts) {
   return out;
 }
 
+std::uint32_t big_endian_at(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[i]);
+  return value;
+}
+
+// The inside of an iTXt chunk: keyword, 0, compressed, method, language, 0, keyword in that language, 0, text.
+void add_text(std::string_view chunk, PngTexts& texts) {
+  const std::size_t keyword = chunk.find('\0');
+  if (keyword == std::string_view::npos || keyword + 3 > chunk.size() || chunk[keyword + 1] != 0) return;
+  const std::size_t language = chunk.find('\0', keyword + 3);
+  if (language == std::string_view::npos) return;
+  const std::size_t translated = chunk.find('\0', language + 1);
+  if (translated == std::string_view::npos) return;
+  texts.emplace(chunk.substr(0, keyword), chunk.substr(translated + 1));
+}
+
 }  // namespace
 
 Result<Bytes> encode_png(const ByteImage& image, const PngTexts& texts) {
@@ -115,6 +132,22 @@ Result<ByteImage> read_png(const std::filesystem::path& path) {
   const std::size_t count = std::size_t{image.width} * image.height * image.channels;
   image.pixels.assign(pixels.get(), pixels.get() + count);
   return image;
+}
+
+Result<PngTexts> read_png_texts(const std::filesystem::path& path) {
+  ORIEL_TRY(const Bytes bytes, read_file(path, 0x7fffffff));
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!all.starts_with(kSignature)) return invalid(path.string(), "is not a PNG file");
+  PngTexts texts;
+  // A chunk: length, type, that many bytes, checksum.
+  for (std::size_t at = kSignature.size(); bytes.size() - at >= 12;) {
+    const std::size_t length = big_endian_at(bytes, at);
+    if (length > bytes.size() - at - 12) break;
+    if (all.substr(at + 4, 4) == "iTXt") add_text(all.substr(at + 8, length), texts);
+    at += 12 + length;
+  }
+  return texts;
 }
 
 }  // namespace oriel

@@ -25,4 +25,8 @@ Status write_png(const std::filesystem::path& path, const ByteImage& image, cons
 // Keeps the file's channels, except that grey with alpha becomes RGBA and 16 bits become 8. Errors: kIo, kInvalid.
 Result<ByteImage> read_png(const std::filesystem::path& path);
 
+// The international text chunks of a file that are not compressed, up to the first chunk that does not lie in the file.
+// Errors: kIo; kInvalid where the file is no PNG.
+Result<PngTexts> read_png_texts(const std::filesystem::path& path);
+
 }  // namespace oriel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "formats/camera/camera_spec.h"
 #include "formats/core/file.h"
@@ -9,6 +10,7 @@
 #include "formats/metrics/comparison.h"
 #include "formats/metrics/display.h"
 #include "player/app/compare_picture.h"
+#include "player/comparison/other.h"
 #include "player/gpu/headless.h"
 #include "player/output/picture.h"
 #include "player/passes/frame.h"
@@ -114,6 +116,13 @@ Status report(const std::string& text, const std::string& json, const FloatImage
   return {};
 }
 
+std::vector<float> encoded(const std::vector<std::uint8_t>& shown) {
+  std::vector<float> out;
+  out.reserve(shown.size());
+  for (const std::uint8_t v : shown) out.push_back(static_cast<float>(v) / 255);
+  return out;
+}
+
 // A file to compare with: of `oriel-bake render`, or an earlier frame, linear or as shown.
 struct Reference {
   LayeredImage layers;  // of an earlier frame the one without a name alone
@@ -128,8 +137,7 @@ Result<Reference> read_reference(const PlayArguments& arguments) {
     out.rendered = out.layers.layers.size() > 1;
   } else {
     ORIEL_TRY(const ByteImage shown, read_png(arguments.reference));
-    FloatImage picture{shown.width, shown.height, shown.channels, {}};
-    for (const std::uint8_t v : shown.pixels) picture.pixels.push_back(static_cast<float>(v) / 255);
+    FloatImage picture{shown.width, shown.height, shown.channels, encoded(shown.pixels)};
     out.layers.layers[""] = std::move(picture);
     out.linear = false;
   }
@@ -154,7 +162,7 @@ Status compare_with_picture(const Reference& reference, GpuScene& scene, Rendere
     ORIEL_TRY(const std::optional<float> metered, renderer.meter());
     ORIEL_TRY(const auto shown,
               renderer.read_display(arguments.ev100.value_or(metered.value_or(0.0f)), arguments.curve));
-    for (const std::uint8_t v : shown) frame.pixels.push_back(static_cast<float>(v) / 255);
+    frame.pixels = encoded(shown);
   }
   ORIEL_TRY(const PictureDifference found, difference(reference.picture(), frame, white));
   return report(difference_text(found), difference_json(found, arguments.max_flip), found.picture, found.flip,
@@ -168,9 +176,40 @@ Status compare_with_rendered(const Reference& reference, const PlayedFrame& fram
                 comparison.regions.front().flip, arguments);
 }
 
+// Another pack by the same camera, both as shown with one exposure: the first's, unless told.
+Status compare_with_pack(GpuScene& scene, Renderer& renderer, const gpu::Device& device,
+                         const PlayArguments& arguments) {
+  ORIEL_TRY(const auto other, Other::open(arguments.reference, device));
+  ORIEL_TRY(const Camera camera, choose_camera(scene, arguments));
+  FrameOptions options = arguments.frame;
+  ORIEL_TRY(options.poses, poses_at(scene.pack(), arguments.moves, arguments.time_s));
+  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
+  const View view = make_view(camera, arguments.width, arguments.height, bounds_with_movers(scene, options.poses));
+  ORIEL_TRY_VOID(renderer.render(scene, view, options));
+  ORIEL_TRY(const std::optional<float> metered, renderer.meter());
+  const float ev100 = arguments.ev100.value_or(metered.value_or(0.0f));
+  ORIEL_TRY_VOID(other->draw(
+      {camera, scene.pack().mesh.origin, view.width, view.height, options, arguments.moves, arguments.time_s}));
+  const UVec2 size(view.width, view.height);
+  ORIEL_TRY(const auto first, renderer.read_display(ev100, arguments.curve));
+  ORIEL_TRY(const auto second, other->read_display(ev100, arguments.curve));
+  ORIEL_TRY(const PictureDifference found,
+            difference({size.x, size.y, 3, encoded(second)}, {size.x, size.y, 3, encoded(first)}, 0));
+  return report(difference_text(found), difference_json(found, arguments.max_flip), found.picture, found.flip,
+                arguments);
+}
+
 }  // namespace
 
 Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
+  if (std::filesystem::path(arguments.reference).extension() == ".oriel") {
+    ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
+    ORIEL_TRY(const gpu::Device device, gpu::open_device());
+    if (arguments.gl_debug) gpu::enable_debug_output(device);
+    ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+    ORIEL_TRY(const auto renderer, Renderer::create(device));
+    return compare_with_pack(*scene, *renderer, device, arguments);
+  }
   ORIEL_TRY(const Reference reference, read_reference(arguments));
   const FloatImage& picture = reference.picture();
   ORIEL_TRY(const std::uint32_t n, supersampling(arguments, picture));

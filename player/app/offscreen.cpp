@@ -10,6 +10,7 @@
 #include "player/app/panorama_shot.h"
 #include "player/app/shots.h"
 #include "player/app/stop.h"
+#include "player/comparison/other.h"
 #include "player/gpu/headless.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
@@ -25,10 +26,12 @@ namespace fs = std::filesystem;
 
 class Studio {
  public:
-  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments)
+  // other: what it is shown beside, or null.
+  Studio(GpuScene& scene, Renderer& renderer, const PlayArguments& arguments, Other* other)
       : scene_(scene),
         renderer_(renderer),
         arguments_(arguments),
+        other_(other),
         options_(arguments.frame),
         zone_(planned_zone(scene.pack())) {
     options_.timed = !arguments.stats.empty();
@@ -39,8 +42,9 @@ class Studio {
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
+    const int n = arguments_.supersample;
     const View view =
-        make_view(shot.camera, arguments_.width, arguments_.height, bounds_with_movers(scene_, options_.poses));
+        make_view(shot.camera, n * arguments_.width, n * arguments_.height, bounds_with_movers(scene_, options_.poses));
     std::vector<FrameRecord> records;
     for (int i = 0; i < times; ++i) {
       if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
@@ -81,12 +85,14 @@ class Studio {
     if (shot.file.empty() && film == nullptr) return {};
     ORIEL_TRY(const float ev100, expose(shot));
     const PictureNotes notes{shot.camera, scene_.pack().mesh.origin, shot.name, ev100, arguments_.curve};
-    if (!shot.file.empty())
-      ORIEL_TRY_VOID(write_picture(renderer_, shot.file, arguments_.width, arguments_.height, notes));
+    if (other_ != nullptr)
+      ORIEL_TRY_VOID(
+          other_->draw({shot.camera, scene_.pack().mesh.origin, renderer_.frame_size().x, renderer_.frame_size().y,
+                        options_, arguments_.moves, arguments_.time_s + shot.time_s}));
+    if (!shot.file.empty()) ORIEL_TRY_VOID(write(shot.file, notes));
     if (film == nullptr) return {};
-    ORIEL_TRY(std::vector<std::uint8_t> pixels, renderer_.read_display(ev100, arguments_.curve));
-    return film->add({static_cast<std::uint32_t>(arguments_.width), static_cast<std::uint32_t>(arguments_.height), 3,
-                      std::move(pixels)});
+    ORIEL_TRY(ByteImage frame, as_shown(notes));
+    return film->add(std::move(frame));
   }
 
   void tell(const Shot& shot, const FrameRecord& record) const {
@@ -96,9 +102,22 @@ class Studio {
   }
 
  private:
+  Status write(const fs::path& file, const PictureNotes& notes) {
+    const auto n = static_cast<std::uint32_t>(arguments_.supersample);
+    if (other_ != nullptr) return write_beside(renderer_, *other_, arguments_.divider, file.string(), notes, n);
+    return write_picture(renderer_, file.string(), notes, n);
+  }
+
+  Result<ByteImage> as_shown(const PictureNotes& notes) {
+    const auto n = static_cast<std::uint32_t>(arguments_.supersample);
+    if (other_ != nullptr) return shown_beside(renderer_, *other_, arguments_.divider, notes, n);
+    return shown_picture(renderer_, notes, n);
+  }
+
   GpuScene& scene_;
   Renderer& renderer_;
   const PlayArguments& arguments_;
+  Other* other_;
   FrameOptions options_;
   Session session_;  // for its exposure
   const Zone zone_;
@@ -180,10 +199,17 @@ Status play_offscreen(DeferredPack pack, const PlayArguments& asked) {
   if (arguments.gl_debug) gpu::enable_debug_output(device);
   ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
   const bool along_path = !arguments.path.empty();
-  ORIEL_TRY(const auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
+  ORIEL_TRY(auto shots, along_path ? path_shots(*scene, arguments) : choose_shots(*scene, arguments));
   ORIEL_TRY(const auto renderer, Renderer::create(device));
   if (arguments.panorama) return draw_panoramas(shots, arguments, *scene, *renderer);
-  Studio studio(*scene, *renderer, arguments);
+  std::unique_ptr<Other> other;
+  if (!arguments.other.empty()) {
+    ORIEL_TRY(other, Other::open(arguments.other, device));
+    // A picture is seen from where it was taken.
+    const auto taken = other->camera(scene->pack().mesh.origin);
+    if (taken && arguments.cameras.empty() && !along_path) shots.front() = {taken->name, *taken, shots.front().file};
+  }
+  Studio studio(*scene, *renderer, arguments, other.get());
   FlickerMeter flicker;
   ORIEL_TRY(const auto records, along_path ? draw_path(shots, arguments, studio, *renderer, flicker)
                                            : draw_shots(shots, arguments, studio));

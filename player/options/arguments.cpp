@@ -20,7 +20,8 @@ constexpr const char* kDescription =
     "  oriel-play gallery.oriel --offscreen --camera walk@0 --show M -o M.exr\n"
     "  oriel-play gallery.oriel --offscreen --camera mirror --compare mirror.exr -o difference.png\n"
     "  oriel-play gallery.oriel --offscreen --path oriel-000.json --smooth 0.3 --video walk.mp4\n"
-    "  oriel-play gallery.oriel --offscreen --camera mirror --panorama -o around.png\n";
+    "  oriel-play gallery.oriel --offscreen --camera mirror --panorama -o around.png\n"
+    "  oriel-play before.oriel after.oriel                          both, beside each other\n";
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 the pack is broken,\n"
@@ -68,10 +69,11 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
          "--show", out.frame.show,
          "What to show: the image that reflectors see (M), blurred by their roughness (MK), times their reflectance "
          "(MKR), the diffuse light alone (D), or the whole frame (all); or of each texel its illuminance (lux), "
-         "standard error "
-         "(error) or state (texels) in colours")
+         "standard error (error), state (texels) or chart (charts) in colours; how many surfaces each pixel is drawn "
+         "by "
+         "(overdraw); or where reflections were planned for (zones)")
       ->transform(CLI::CheckedTransformer(kStages).description(""))
-      ->type_name("M|MK|MKR|D|all|lux|error|texels")
+      ->type_name("M|MK|MKR|D|all|lux|error|texels|charts|overdraw|zones")
       ->default_str("all");
   app.add_option(
          "--reflections", out.frame.reflections,
@@ -157,8 +159,9 @@ void add_compare_options(CLI::App& app, PlayArguments& out) {
          "--compare", out.reference,
          "With --offscreen: print how far the frame is from this file of oriel-bake render, whole and over its "
          "reflectors; -o is then the picture of reference, frame and FLIP side by side. Or with an earlier frame: "
-         "how many pixels have changed, and how much; -o is then FLIP's")
-      ->type_name("FILE.exr|png");
+         "how many pixels have changed, and how much; -o is then FLIP's. Or with another pack by the same camera, "
+         "likewise")
+      ->type_name("FILE.exr|png|oriel");
   app.add_option("--json", out.json, "The numbers of --compare as JSON")->type_name("FILE");
   app.add_option("--max-flip", out.max_flip, "End with exit code 5 where the frame's FLIP is above this")
       ->check(CLI::Range(0.0, 1.0))
@@ -191,6 +194,16 @@ void add_path_options(CLI::App& app, PlayArguments& out) {
 
 void add_options(CLI::App& app, PlayArguments& out) {
   app.add_option("pack", out.pack, "The .oriel pack")->required()->type_name("PACK");
+  app.add_option(
+         "other", out.other,
+         "Another pack of the building, or a picture (.exr linear cd/m2, .png as shown), to be seen beside it by "
+         "the same camera")
+      ->type_name("OTHER");
+  app.add_option("--split", out.divider,
+                 "Beside OTHER: the share of the width that shows PACK; the window's divider can be dragged from there")
+      ->check(CLI::Range(0.0f, 1.0f))
+      ->type_name("X")
+      ->capture_default_str();
   app.add_flag("--list", out.list, "Print the cameras and paths of the pack, and stop");
   app.add_flag("--offscreen", out.offscreen, "Draw pictures into files: needs no display and no window");
   app.add_option_function<std::string>(
@@ -215,6 +228,12 @@ void add_options(CLI::App& app, PlayArguments& out) {
                  "With --offscreen: the file (.png as shown, .exr linear cd/m2), or with several cameras a folder")
       ->type_name("FILE|DIR");
   add_compare_options(app, out);
+  app.add_option("--supersample", out.supersample,
+                 "Pictures and F12 are drawn so many times as wide and as high, and averaged: smooth edges")
+      ->check(CLI::Range(1, 16))
+      ->excludes(app.get_option("--compare"))
+      ->type_name("N")
+      ->capture_default_str();
   app.add_option("--format", out.format, "Of the files written to a folder")
       ->check(CLI::IsMember({"png", "exr"}))
       ->excludes(app.get_option("--compare"))
@@ -257,6 +276,9 @@ std::string contradiction(const PlayArguments& out) {
   if (compares && out.toned && std::filesystem::path(out.reference).extension() == ".exr")
     return "--compare shows linear light without a tone curve: leave --tonemap out";
   if (compares && !out.offscreen) return "--compare needs --offscreen";
+  if (out.divided && out.other.empty()) return "--split parts two: a second pack or a picture is missing";
+  if (compares && !out.other.empty()) return "found both --compare and " + out.other + ", expected one of them";
+  if (out.panorama && !out.other.empty()) return "--panorama shows one pack: leave " + out.other + " out";
   if (compares && measures) return "--compare draws one frame: leave --path and --stats out";
   if (!compares && (!out.json.empty() || out.max_flip)) return "--json and --max-flip are for --compare";
   if (compares && (out.cameras.size() > 1 || (out.cameras.size() == 1 && out.cameras[0] == "all")))
@@ -273,6 +295,7 @@ std::string contradiction(const PlayArguments& out) {
   if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";
   if (!out.video.empty() && !std::filesystem::path(out.video).has_extension())
     return "--video takes the kind of film from its name: expected an extension, as .mp4";
+  if (out.panorama && out.supersample > 1) return "--panorama is drawn at its size: leave --supersample out";
   if (out.panorama && !out.stats.empty()) return "--panorama is not timed: leave --stats out";
   if (out.panorama && out.width != 2 * out.height)
     return "found --size " + std::to_string(out.width) + "x" + std::to_string(out.height) +
@@ -301,6 +324,7 @@ std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* ar
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = app.get_option("--tonemap")->count() > 0;
+  out.divided = app.get_option("--split")->count() > 0;
   const std::string complaint = contradiction(out);
   if (!complaint.empty()) {
     std::fprintf(stderr, "oriel-play: %s\nRun with --help for more information.\n", complaint.c_str());

@@ -16,9 +16,13 @@ namespace oriel {
 
 struct PlayArguments {
   std::string pack;
+  std::string other;     // pack or picture that it is shown beside; none
+  float divider = 0.5f;  // of the two, share of the width
+  bool divided = false;  // --split was given
   bool list = false;
   bool offscreen = false;
   int width = 1280, height = 720;
+  int supersample = 1;               // pixels averaged to one of a picture, on each axis
   bool sized = false;                // --size was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::vector<MoverMove> moves;

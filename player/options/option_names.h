@@ -11,9 +11,11 @@
 namespace oriel {
 
 inline const std::map<std::string, ToneCurve> kToneCurves{{"aces", ToneCurve::kAces}, {"none", ToneCurve::kNone}};
-inline const std::map<std::string, Show> kStages{{"all", Show::kAll},     {"M", Show::kM},          {"MK", Show::kMK},
-                                                 {"MKR", Show::kMKR},     {"D", Show::kD},          {"lux", Show::kLux},
-                                                 {"error", Show::kError}, {"texels", Show::kTexels}};
+inline const std::map<std::string, Show> kStages{
+    {"all", Show::kAll},           {"M", Show::kM},           {"MK", Show::kMK},
+    {"MKR", Show::kMKR},           {"D", Show::kD},           {"lux", Show::kLux},
+    {"error", Show::kError},       {"texels", Show::kTexels}, {"charts", Show::kCharts},
+    {"overdraw", Show::kOverdraw}, {"zones", Show::kZones}};
 inline const std::map<std::string, Reflections> kReflections{{"march", Reflections::kMarch},
                                                              {"points", Reflections::kPoints},
                                                              {"geometry", Reflections::kGeometry},

@@ -1,27 +1,24 @@
 #include "player/output/picture.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
+#include "formats/camera/camera_notes.h"
+#include "formats/core/color.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
+#include "formats/metrics/relative_error.h"
 #include "player/options/option_names.h"
 
 namespace oriel {
 namespace {
 
-std::string text_of(const DVec3& v) {
-  return fmt::format("{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
-}
-
 std::map<std::string, std::string> texts_of(const PictureNotes& notes) {
-  const Camera& camera = notes.camera;
-  return {{"oriel.camera", notes.name},
-          {"oriel.eye", text_of(DVec3(camera.eye) + notes.origin)},
-          {"oriel.forward", text_of(DVec3(camera.forward))},
-          {"oriel.up", text_of(DVec3(camera.up))},
-          {"oriel.vertical_fov_deg", fmt::format("{:.6g}", double{camera.vertical_fov_rad} * 180 / kPi)},
-          {"oriel.ev100", fmt::format("{:.3f}", notes.ev100)}};
+  auto texts = camera_notes(notes.camera, notes.origin);
+  texts["oriel.camera"] = notes.name;
+  texts["oriel.ev100"] = fmt::format("{:.3f}", notes.ev100);
+  return texts;
 }
 
 }  // namespace
@@ -42,11 +39,32 @@ Status write_shown(const std::string& path, const ByteImage& shown, const Pictur
   return write_png(path, shown, texts);
 }
 
-Status write_picture(Renderer& renderer, const std::string& path, int width, int height, const PictureNotes& notes) {
-  const auto w = static_cast<std::uint32_t>(width), h = static_cast<std::uint32_t>(height);
-  if (is_linear_file(path)) return write_light(path, FloatImage{w, h, 3, renderer.read_light()}, notes);
-  ORIEL_TRY(std::vector<std::uint8_t> pixels, renderer.read_display(notes.ev100, notes.curve));
-  return write_shown(path, ByteImage{w, h, 3, std::move(pixels)}, notes);
+FloatImage light_picture(const Renderer& renderer, std::uint32_t n) {
+  const UVec2 size(renderer.frame_size());
+  FloatImage light{size.x, size.y, 3, renderer.read_light()};
+  return n > 1 ? shrink(light, n) : light;
+}
+
+Result<ByteImage> shown_picture(Renderer& renderer, const PictureNotes& notes, std::uint32_t n) {
+  const UVec2 size(renderer.frame_size());
+  ByteImage shown{size.x, size.y, 3, {}};
+  ORIEL_TRY(shown.pixels, renderer.read_display(notes.ev100, notes.curve));
+  if (n <= 1) return shown;
+  FloatImage light{size.x, size.y, 3, {}};
+  light.pixels.reserve(shown.pixels.size());
+  for (const std::uint8_t v : shown.pixels) light.pixels.push_back(linear_from_srgb8(v));
+  const FloatImage mean = shrink(light, n);
+  ByteImage out{mean.width, mean.height, 3, {}};
+  out.pixels.reserve(mean.pixels.size());
+  for (const float v : mean.pixels)
+    out.pixels.push_back(static_cast<std::uint8_t>(255 * std::clamp(srgb_from_linear(v), 0.0f, 1.0f) + 0.5f));
+  return out;
+}
+
+Status write_picture(Renderer& renderer, const std::string& path, const PictureNotes& notes, std::uint32_t n) {
+  if (is_linear_file(path)) return write_light(path, light_picture(renderer, n), notes);
+  ORIEL_TRY(const ByteImage shown, shown_picture(renderer, notes, n));
+  return write_shown(path, shown, notes);
 }
 
 }  // namespace oriel

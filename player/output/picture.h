@@ -18,9 +18,14 @@ struct PictureNotes {
   ToneCurve curve = ToneCurve::kAces;
 };
 
-// The frame that a renderer drew last, as a picture file: .png as shown, .exr linear. Both hold the notes: name, eye
-// and direction in world metres, field of view, exposure.
-Status write_picture(Renderer& renderer, const std::string& path, int width, int height, const PictureNotes& notes);
+// The frame that a renderer drew last, n x n of its pixels averaged to one: n divides its size. As light (cd/m²), or as
+// shown: there they are averaged as the display shines.
+FloatImage light_picture(const Renderer& renderer, std::uint32_t n = 1);
+Result<ByteImage> shown_picture(Renderer& renderer, const PictureNotes& notes, std::uint32_t n = 1);
+
+// That as a picture file: .png as shown, .exr linear. Both hold the notes: name, eye and direction in world metres,
+// field of view, exposure.
+Status write_picture(Renderer& renderer, const std::string& path, const PictureNotes& notes, std::uint32_t n = 1);
 
 // A picture in linear light (cd/m²) as .exr, or one as shown as .png, with its notes.
 Status write_light(const std::string& path, const FloatImage& light, const PictureNotes& notes);

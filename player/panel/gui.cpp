@@ -10,17 +10,30 @@
 
 namespace oriel {
 
-Gui::Gui(GLFWwindow* window) {
+namespace {
+
+// Of the monitor that the window is on.
+float scale_of(GLFWwindow* window) {
+  float across = 1, down = 1;
+  glfwGetWindowContentScale(window, &across, &down);
+  return std::clamp(std::max(across, down), 1.0f, 4.0f);
+}
+
+void take_scale(float scale) {
+  ImGui::GetStyle() = ImGuiStyle();
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  ImGui::GetIO().FontGlobalScale = scale;
+}
+
+}  // namespace
+
+Gui::Gui(GLFWwindow* window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is written where the user stands
-  ImGui::StyleColorsDark();
-  float across = 1, down = 1;
-  glfwGetWindowContentScale(window, &across, &down);
-  const float scale = std::clamp(std::max(across, down), 1.0f, 4.0f);
-  io.FontGlobalScale = scale;
-  ImGui::GetStyle().ScaleAllSizes(scale);
+  take_scale(scale_of(window));
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
@@ -34,6 +47,7 @@ Gui::~Gui() {
 void Gui::begin(bool pointer_free) {
   ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
   flags = pointer_free ? flags & ~ImGuiConfigFlags_NoMouse : flags | ImGuiConfigFlags_NoMouse;
+  if (const float scale = scale_of(window_); scale != ImGui::GetIO().FontGlobalScale) take_scale(scale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

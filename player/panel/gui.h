@@ -20,6 +20,9 @@ class Gui {
   void end();  // into the bound framebuffer
   // Of the last frame: the pointer is on the panel, or holds something of it.
   bool has_pointer() const;
+
+ private:
+  GLFWwindow* window_;
 };
 
 }  // namespace oriel

@@ -1,36 +1,18 @@
 #include "player/panel/panel.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "player/options/option_names.h"
-#include "player/survey/survey_colors.h"
+#include "player/panel/comparison_panel.h"
+#include "player/panel/legend.h"
+#include "player/panel/widgets.h"
 
 namespace oriel {
 namespace {
 
-constexpr float kMargin = 10, kPanelWidth = 330;  // pixels at a scale of 1
+constexpr float kPanelWidth = 330;  // pixels at a scale of 1
 constexpr float kLeastEv100 = -6, kMostEv100 = 20;
-
-float scaled(float pixels) {
-  return pixels * ImGui::GetIO().FontGlobalScale;
-}
-
-void text(const std::string& line) {
-  ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());
-}
-
-// A choice by the names that the command line has for it.
-template <class T>
-void choose(const char* label, const std::map<std::string, T>& names, T& value) {
-  if (!ImGui::BeginCombo(label, name_of(names, value).c_str())) return;
-  for (const auto& [name, each] : names)
-    if (ImGui::Selectable(name.c_str(), each == value)) value = each;
-  ImGui::EndCombo();
-}
 
 void draw_light(Session& session) {
   bool automatic = !session.manual_ev100;
@@ -40,26 +22,11 @@ void draw_light(Session& session) {
   }
   float ev100 = session.shown_ev100;
   if (ImGui::SliderFloat("EV 100", &ev100, kLeastEv100, kMostEv100, "%.1f")) session.manual_ev100 = ev100;
-  text(fmt::format("white: {:.4g} cd/m²", white_of_exposure(session.shown_ev100)));
+  float white = white_of_exposure(session.shown_ev100);
+  if (ImGui::SliderFloat("white, cd/m²", &white, white_of_exposure(kLeastEv100), white_of_exposure(kMostEv100), "%.4g",
+                         ImGuiSliderFlags_Logarithmic))
+    session.manual_ev100 = exposure_of_white(white);
   choose("tone curve", kToneCurves, session.curve);
-}
-
-// The colours of a survey with their values, from dark to white.
-void draw_legend(Show show) {
-  if (show == Show::kTexels) {
-    ImGui::TextUnformatted("grey: baked; blue: filled from neighbours;\nred: inside other geometry");
-    return;
-  }
-  const HeatScale scale = heat_scale(show);
-  const float decades = std::log10(scale.highest / scale.lowest);
-  for (float d = 0; d < decades + 0.5f; d += 1) {
-    const Vec3 c = heat(d / decades);
-    if (d > 0) ImGui::SameLine();
-    ImGui::TextColored(ImVec4(std::max(c.r, 0.2f), std::max(c.g, 0.2f), c.b, 1), "%g",
-                       static_cast<double>(scale.lowest * std::pow(10.0f, d)));
-  }
-  ImGui::SameLine();
-  ImGui::TextUnformatted(scale.unit);
 }
 
 void draw_reflections(FrameOptions& frame) {
@@ -190,6 +157,7 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
     ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
     const auto opens = [](const char* name) { return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen); };
     if (opens("Frames")) draw_statistics(meter, pack, session.frame);
+    if (session.comparison.on() && opens("Beside each other")) draw_comparison(session.comparison);
     if (opens("Under the pointer")) draw_picked(picked);
     if (opens("Light")) draw_light(session);
     if (opens("Shown")) draw_reflections(session.frame);
@@ -200,32 +168,22 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
   ImGui::End();
 }
 
-void draw_key_sheet(Session& session) {
+void draw_key_sheet(const FrameMeter& meter, Session& session) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, 0.5f * size.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   if (ImGui::Begin("Keys", &session.key_sheet, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse) &&
       ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Binding& binding : key_bindings()) {
+    const auto row = [](const char* name, const char* does) {
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(binding.keys);
+      ImGui::TextUnformatted(name);
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(binding.does);
-    }
+      ImGui::TextUnformatted(does);
+    };
+    for (const Binding& binding : key_bindings()) row(binding.keys, binding.does);
+    if (meter.gamepad)
+      for (const PadBinding& binding : pad_bindings()) row(binding.name, binding.does);
     ImGui::EndTable();
   }
-  ImGui::End();
-}
-
-// A line at the left edge of the frame, at the top (0) or the bottom (1).
-void draw_line(const char* id, const std::string& line, float down) {
-  const float margin = scaled(kMargin);
-  ImGui::SetNextWindowPos(ImVec2(margin, margin + down * (ImGui::GetIO().DisplaySize.y - 2 * margin)), ImGuiCond_Always,
-                          ImVec2(0, down));
-  ImGui::SetNextWindowBgAlpha(0.6f);
-  ImGui::Begin(id, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
-  text(line);
   ImGui::End();
 }
 
@@ -254,6 +212,7 @@ float FrameMeter::mean_ms() const {
 
 void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
                   Session& session) {
+  if (session.comparison.on()) draw_names(session.comparison);
   if (!meter.in_zone && meter.stats.reflectors > 0) draw_line("zone", "reflections were planned for other places", 1);
   if (!meter.message.empty()) draw_line("message", meter.message, 0);
   if (meter.loading.busy) draw_loading_bar(meter.loading.share());
@@ -261,7 +220,7 @@ void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional
   if (session.recording)
     draw_line("recording", fmt::format("recording, {:.0f} s; F9 ends it", session.recording->keys.back().time_s), 0.5f);
   if (session.panel) draw_panel(pack, meter, picked, session);
-  if (session.key_sheet) draw_key_sheet(session);
+  if (session.key_sheet) draw_key_sheet(meter, session);
 }
 
 bool draw_refusal(const std::string& reason) {

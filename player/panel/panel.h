@@ -15,8 +15,9 @@ struct FrameMeter {
   std::deque<float> ms;  // of the last frames, the newest last
   FrameStats stats;      // of the newest; with passes' times of the last one that was timed
   bool in_zone = true;
-  std::string device;   // its name
-  std::string message;  // for the user, while it is news
+  bool gamepad = false;  // there is one
+  std::string device;    // its name
+  std::string message;   // for the user, while it is news
   LoadingState loading;
   std::string failure;  // the first image that could not be loaded; empty: none
 

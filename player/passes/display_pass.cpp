@@ -13,6 +13,10 @@ float white_of_exposure(float ev100) {
   return 1.2f * std::exp2(ev100);
 }
 
+float exposure_of_white(float white) {
+  return std::log2(white / 1.2f);
+}
+
 Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
   DisplayPass pass;
   ORIEL_TRY(pass.luminance_, gpu::Program::create("screen/luminance", dialect));

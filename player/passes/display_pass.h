@@ -13,6 +13,8 @@ enum class ToneCurve { kNone, kAces };
 // The luminance that an exposure value shows as white: 1.2 * 2^EV cd/m² (EV at ISO 100; ISO 12232's saturation-based
 // speed with a lens that passes 65 %).
 float white_of_exposure(float ev100);
+// Its inverse; white > 0.
+float exposure_of_white(float white);
 
 class DisplayPass {
  public:

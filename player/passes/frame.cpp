@@ -309,6 +309,17 @@ std::vector<float> Renderer::read_light() const {
   return flipped(rgba, width, height);
 }
 
+Status Renderer::take_light(const FloatImage& rgba) {
+  ORIEL_TRY_VOID(ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height)));
+  const std::size_t row = 4 * std::size_t{rgba.width};
+  std::vector<float> upwards;
+  upwards.reserve(rgba.pixels.size());
+  for (std::size_t y = rgba.height; y-- > 0;)
+    upwards.insert(upwards.end(), &rgba.pixels[y * row], &rgba.pixels[y * row] + row);
+  frame_->light.upload(0, upwards.data());
+  return gpu::check_gl("taking a picture");
+}
+
 std::vector<std::int32_t> Renderer::read_reflective() const {
   const auto width = static_cast<std::size_t>(frame_->light.width());
   const auto height = static_cast<std::size_t>(frame_->light.height());

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "formats/image/image.h"
 #include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/pass_clock.h"
@@ -31,6 +32,9 @@ class Renderer {
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
+  // A picture as the frame: RGBA as FrameTarget::light, row 0 at the top. Error kUsage where it exceeds the device.
+  Status take_light(const FloatImage& rgba);
+  IVec2 frame_size() const { return frame_ ? IVec2(frame_->light.width(), frame_->light.height()) : IVec2(0); }
   // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or
   // curved, that shows its image there; kMoverPixel: a mover; -1: no opaque reflector.
   static constexpr std::int32_t kMoverPixel = -2;

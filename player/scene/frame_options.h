@@ -12,9 +12,10 @@
 namespace oriel {
 
 // The stages of Bastos et al. 1999: what reflectors see (M), blurred (MK), modulated (MKR); the diffuse part (D); the
-// frame. After those what the bake knows of texels, as colours: illuminance, its standard error, the texels themselves.
-enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels };
-inline constexpr int kShows = 8;
+// frame. After those what the bake knows of texels, as colours: illuminance, its standard error, the texels themselves,
+// the charts that they lie in; how many surfaces each pixel is drawn by; where reflections were planned for.
+enum class Show { kAll, kM, kMK, kMKR, kD, kLux, kError, kTexels, kCharts, kOverdraw, kZones };
+inline constexpr int kShows = 11;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
@@ -45,6 +46,8 @@ struct FrameOptions {
   MoverLights mover_lights = MoverLights::kShadowed;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+
+  bool operator==(const FrameOptions&) const = default;
 };
 
 enum class Pass {

@@ -13,15 +13,23 @@ constexpr Binding kBindings[] = {
     {"mouse, arrows", "look; a click grabs the mouse, Esc releases it"},
     {"drag a mover", "moves it along its level; with R it turns"},
     {"Backspace", "all movers back", Action::kMoversBack},
+    {"double click", "walk there; so does the middle button, and any motion ends it"},
+    {"G", "walk to what is in the middle of the view", Action::kGo},
     {"F", "fly or walk", Action::kFly},
+    {"O", "turn around what is in the middle of the view; W S and the wheel come nearer", Action::kOrbit},
     {"1 to 9", "the scene's cameras", Action::kCamera},
+    {"C", "the next of them", Action::kNextCamera},
     {"Home", "back to where it began", Action::kHome},
     {"P", "play the path, or stop it", Action::kPlayPath},
     {"F9", "record a walk, or end it into a file", Action::kRecord},
     {"+", "brighter", Action::kBrighter},
     {"-", "darker", Action::kDarker},
     {"X", "automatic exposure", Action::kAutoExposure},
-    {"M", "next stage: M, M*K, times R, D; illuminance, error, texels; the frame", Action::kStage},
+    {"M", "next stage: M, M*K, times R, D; illuminance, error, texels, charts, overdraw, zones; the frame",
+     Action::kStage},
+    {"B", "beside each other: two packs, or a pack and a picture; the divider is dragged", Action::kSplit},
+    {"V", "one of the two, and the other", Action::kFlip},
+    {"N", "FLIP between the two, once nothing moves", Action::kDifference},
     {"Tab", "panel", Action::kPanel},
     {"F1", "this sheet", Action::kKeySheet},
     {"F12", "screenshot into this folder", Action::kScreenshot},
@@ -30,7 +38,29 @@ constexpr Binding kBindings[] = {
     {"Esc, Ctrl-Q", "quit"},
 };
 
+constexpr PadBinding kPadBindings[] = {
+    {"left stick", "walk"},
+    {"right stick", "look"},
+    {"triggers", "down and up, while flying"},
+    {"left shoulder", "faster"},
+    {"right shoulder", "the next camera", Action::kNextCamera, PadButton::kRightShoulder},
+    {"A", "walk to what is in the middle of the view", Action::kGo, PadButton::kA},
+    {"B", "turn around it", Action::kOrbit, PadButton::kB},
+    {"X", "play the path, or stop it", Action::kPlayPath, PadButton::kX},
+    {"Y", "fly or walk", Action::kFly, PadButton::kY},
+    {"start", "back to where it began", Action::kHome, PadButton::kStart},
+    {"back", "the sheet of keys", Action::kKeySheet, PadButton::kBack},
+    {"up", "brighter", Action::kBrighter, PadButton::kUp},
+    {"down", "darker", Action::kDarker, PadButton::kDown},
+    {"right", "next stage", Action::kStage, PadButton::kRight},
+    {"left", "automatic exposure", Action::kAutoExposure, PadButton::kLeft},
+};
+
 }  // namespace
+
+std::span<const PadBinding> pad_bindings() {
+  return kPadBindings;
+}
 
 std::span<const Binding> key_bindings() {
   return kBindings;
@@ -39,6 +69,8 @@ std::span<const Binding> key_bindings() {
 std::string key_help() {
   std::string out;
   for (const Binding& b : kBindings) out += fmt::format("  {:<15}{}\n", b.keys, b.does);
+  out += "\nWith a gamepad:\n";
+  for (const PadBinding& b : kPadBindings) out += fmt::format("  {:<15}{}\n", b.name, b.does);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // What keys and mouse do: one table for the window, for --help and for the sheet on screen.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -12,6 +13,8 @@ enum class Action {
   kPanel,
   kStage,
   kFly,
+  kOrbit,
+  kGo,
   kHome,
   kPlayPath,
   kRecord,
@@ -22,6 +25,10 @@ enum class Action {
   kScreenshot,
   kLightScreenshot,
   kReload,
+  kFlip,
+  kSplit,
+  kDifference,
+  kNextCamera,
   kCamera,
 };
 
@@ -35,6 +42,35 @@ struct Binding {
 
 // In the order in which people look for them.
 std::span<const Binding> key_bindings();
+
+// In the order of GLFW's gamepads, which is SDL's.
+enum class PadButton {
+  kA,
+  kB,
+  kX,
+  kY,
+  kLeftShoulder,
+  kRightShoulder,
+  kBack,
+  kStart,
+  kGuide,
+  kLeftStick,
+  kRightStick,
+  kUp,
+  kRight,
+  kDown,
+  kLeft
+};
+inline constexpr std::size_t kPadButtons = 15;
+
+// The same of a gamepad. kHeld: a stick, a trigger or a button while it is down, whatever `button` says.
+struct PadBinding {
+  const char* name;
+  const char* does;
+  Action action = Action::kHeld;
+  PadButton button = PadButton::kA;
+};
+std::span<const PadBinding> pad_bindings();
 
 // A line for each, for --help.
 std::string key_help();

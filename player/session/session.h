@@ -10,16 +10,20 @@
 #include "player/passes/display_pass.h"
 #include "player/poses/drag.h"
 #include "player/scene/frame_options.h"
+#include "player/session/comparison.h"
 #include "player/session/keys.h"
 #include "player/walk/controller.h"
 #include "player/walk/floors.h"
+#include "player/walk/way.h"
 
 namespace oriel {
 
 struct Session {
   Camera camera, home;
   MoveState move;
-  bool walking = false;  // on the floors; not before the first step from a camera, whose height is its own
+  bool walking = false;          // on the floors; not before the first step from a camera, whose height is its own
+  Walker walker;                 // to where the user wants to go
+  std::size_t shown_camera = 0;  // of the pack's, that the next one follows
   FrameOptions frame;
   ToneCurve curve = ToneCurve::kAces;
   std::optional<float> manual_ev100;  // nothing: automatic
@@ -31,9 +35,11 @@ struct Session {
   std::optional<CameraPath> recorded;  // a whole one, until somebody keeps it
   // Asked for, until somebody does it.
   bool screenshot = false, light_screenshot = false, reload = false;
+  std::optional<Vec2> go_to;  // what is seen at that place of the window, [0,1]² from the top left corner
   bool panel = false, key_sheet = false;
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged
+  Comparison comparison;
 };
 
 struct Command {
@@ -49,6 +55,9 @@ void perform(const Command& command, const Pack& pack, Session& session);
 // Along the path while it plays, else as the user flies, or walks on the floors.
 // Records that, if asked to.
 void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session);
+
+// Starts to walk to what is seen there, in `view`: to the floor, or to the floor before it. Empty, or why nobody can.
+std::string go(const Vec2& place, const Pack& pack, const View& view, const Floors& floors, Session& session);
 
 // Towards the exposure that was metered (none: nothing was seen), over a third of a second, as eyes do; at once on the
 // first frame. A manual one holds.

@@ -25,25 +25,49 @@ Camera turned(Camera camera, const MoveInput& input, const MoveOptions& options)
   return camera;
 }
 
+// Right, up, ahead: keys and stick, each [-1,1].
+Vec3 wanted(const MoveInput& input) {
+  const Vec3 keys(axis(input.right, input.left), axis(input.up, input.down), axis(input.forward, input.back));
+  const Vec3 stick(finite_or_zero(input.stick.x), finite_or_zero(input.stick.y), finite_or_zero(input.stick.z));
+  return glm::clamp(keys + stick, Vec3(-1), Vec3(1));
+}
+
+Camera orbited(const Camera& camera, const Vec3& centre, MoveInput input, float dt_s, float notches,
+               const MoveOptions& options) {
+  const Vec3 by = wanted(input);
+  const float factor = input.fast ? options.fast_factor : 1.0f;
+  const float turn_px = factor * options.orbit_rad_per_s * dt_s / options.radians_per_pixel;
+  input.mouse_x_px = finite_or_zero(input.mouse_x_px) - by.x * turn_px;
+  input.mouse_y_px = finite_or_zero(input.mouse_y_px) + by.y * turn_px;
+  Camera next = turned(camera, input, options);
+  const float distance = glm::distance(camera.eye, centre) * std::exp(-by.z * factor * options.zoom_per_s * dt_s) *
+                         std::pow(options.wheel_factor, -notches);
+  const Vec3 eye = centre - next.forward * std::max(distance, options.nearest_orbit_m);
+  if (is_finite(eye)) next.eye = eye;
+  return next;
+}
+
 }  // namespace
 
 Camera move_camera(const Camera& camera, MoveState& state, const MoveInput& input, float dt_s,
                    const MoveOptions& options) {
   const float notches = std::clamp(finite_or_zero(input.wheel), -100.0f, 100.0f);
+  const float dt = std::clamp(finite_or_zero(dt_s), 0.0f, options.max_step_s);
+  if (state.orbit) return orbited(camera, *state.orbit, input, dt, notches, options);
   const float speed = finite_or_zero(state.speed_m_s) * std::pow(options.wheel_factor, notches);
   state.speed_m_s = std::clamp(speed, options.min_speed_m_s, options.max_speed_m_s);
 
   Camera next = turned(camera, input, options);
   next.forward = normalize_or(next.forward, Vec3(0, 0, -1));
-  const float ahead = axis(input.forward, input.back), aside = axis(input.right, input.left);
-  const float rise = state.fly ? axis(input.up, input.down) : 0.0f;
-  if (ahead == 0 && aside == 0 && rise == 0) return next;
+  Vec3 by = wanted(input);
+  if (!state.fly) by.y = 0;
+  if (by == Vec3(0)) return next;
 
   const float yaw = yaw_of(next);
   const Vec3 right(std::cos(yaw), 0, -std::sin(yaw));
-  const Vec3 direction = (state.fly ? next.forward : forward_from(yaw, 0)) * ahead + right * aside + Vec3(0, rise, 0);
-  const float dt = std::clamp(finite_or_zero(dt_s), 0.0f, options.max_step_s);
-  const float distance = state.speed_m_s * (input.fast ? options.fast_factor : 1.0f) * dt;
+  const Vec3 direction = (state.fly ? next.forward : forward_from(yaw, 0)) * by.z + right * by.x + Vec3(0, by.y, 0);
+  const float share = std::min(glm::length(by), 1.0f);  // of the speed
+  const float distance = share * state.speed_m_s * (input.fast ? options.fast_factor : 1.0f) * dt;
   const Vec3 eye = next.eye + normalize_or(direction, Vec3(0)) * distance;
   if (is_finite(eye)) next.eye = eye;
   return next;

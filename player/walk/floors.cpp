@@ -26,33 +26,78 @@ std::optional<std::size_t> cell_at(const WalkGrid& grid, const Vec2& at) {
 
 }  // namespace
 
-std::optional<float> Floors::eye_level(const Vec2& at, float eye_y, const StepOptions& options) const {
-  std::optional<float> highest;
-  for (const WalkGrid& grid : grids_) {
-    const auto cell = cell_at(grid, at);
+std::optional<Stand> Floors::stand(const Vec2& at, float eye_y, const StepOptions& options) const {
+  std::optional<Stand> highest;
+  for (std::uint32_t i = 0; i < grids_.size(); ++i) {
+    const auto cell = cell_at(grids_[i], at);
     if (!cell) continue;
-    const float level = grid.eye(*cell).y;
-    if (level <= eye_y + options.step_m && (!highest || level > *highest)) highest = level;
+    const Vec3 eye = grids_[i].eye(*cell);
+    if (eye.y <= eye_y + options.step_m && (!highest || eye.y > highest->eye.y)) highest = {i, *cell, eye};
   }
   return highest;
 }
 
-float Floors::distance_to_floor(const Vec3& eye, const StepOptions& options) const {
-  float nearest = kFar;
-  for (const WalkGrid& grid : grids_) {
-    const Vec2 middle = (on_map(eye) - grid.lower) / grid.cell_m;
-    const float reach = options.beside_m / grid.cell_m;
+std::optional<float> Floors::eye_level(const Vec2& at, float eye_y, const StepOptions& options) const {
+  const auto found = stand(at, eye_y, options);
+  return found ? std::optional(found->eye.y) : std::nullopt;
+}
+
+template <class Height>
+std::optional<Stand> Floors::nearest(const Vec3& place, float reach_m, float off_m, const Height& height) const {
+  std::optional<Stand> found;
+  float nearest = reach_m;
+  for (std::uint32_t i = 0; i < grids_.size(); ++i) {
+    const WalkGrid& grid = grids_[i];
+    const Vec2 middle = (on_map(place) - grid.lower) / grid.cell_m;
+    const float reach = reach_m / grid.cell_m;
     const Vec2 size(grid.width, grid.height);
     const IVec2 first(glm::clamp(glm::floor(middle - reach), Vec2(0), size));
     const IVec2 end(glm::clamp(glm::ceil(middle + reach), Vec2(0), size));
     for (int y = first.y; y < end.y; ++y)
       for (int x = first.x; x < end.x; ++x) {
         const std::size_t cell = static_cast<std::size_t>(y) * grid.width + static_cast<std::size_t>(x);
-        if (!grid.walkable(cell) || std::fabs(grid.eye(cell).y - eye.y) > 2 * options.step_m) continue;
-        nearest = std::min(nearest, glm::distance(on_map(grid.eye(cell)), on_map(eye)));
+        if (!grid.walkable(cell) || std::fabs(height(grid, cell) - place.y) > off_m) continue;
+        const Vec3 eye = grid.eye(cell);
+        const float distance = glm::distance(on_map(eye), on_map(place));
+        if (distance > nearest || (found && distance == nearest)) continue;
+        nearest = distance;
+        found = {i, cell, eye};
       }
   }
-  return nearest <= options.beside_m ? nearest : kFar;
+  return found;
+}
+
+std::optional<Stand> Floors::nearest_stand(const Vec3& eye, float reach_m, const StepOptions& options) const {
+  if (const auto here = stand(on_map(eye), eye.y, options)) return here;
+  return nearest(eye, reach_m, 2 * options.step_m,
+                 [](const WalkGrid& grid, std::size_t cell) { return grid.eye(cell).y; });
+}
+
+std::optional<Stand> Floors::nearest_stand_on(const Vec3& floor, float reach_m, const StepOptions& options) const {
+  return nearest(floor, reach_m, options.step_m,
+                 [](const WalkGrid& grid, std::size_t cell) { return grid.floor_y[cell]; });
+}
+
+std::optional<Vec3> Floors::floor_below(const Vec3& place) const {
+  std::optional<Vec3> highest;
+  for (const WalkGrid& grid : grids_) {
+    const auto cell = cell_at(grid, on_map(place));
+    if (!cell || grid.floor_y[*cell] > place.y) continue;
+    if (!highest || grid.floor_y[*cell] > highest->y) highest = Vec3(place.x, grid.floor_y[*cell], place.z);
+  }
+  return highest;
+}
+
+float Floors::coarsest_cell_m() const {
+  float coarsest = 0;
+  for (const WalkGrid& grid : grids_) coarsest = std::max(coarsest, grid.cell_m);
+  return coarsest;
+}
+
+float Floors::distance_to_floor(const Vec3& eye, const StepOptions& options) const {
+  const auto found = nearest(eye, options.beside_m, 2 * options.step_m,
+                             [](const WalkGrid& grid, std::size_t cell) { return grid.eye(cell).y; });
+  return found ? glm::distance(on_map(found->eye), on_map(eye)) : kFar;
 }
 
 Vec3 Floors::walk(const Vec3& from, const Vec3& to, float dt_s, float& fall_m_s, const StepOptions& options) const {

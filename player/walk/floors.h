@@ -16,6 +16,13 @@ struct StepOptions {
   float beside_m = 1;  // an eye so near a floor, beside it, may only come nearer
 };
 
+// A cell of a walk grid that somebody stands on.
+struct Stand {
+  std::uint32_t grid = 0;
+  std::size_t cell = 0;
+  Vec3 eye{0};  // over its middle, pack space
+};
+
 class Floors {
  public:
   explicit Floors(std::vector<WalkGrid> grids) : grids_(std::move(grids)) {}
@@ -28,7 +35,22 @@ class Floors {
   // The eye height (y) over the highest floor at (x, z) that is at most a step above the feet of an eye at `eye`.
   std::optional<float> eye_level(const Vec2& at, float eye_y, const StepOptions& options = {}) const;
 
+  // The cell of that floor.
+  std::optional<Stand> stand(const Vec2& at, float eye_y, const StepOptions& options = {}) const;
+  // Where an eye stands, or the nearest cell about as high, at most `reach_m` beside it.
+  std::optional<Stand> nearest_stand(const Vec3& eye, float reach_m, const StepOptions& options = {}) const;
+  // The cell nearest to a point of a floor, at most a step higher or lower and `reach_m` beside it.
+  std::optional<Stand> nearest_stand_on(const Vec3& floor, float reach_m, const StepOptions& options = {}) const;
+  // The point of the highest floor right below a place.
+  std::optional<Vec3> floor_below(const Vec3& place) const;
+  bool empty() const { return grids_.empty(); }
+  float cell_of(const Stand& stand) const { return grids_[stand.grid].cell_m; }
+  float coarsest_cell_m() const;  // 0 without a grid
+
  private:
+  // The nearest cell to a place, whose value of `height` is at most `off_m` from the place's y.
+  template <class Height>
+  std::optional<Stand> nearest(const Vec3& place, float reach_m, float off_m, const Height& height) const;
   // Along x and z to the middle of the nearest cell about as high; infinite beyond beside_m.
   float distance_to_floor(const Vec3& eye, const StepOptions& options) const;
 

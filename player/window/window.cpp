@@ -14,6 +14,8 @@
 #include "player/paths/path_file.h"
 #include "player/poses/poses.h"
 #include "player/walk/zone.h"
+#include "player/window/announce.h"
+#include "player/window/beside_view.h"
 #include "player/window/window_input.h"
 
 namespace oriel {
@@ -73,6 +75,7 @@ std::string next_name(const char* ending) {
 
 constexpr IVec2 kRefusalSize{640, 200};
 constexpr double kMessage_s = 6;
+constexpr float kDividerReach_px = 6;
 constexpr double kAim_s = 0.2;  // what images matter is asked that often
 // For images to come to the device: of each frame, and before the first one of a pack.
 constexpr std::chrono::milliseconds kUpload{8}, kBeforeFirst{150};
@@ -83,7 +86,8 @@ constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scen
 class Loop {
  public:
   Loop(GlfwWindow& window, std::unique_ptr<GpuScene> scene, Renderer& renderer, const PlayArguments& arguments,
-       const Camera& camera, const CameraPath& path, const gpu::Device& device, Clock::time_point started)
+       const Camera& camera, const CameraPath& path, const gpu::Device& device, std::unique_ptr<Other> other,
+       Clock::time_point started)
       : watch_(started),
         window_(window),
         scene_(std::move(scene)),
@@ -99,6 +103,10 @@ class Loop {
     session_.manual_ev100 = arguments.ev100;
     session_.panel = arguments.panel;
     session_.path = path;
+    session_.comparison.divider = arguments.divider;
+    session_.comparison.first = arguments.pack;
+    session_.comparison.second = arguments.other;
+    if (other) beside_.emplace(std::move(other));
     meter_.device = device.renderer;
   }
 
@@ -114,11 +122,12 @@ class Loop {
       act(input, dt_s);
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_.get(), &width, &height);
-      if (width < 1 || height < 1) {  // minimised: nothing to draw, and nothing to hurry for
+      if (width < 1 || height < 1 || is_hidden()) {  // nothing to draw, and nothing to hurry for
         glfwWaitEventsTimeout(0.1);
         continue;
       }
-      ORIEL_TRY_VOID(draw(width, height, dt_s));
+      // A window over monitors that are larger than the device's largest frame shows that in its corner.
+      ORIEL_TRY_VOID(draw(std::min(width, device_.texture_size), std::min(height, device_.texture_size), dt_s));
       watch_.frame(Clock::now(), meter_.loading.busy);
       if (const auto news = watch_.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
       meter_.add(static_cast<float>(1000 * seconds_since(last)));
@@ -128,20 +137,42 @@ class Loop {
   }
 
  private:
+  bool is_hidden() const {
+    return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) == GLFW_TRUE ||
+           glfwGetWindowAttrib(window_.get(), GLFW_VISIBLE) != GLFW_TRUE;
+  }
+
   void act(InputFrame& input, float dt_s) {
     if (gui_.has_pointer() && !input_.grabbed()) {
       input.clicked = false;
       input.move.wheel = 0;
+      input.go_to.reset();
     }
-    for (const Command& command : input.commands) perform(command, scene_->pack(), session_);
+    for (const Command& command : input.commands) {
+      perform(command, scene_->pack(), session_);
+      if (const std::string line = announce(command, scene_->pack(), session_); !line.empty()) say(line);
+    }
+    if (input.go_to) session_.go_to = input.go_to;
+    if (const auto place = std::exchange(session_.go_to, std::nullopt))
+      if (const std::string why = go(*place, scene_->pack(), view_, floors_, session_); !why.empty()) say(why);
     if (std::exchange(session_.reload, false)) reload();
     move_on(input.move, floors_, dt_s, session_);
     if (const auto walk = std::exchange(session_.recorded, std::nullopt)) keep(*walk);
-    const Dragged dragged = drag_movers({input.pointer, pointer_, input.clicked, input.holding, input.turning},
+    drag(input);
+    meter_.gamepad = input.gamepad;
+  }
+
+  // The divider of two frames, else movers; a click beside both grabs the mouse.
+  void drag(const InputFrame& input) {
+    int width = 1;
+    glfwGetWindowSize(window_.get(), &width, nullptr);
+    const float reach = kDividerReach_px / static_cast<float>(std::max(width, 1));
+    const Vec2 last = std::exchange(pointer_, input.pointer);
+    if (drag_divider(input.pointer, input.clicked, input.holding, reach, session_.comparison)) return;
+    const Dragged dragged = drag_movers({input.pointer, last, input.clicked, input.holding, input.turning},
                                         scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
     if (dragged.missed) input_.grab(true);
     if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
-    pointer_ = input.pointer;
   }
 
   Status draw(int width, int height, float dt_s) {
@@ -149,16 +180,21 @@ class Loop {
     session_.frame.white = white_of_exposure(session_.shown_ev100);
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
-    view_ = make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
+    view_ = view_of(width, height);
     load_images();
     ORIEL_TRY(const FrameStats stats, renderer_.render(*scene_, view_, session_.frame));
     meter_.loading = scene_->images().state();  // with what the frame wanted
     ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
     adapt_exposure(metered, dt_s, session_);
+    if (beside_) ORIEL_TRY_VOID(beside_->draw(renderer_, seen(width, height), session_, seconds_since(start_)));
     if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
     if (std::exchange(session_.light_screenshot, false)) keep_screenshot(next_name(".exr"), width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    renderer_.display(session_.shown_ev100, session_.curve);
+    if (beside_) {
+      beside_->display(renderer_, session_);
+    } else {
+      renderer_.display(session_.shown_ev100, session_.curve);
+    }
     note(stats);
     gui_.begin(!input_.grabbed());
     if (seconds_since(said_) > kMessage_s) meter_.message.clear();
@@ -166,6 +202,10 @@ class Loop {
     gui_.end();
     glfwSwapBuffers(window_.get());
     return {};
+  }
+
+  View view_of(int width, int height) const {
+    return make_view(session_.camera, width, height, bounds_with_movers(*scene_, session_.frame.poses));
   }
 
   // What the frame shows comes first. Some of it before the first frame: most packs are there then.
@@ -186,10 +226,39 @@ class Loop {
   }
 
   void keep_screenshot(const std::string& name, int width, int height) {
+    const Status written = write_screenshot(name, width, height);
+    say(written ? name : written.error().text());
+  }
+
+  // Supersampled, it is drawn anew, and the frame again after it. FLIP is of the window's own pixels.
+  Status write_screenshot(const std::string& name, int width, int height) {
+    const bool flip = beside_ && session_.comparison.beside == Beside::kDifference;
+    const int n = flip ? 1 : arguments_.supersample;
     const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
                              session_.curve};
-    const Status written = write_picture(renderer_, name, width, height, notes);
-    say(written ? name : written.error().text());
+    const auto times = static_cast<std::uint32_t>(n);
+    Status status = n > 1 ? redraw(n * width, n * height) : Status();
+    if (status)
+      status = beside_ ? beside_->write(renderer_, session_, name, notes, times)
+                       : write_picture(renderer_, name, notes, times);
+    if (n > 1) ORIEL_TRY_VOID(redraw(width, height));
+    return status;
+  }
+
+  Status redraw(int width, int height) {
+    ORIEL_TRY_VOID(renderer_.render(*scene_, view_of(width, height), session_.frame));
+    if (!beside_) return {};
+    return beside_->draw(renderer_, seen(width, height), session_, seconds_since(start_));
+  }
+
+  Other::Seen seen(int width, int height) const {
+    return {session_.camera,
+            scene_->pack().mesh.origin,
+            width,
+            height,
+            session_.frame,
+            session_.moves,
+            arguments_.time_s + seconds_since(start_)};
   }
 
   void keep(const CameraPath& walk) {
@@ -205,6 +274,11 @@ class Loop {
     auto scene = pack ? GpuScene::create(std::move(*pack), device_, {true, arguments_.gpu_memory})
                       : Result<std::unique_ptr<GpuScene>>(tl::unexpect, pack.error());
     if (!scene) return say("not loaded again: " + scene.error().text());
+    if (beside_) {
+      auto other = Other::open(arguments_.other, device_);
+      if (!other) return say("not loaded again: " + other.error().text());
+      beside_->replace(std::move(*other));
+    }
     auto poses = poses_at((*scene)->pack(), session_.moves, 0);
     if (!poses) return say("not loaded again: " + poses.error().text());
     session_.frame.poses = std::move(*poses);
@@ -271,6 +345,7 @@ class Loop {
   Session session_;
   FrameMeter meter_;
   std::optional<PickedSurface> picked_;
+  std::optional<BesideView> beside_;
   Floors floors_{scene_->pack().walk_grids};
   Zone zone_ = planned_zone(scene_->pack());
   View view_;        // of the last frame
@@ -312,12 +387,20 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
   if (!arguments.cameras.empty()) {
     ORIEL_TRY(camera, parse_camera(arguments.cameras[0], choices));
   }
+  std::unique_ptr<Other> other;
+  if (!arguments.other.empty()) {
+    ORIEL_TRY(other, Other::open(arguments.other, device));
+    // A picture is seen from where it was taken.
+    const auto taken = other->camera(shown.mesh.origin);
+    if (taken && arguments.cameras.empty()) camera = *taken;
+  }
   CameraPath path = shown.paths.empty() ? CameraPath() : shown.paths.front();
   if (!arguments.path.empty()) {
     ORIEL_TRY(path, choose_path(arguments.path, shown.paths, shown.mesh.origin));
   }
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device, started).run(stopped);
+  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device, std::move(other), started)
+      .run(stopped);
 }
 
 }  // namespace oriel

@@ -7,6 +7,7 @@
 namespace oriel {
 namespace {
 
+constexpr double kDoubleClick_s = 0.35;
 constexpr float kTurnPixelsPerSecond = 500;  // of arrow keys, as if the mouse had moved
 
 WindowInput* self(GLFWwindow* window) {
@@ -54,11 +55,7 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetKeyCallback(window,
                      [](GLFWwindow* w, int code, int, int action, int mods) { self(w)->key(code, action, mods); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    if (action != GLFW_PRESS) return;
-    if (button == GLFW_MOUSE_BUTTON_LEFT)
-      self(w)->clicked_ = !self(w)->grabbed_;
-    else
-      self(w)->grab(true);
+    if (action == GLFW_PRESS) self(w)->press(button);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     WindowInput& input = *self(w);
@@ -81,6 +78,57 @@ void WindowInput::grab(bool on) {
   grabbed_ = on;
   has_last_ = false;
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+Vec2 WindowInput::pointer() const {
+  double x = 0, y = 0;
+  int width = 0, height = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
+  return Vec2(DVec2(x, y) / DVec2(std::max(width, 1), std::max(height, 1)));
+}
+
+void WindowInput::press(int button) {
+  if (button == GLFW_MOUSE_BUTTON_RIGHT) return grab(true);
+  if (button == GLFW_MOUSE_BUTTON_MIDDLE) go_to_ = grabbed_ ? Vec2(0.5f) : pointer();
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  const double now = glfwGetTime();
+  if (pressed_s_ >= 0 && now - pressed_s_ < kDoubleClick_s) {
+    // The first of the two has grabbed the mouse.
+    go_to_ = pressed_at_;
+    if (!grabbed_before_) grab(false);
+    pressed_s_ = -1;
+    return;
+  }
+  pressed_s_ = now;
+  grabbed_before_ = grabbed_;
+  pressed_at_ = grabbed_ ? Vec2(0.5f) : pointer();
+  clicked_ = !grabbed_;
+}
+
+// The first gamepad that there is.
+void WindowInput::add_pad(float dt_s, InputFrame& to) {
+  static_assert(static_cast<int>(PadButton::kLeft) == GLFW_GAMEPAD_BUTTON_DPAD_LEFT);
+  static_assert(static_cast<int>(PadButton::kStart) == GLFW_GAMEPAD_BUTTON_START);
+  static_assert(static_cast<int>(PadAxis::kRightTrigger) == GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER);
+  PadState now;
+  GLFWgamepadstate state;
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    if (glfwJoystickIsGamepad(id) != GLFW_TRUE || glfwGetGamepadState(id, &state) != GLFW_TRUE) continue;
+    to.gamepad = true;
+    std::copy_n(state.axes, kPadAxes, now.axes.begin());
+    std::transform(state.buttons, state.buttons + kPadButtons, now.down.begin(),
+                   [](unsigned char button) { return button == GLFW_PRESS; });
+    break;
+  }
+  if (glfwGetWindowAttrib(window_, GLFW_FOCUSED) != GLFW_TRUE) now = {};  // it plays with somebody else
+  const PadMotion motion = pad_motion(now, pad_, dt_s);
+  pad_ = now;
+  to.move.stick = motion.move.stick;
+  to.move.mouse_x_px += motion.move.mouse_x_px;
+  to.move.mouse_y_px += motion.move.mouse_y_px;
+  to.move.fast = to.move.fast || motion.move.fast;
+  to.commands.insert(to.commands.end(), motion.commands.begin(), motion.commands.end());
 }
 
 void WindowInput::key(int code, int action, int mods) {
@@ -119,11 +167,9 @@ InputFrame WindowInput::poll(float dt_s) {
   out.move.mouse_y_px = static_cast<float>(std::exchange(moved_y_, 0.0)) + axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
   out.move.wheel = static_cast<float>(std::exchange(wheel_, 0.0));
   out.commands = std::exchange(commands_, {});
-  double x = 0, y = 0;
-  int width = 0, height = 0;
-  glfwGetCursorPos(window_, &x, &y);
-  glfwGetWindowSize(window_, &width, &height);
-  out.pointer = Vec2(DVec2(x, y) / DVec2(std::max(width, 1), std::max(height, 1)));
+  add_pad(dt_s, out);
+  out.pointer = pointer();
+  out.go_to = std::exchange(go_to_, std::nullopt);
   out.clicked = std::exchange(clicked_, false);
   out.holding = !grabbed_ && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   out.turning = down(GLFW_KEY_R);

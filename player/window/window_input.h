@@ -1,4 +1,4 @@
-// Keys and mouse of a GLFW window.
+// Keys, mouse and gamepad of a GLFW window.
 #pragma once
 
 #include <epoxy/gl.h>  // before GLFW, which would include a GL header of its own
@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "player/session/session.h"
+#include "player/session/gamepad.h"
 
 namespace oriel {
 
@@ -16,11 +16,14 @@ struct InputFrame {
   MoveInput move;
   std::vector<Command> commands;  // in order
   bool quit = false;
+  bool gamepad = false;  // there is one
   // The pointer in the window, [0,1]² from the top left corner, while it is free; the left button: pressed since the
   // last poll, still down.
   Vec2 pointer{0};
   bool clicked = false, holding = false;
   bool turning = false;  // R is down
+  std::optional<Vec2>
+      go_to;  // a double click or the middle button: where, as the pointer; the middle while it is grabbed
 };
 
 class WindowInput {
@@ -38,6 +41,9 @@ class WindowInput {
 
  private:
   void key(int code, int action, int mods);
+  void press(int button);
+  Vec2 pointer() const;
+  void add_pad(float dt_s, InputFrame& to);
   bool down(int code) const { return glfwGetKey(window_, code) == GLFW_PRESS; }
 
   GLFWwindow* window_;
@@ -45,6 +51,11 @@ class WindowInput {
   bool quit_ = false, grabbed_ = false, clicked_ = false;
   double last_x_ = 0, last_y_ = 0, moved_x_ = 0, moved_y_ = 0, wheel_ = 0;
   bool has_last_ = false;
+  double pressed_s_ = -1;  // the left button, the last time
+  Vec2 pressed_at_{0};
+  bool grabbed_before_ = false;  // that
+  std::optional<Vec2> go_to_;
+  PadState pad_;
 };
 
 }  // namespace oriel

@@ -8,3 +8,9 @@ vec3 srgb_from_linear(vec3 linear) {
   vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
   return mix(high, low, vec3(lessThanEqual(linear, vec3(0.0031308))));
 }
+
+vec3 linear_from_srgb(vec3 shown) {
+  vec3 low = shown / 12.92;
+  vec3 high = pow((max(shown, vec3(0.04045)) + 0.055) / 1.055, vec3(2.4));
+  return mix(high, low, vec3(lessThanEqual(shown, vec3(0.04045))));
+}

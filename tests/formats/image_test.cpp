@@ -133,6 +133,31 @@ TEST(Png, TextsAreChunksOfTheirOwn) {
     EXPECT_FALSE(encode_png(image, {{keyword, ""}})) << keyword;
 }
 
+TEST(Png, TextsComeBackFromWholeAndBrokenFiles) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.png";
+  const ByteImage image{1, 1, 3, {1, 2, 3}};
+  const PngTexts texts{{"oriel.eye", "1,2,3"}, {"oriel.name", "caf\xc3\xa9"}, {"empty", ""}};
+  const Bytes bytes = *encode_png(image, texts);
+  ASSERT_TRUE(write_file_atomically(path, bytes));
+  EXPECT_EQ(*read_png_texts(path), texts);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    ASSERT_TRUE(write_file_atomically(path, Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))));
+    const auto found = read_png_texts(path);
+    ASSERT_EQ(found.has_value(), size >= 8) << size;
+    if (!found) continue;
+    for (const auto& [keyword, text] : *found) EXPECT_EQ(texts.at(keyword), text);
+  }
+  EXPECT_FALSE(read_png_texts(folder.path() / "absent.png"));
+  // Lengths that reach beyond the file, and chunks without their zeros.
+  for (std::size_t at = 8; at < bytes.size(); ++at) {
+    Bytes broken = bytes;
+    broken[at] ^= std::byte{0xff};
+    ASSERT_TRUE(write_file_atomically(path, broken));
+    EXPECT_TRUE(read_png_texts(path)) << at;
+  }
+}
+
 TEST(Png, BadShapesAndFiles) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.png";

@@ -112,17 +112,21 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
-  m["player/survey"] = plus(m["player/scene"], {"formats/image", "player/scene"});
+  m["player/survey"] = plus(m["player/scene"], {"formats/camera", "formats/image", "player/scene", "player/walk"});
   m["player/passes"] =
-      plus(m["player/reflections"], {"player/survey", "formats/motion", "player/movers", "player/reflections"});
+      plus(m["player/reflections"], {"player/survey", "formats/image", "formats/motion", "player/movers",
+                                     "player/reflections", "player/walk", "formats/camera"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] =
       plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});
   m["player/options"] = plus(m["player/session"], {"player/session"});
-  m["player/output"] = plus(m["player/options"], {"player/options", "formats/image", "formats/camera"});
+  m["player/output"] =
+      plus(m["player/options"], {"player/options", "formats/image", "formats/metrics", "formats/camera"});
   m["player/panel"] = plus(m["player/options"], {"player/options", "player/survey"});
-  m["player/window"] = plus(m["player/output"], {"player/output", "player/panel"});
-  m["player/app"] = plus(m["player/window"], {"player/window", "formats/metrics"});
+  // What a frame is shown beside.
+  m["player/comparison"] = plus(m["player/output"], {"player/output"});
+  m["player/window"] = plus(m["player/comparison"], {"player/comparison", "player/panel"});
+  m["player/app"] = plus(m["player/window"], {"player/window"});
   m["scenes/kit"] = core;
   m["scenes"] = plus(core, {"scenes/kit", "formats/image"});
   return m;

@@ -1,8 +1,6 @@
 // The program itself: exit codes, files, and the window under a virtual display.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -10,50 +8,12 @@
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
-#include "formats/pack/writer.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/tiny_pack.h"
+#include "tests/support/play_program.h"
 
 namespace oriel {
 namespace {
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int code = -1;
-  std::string out;  // stdout and stderr together
-};
-
-class Play : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const Status written = write_pack(pack(), oriel::testing::tiny_pack());
-    ASSERT_TRUE(written) << written.error().text();
-  }
-  fs::path folder() const { return folder_.path(); }
-  fs::path pack() const { return folder_.path() / "tiny.oriel"; }
-
-  // Shell words after the program's path, in the temporary folder, with DISPLAY unset unless `environment` sets it.
-  Outcome run(const std::string& arguments, const std::string& environment = "env -u DISPLAY -u WAYLAND_DISPLAY") {
-    const std::string program = (fs::path(ORIEL_BIN_DIR) / "oriel-play").string();
-    return shell(environment + " '" + program + "' " + arguments);
-  }
-  Outcome shell(const std::string& command) {
-    const fs::path log = folder() / "log";
-    const int status = std::system(("cd '" + folder().string() + "' && " + command + " > log 2>&1").c_str());
-    std::ifstream in(log);
-    std::stringstream text;
-    text << in.rdbuf();
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
-  }
-  ::testing::AssertionResult ends(const Outcome& r, int code, const std::string& says) {
-    if (r.code == code && r.out.find(says) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "exit " << r.code << ", expected " << code << " and '" << says
-                                         << "' in: " << r.out;
-  }
-
- private:
-  oriel::testing::TemporaryFolder folder_;
-};
+using namespace testing;
 
 TEST_F(Play, UsageErrors) {
   EXPECT_TRUE(ends(run("--help"), 0, "Exit codes"));
@@ -77,7 +37,7 @@ TEST_F(Play, UsageErrors) {
 }
 
 TEST_F(Play, MoversAreMoved) {
-  ASSERT_TRUE(write_pack(folder() / "moving.oriel", oriel::testing::tiny_mapped_pack()));
+  ASSERT_TRUE(write_pack(folder() / "moving.oriel", tiny_mapped_pack()));
   EXPECT_TRUE(ends(run("moving.oriel --list"), 0, "mover door at"));
   EXPECT_TRUE(ends(run("moving.oriel --offscreen -o a.png --move dor=0,0,0"), 1, "\"door\""));
   EXPECT_TRUE(ends(run("moving.oriel --offscreen -o a.png --move door=0,0"), 1, "NODE=x,y,z"));
@@ -132,10 +92,26 @@ TEST_F(Play, SeveralCamerasGoIntoAFolder) {
 }
 
 TEST_F(Play, EveryStageAndOption) {
-  for (const char* options :
-       {"--show M", "--show MK", "--show MKR", "--show D", "--tonemap none", "--maps 1", "--select distance",
-        "--blur constant", "--blur off", "--fresnel sphere", "--reflections points", "--reflections geometry",
-        "--reflections off", "--exposure -3.5", "--exposure auto", "--no-mipmaps", "--gl-debug"}) {
+  for (const char* options : {"--show M",
+                              "--show MK",
+                              "--show MKR",
+                              "--show D",
+                              "--show charts",
+                              "--show overdraw",
+                              "--show zones",
+                              "--tonemap none",
+                              "--maps 1",
+                              "--select distance",
+                              "--blur constant",
+                              "--blur off",
+                              "--fresnel sphere",
+                              "--reflections points",
+                              "--reflections geometry",
+                              "--reflections off",
+                              "--exposure -3.5",
+                              "--exposure auto",
+                              "--no-mipmaps",
+                              "--gl-debug"}) {
     EXPECT_TRUE(ends(run(std::string("tiny.oriel --offscreen --size 32x18 -o a.png ") + options), 0, "a.png"))
         << options;
   }
@@ -143,7 +119,7 @@ TEST_F(Play, EveryStageAndOption) {
 
 // Names that are no UTF-8 come from the file; options are there, so that two files can be told apart.
 TEST_F(Play, StatsTellHowTheFramesWereDrawn) {
-  Pack named = oriel::testing::tiny_pack();
+  Pack named = tiny_pack();
   named.cameras[0].name = "caf\xe9";
   named.provenance = R"({"options": {"eyes": "file", "eye_points": [[1e4, 0, 0]]}})";  // far from any camera
   ASSERT_TRUE(write_pack(folder() / "named.oriel", named));
@@ -243,32 +219,6 @@ TEST_F(Play, Panoramas) {
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen --size 64x33 --panorama -o a.exr"), 1, "twice"));
 }
 
-class PlayWindow : public Play {
- protected:
-  void SetUp() override {
-    Play::SetUp();
-    if (std::system("command -v xvfb-run >/dev/null && command -v xdotool >/dev/null") != 0) {
-      GTEST_SKIP() << "xvfb-run or xdotool is not installed";
-    }
-  }
-  // Runs a script with $PLAY and $PACK under a virtual display.
-  Outcome in_display(const std::string& script) {
-    std::ofstream(folder() / "script.sh") << "PLAY='" << (fs::path(ORIEL_BIN_DIR) / "oriel-play").string() << "'\n"
-                                          << script;
-    // Without -noreset the server signals xvfb-run anew when the last window closes, while that cleans up.
-    return shell("xvfb-run -a -s '-screen 0 640x480x24 -noreset' bash script.sh");
-  }
-};
-
-// Waits for the window, sends keys, waits for the end.
-constexpr const char* kStart = R"(
-"$PLAY" tiny.oriel --size 160x90 & pid=$!
-window=$(timeout 30 xdotool search --sync --onlyvisible --pid $pid --name Oriel | head -1)
-[ -n "$window" ] || { echo "no window"; kill $pid; exit 99; }
-xdotool windowfocus "$window"
-sleep 0.5
-)";
-
 TEST_F(PlayWindow, ClosesAfterTheFramesAsked) {
   EXPECT_TRUE(ends(in_display("\"$PLAY\" tiny.oriel --size 160x90 --frames 3\n"), 0, ""));
 }
@@ -313,7 +263,7 @@ kill $pid; wait $pid
 
 // To the right along its level; then, with R, about itself.
 TEST_F(PlayWindow, MoversAreDragged) {
-  ASSERT_TRUE(write_pack(folder() / "tiny.oriel", oriel::testing::tiny_mapped_pack()));
+  ASSERT_TRUE(write_pack(folder() / "tiny.oriel", tiny_mapped_pack()));
   std::string start = kStart;
   start.replace(start.find("--size"), 6,
                 "--camera 1000000.15,4.5,-249996,1000000.15,4,-250000 --move door=1000000,3,-250000 --size");

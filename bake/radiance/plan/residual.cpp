@@ -16,7 +16,7 @@ constexpr int kMaxHidden = 16;         // surfaces in front of a missing one
 constexpr float kSameSurface = 0.03f;  // relative distance from a missing sample's tangent plane
 
 bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
-  const Vec2 pixel = map_pixel(map, Vec3(s.image));
+  const Vec2 pixel = map_pixel(map, s);
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(map.width) &&
          pixel.y < static_cast<float>(map.height);
 }
@@ -58,7 +58,7 @@ class ResidualCapture {
     for (int ring = 0; ring <= static_cast<int>(spread); ++ring)
       for (const ReflectedSample& s : missing) {
         if (!is_in_window(map_, s)) continue;
-        const IVec2 centre(map_pixel(map_, Vec3(s.image)));
+        const IVec2 centre(map_pixel(map_, s));
         for (int y = std::max(centre.y - ring, 0); y <= std::min(centre.y + ring, static_cast<int>(map_.height) - 1);
              ++y)
           for (int x = std::max(centre.x - ring, 0); x <= std::min(centre.x + ring, static_cast<int>(map_.width) - 1);
@@ -68,11 +68,14 @@ class ResidualCapture {
     return aim;
   }
 
-  // The surface along the pixel's ray that lies where the sample's goes on, if there is one that no other map sees.
+  // The surface along the pixel's ray that lies where the sample's goes on, or the sky that it shows, if there is one
+  // that no other map sees.
   void capture(std::size_t at, const ReflectedSample& aim) {
     const Vec3 q(map_point(map_, Vec2(at % map_.width, at / map_.width) + 0.5f), 0);
     const Vec3 along = glm::normalize(q - map_.eye);
-    const float expected = glm::dot(Vec3(aim.image) - q, aim.normal) / glm::dot(along, aim.normal);
+    const bool sky = aim.image.w == 0;
+    const float expected = sky ? std::numeric_limits<float>::max()
+                               : glm::dot(Vec3(aim.image) - q, aim.normal) / glm::dot(along, aim.normal);
     if (!(expected > 0) || !std::isfinite(expected)) return;
     const Vec3 direction = glm::normalize(Mat3(reflector_.pack_from_reflector) * along);
     Vec3 from = pack_from_reflector(reflector_, q);
@@ -80,14 +83,24 @@ class ResidualCapture {
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
       if (rays_) *rays_ += seen.rays;
+      const auto is_shown = [&](const ReflectedSample& found) {
+        const auto shown = [&](const RadianceMap& map) { return sees(surroundings_, map, found); };
+        return std::any_of(others_.begin(), others_.end(), shown);
+      };
+      if (sky && seen.sight.state == Sight::kSky) {
+        ReflectedSample found = aim;
+        found.on_plane = q;
+        found.image = Vec4(along, 0);
+        if (!is_shown(found)) map_.radiance[at] = seen.radiance, map_.valid[at] = 2;
+        return;
+      }
       const float step = glm::length(seen.sight.offset);
       if (!(step > 0)) return;
       passed += step;
-      if (seen.sight.state == Sight::kSurface && std::abs(passed - expected) <= kSameSurface * expected) {
+      if (!sky && seen.sight.state == Sight::kSurface && std::abs(passed - expected) <= kSameSurface * expected) {
         ReflectedSample found = aim;
         found.image = Vec4(q + passed * along, 1);
-        const auto shown = [&](const RadianceMap& map) { return sees(surroundings_, map, found); };
-        if (std::any_of(others_.begin(), others_.end(), shown)) return;
+        if (is_shown(found)) return;
         map_.radiance[at] = seen.radiance;
         map_.disparity[at] = disparity_of(map_, found.image.z);
         map_.valid[at] = 1;
@@ -151,22 +164,21 @@ class ResidualMaker {
     ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
       if (aims[i]) capture.capture(i, *aims[i]);
     }));
-    if (std::find(map.valid.begin(), map.valid.end(), 1) == map.valid.end()) return std::nullopt;
+    if (std::all_of(map.valid.begin(), map.valid.end(), [](std::uint8_t v) { return v == 0; })) return std::nullopt;
     return map;
   }
 
   std::uint32_t reduced = 0;
 
  private:
-  // Samples of surfaces that no map sees; none where they are not worth a map.
+  // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
   Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
     ORIEL_TRY(const auto samples,
               sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed + 2, context_));
     std::vector<std::uint8_t> is_missing(samples.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
-      is_missing[i] = samples[i].image.w != 0 && std::none_of(maps.begin(), maps.end(), [&](const RadianceMap& map) {
-                        return sees(surroundings_, map, samples[i]);
-                      });
+      is_missing[i] = std::none_of(maps.begin(), maps.end(),
+                                   [&](const RadianceMap& map) { return sees(surroundings_, map, samples[i]); });
     }));
     std::vector<ReflectedSample> missing;
     double total = 0, lost = 0;

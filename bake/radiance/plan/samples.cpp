@@ -53,15 +53,16 @@ class SurfacePoints {
 
 // Whether one of the four pixels around the sample's place holds it.
 bool shows_in_residual(const RadianceMap& map, const ReflectedSample& s) {
-  if (s.image.w == 0) return false;
-  const Vec2 pixel = map_pixel(map, Vec3(s.image)) - 0.5f;
-  const float disparity = disparity_of(map, s.image.z);
+  const bool sky = s.image.w == 0;
+  const Vec2 pixel = map_pixel(map, s) - 0.5f;
+  const float disparity = sky ? 0 : disparity_of(map, s.image.z);
   for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
     const Vec2 at = glm::floor(pixel) + corner;
     if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(map.width) || at.y >= static_cast<float>(map.height))
       continue;
     const std::size_t i = static_cast<std::size_t>(at.y) * map.width + static_cast<std::size_t>(at.x);
-    if (map.valid[i] == 1 && std::abs(map.disparity[i] - disparity) <= kSameDisparity * disparity) return true;
+    if (map.valid[i] == (sky ? 2 : 1) && std::abs(map.disparity[i] - disparity) <= kSameDisparity * disparity)
+      return true;
   }
   return false;
 }
@@ -145,6 +146,11 @@ Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surr
       },
       [&](Archive& archive) { archive(samples); }));
   return samples;
+}
+
+Vec2 map_pixel(const RadianceMap& map, const ReflectedSample& s) {
+  constexpr float kFar = 1e4f;  // of the eye's distance
+  return map_pixel(map, s.image.w == 0 ? map.eye - kFar * map.eye.z * Vec3(s.image) : Vec3(s.image));
 }
 
 float needed_resolution(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,

@@ -37,6 +37,10 @@ Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surr
 float needed_resolution(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,
                         const Element& window, const ReflectedSample& sample);
 
+// Where the map's eye has what the sample shows, as map_pixel() of a point; the sky's directions are the same from
+// everywhere.
+Vec2 map_pixel(const RadianceMap& map, const ReflectedSample& sample);
+
 // Shares of the samples' weight.
 struct ViewQuality {
   double seen = 0, sharp = 0;  // by any of the maps; seen in residual maps too

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "tests/support/tiny_pack.h"
@@ -27,6 +29,23 @@ TEST(Keys, EachActionHasOneLineAndNoKeyTwo) {
     EXPECT_NE(key_help().find(binding.does), std::string::npos);
   }
   EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::kCamera)) << "all but kHeld";
+}
+
+// docs/oriel-play.md has a row for each line of the sheet, in its order, and none more.
+TEST(Keys, TheDocsHaveTheSameTable) {
+  std::ifstream in(std::filesystem::path(ORIEL_SOURCE_DIR) / "docs/oriel-play.md");
+  ASSERT_TRUE(in);
+  std::vector<std::string> rows;
+  std::string line;
+  while (std::getline(in, line) && line != "| keys | |") {
+  }
+  while (std::getline(in, line) && line != "## Options")
+    if (line.starts_with("| ")) rows.push_back(line.substr(2, line.find(" | ") - 2));
+  std::vector<std::string> expected;
+  for (const Binding& binding : key_bindings()) expected.emplace_back(binding.keys);
+  expected.emplace_back("gamepad");
+  for (const PadBinding& binding : pad_bindings()) expected.emplace_back(binding.name);
+  EXPECT_EQ(rows, expected);
 }
 
 TEST_F(SessionTest, CamerasAndHome) {

@@ -116,5 +116,51 @@ TEST(Controller, NothingStrangeGetsThrough) {
   EXPECT_TRUE(is_finite(move_camera(start(), state, holding(&MoveInput::forward), 0.1f).eye));
 }
 
+TEST(Controller, AStickWalksAsFarAsItIsPushed) {
+  MoveState state;
+  MoveInput input;
+  input.stick = {0, 1, 0.5f};
+  EXPECT_NEAR(move_camera(start(), state, input, 0.1f).eye.z, 2 - 0.07f, 1e-6f);
+  EXPECT_FLOAT_EQ(move_camera(start(), state, input, 0.1f).eye.y, 1.6f) << "walking nobody rises";
+  input.stick = {3, 0, 4};
+  EXPECT_NEAR(glm::distance(move_camera(start(), state, input, 0.1f).eye, start().eye), 0.14f, 1e-6f);
+  input.forward = input.right = true;
+  input.stick = {-1, kNan, kInf};
+  EXPECT_NEAR(move_camera(start(), state, input, 0.1f).eye.z, 2 - 0.14f, 1e-6f) << "right and left cancel";
+}
+
+// Whatever is done, the centre stays in the middle of the view; distances as told.
+TEST(Controller, OrbitsTurnAroundTheirCentre) {
+  MoveState state;
+  Camera camera = start();
+  const Vec3 centre = camera.eye + 2.0f * camera.forward;
+  state.orbit = centre;
+  const auto moved = [&](const MoveInput& input) {
+    camera = move_camera(camera, state, input, 0.1f);
+    EXPECT_LT(glm::distance(camera.eye + glm::distance(camera.eye, centre) * camera.forward, centre), 1e-4f);
+    return glm::distance(camera.eye, centre);
+  };
+  MoveInput input;
+  input.mouse_x_px = 300;
+  input.mouse_y_px = -2000;
+  EXPECT_NEAR(moved(input), 2, 1e-4f);
+  EXPECT_NEAR(pitch_of(camera), MoveOptions{}.max_pitch_rad, 1e-4f);
+  EXPECT_NEAR(moved(holding(&MoveInput::forward)), 2 * std::exp(-0.1f), 1e-4f);
+  EXPECT_NEAR(moved(holding(&MoveInput::back)), 2, 1e-4f);
+  const float yaw = yaw_of(camera);
+  moved(holding(&MoveInput::right));
+  EXPECT_NEAR(std::fabs(std::remainder(yaw_of(camera) - yaw, 2 * kPi)), 0.1f, 1e-4f);
+  input = {};
+  input.wheel = 2;
+  EXPECT_NEAR(moved(input), 2 / 1.44f, 1e-4f);
+  EXPECT_FLOAT_EQ(state.speed_m_s, 1.4f) << "the wheel is the distance's";
+  input.wheel = 1e30f;
+  EXPECT_NEAR(moved(input), MoveOptions{}.nearest_orbit_m, 1e-4f);
+  input = {};
+  input.wheel = input.mouse_x_px = kNan;
+  input.stick = {kInf, kNan, -kInf};
+  EXPECT_TRUE(is_finite(move_camera(camera, state, input, kInf).eye));
+}
+
 }  // namespace
 }  // namespace oriel

@@ -1,0 +1,14 @@
+// Two packs beside each other: what is drawn over them, and the panel's part.
+#pragma once
+
+#include "player/session/comparison.h"
+
+namespace oriel {
+
+// The panel's choices. Changes the comparison as the user does.
+void draw_comparison(Comparison& comparison);
+
+// Over the frame: whose it is, the divider, what FLIP's colours mean.
+void draw_names(const Comparison& comparison);
+
+}  // namespace oriel
