@@ -16,6 +16,7 @@
 #include "player/walk/zone.h"
 #include "player/window/announce.h"
 #include "player/window/beside_view.h"
+#include "player/window/glfw_window.h"
 #include "player/window/window_input.h"
 
 namespace oriel {
@@ -25,45 +26,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// GLFW and its window, closed in the right order on every way out.
-class GlfwWindow {
- public:
-  static Result<std::unique_ptr<GlfwWindow>> open(int width, int height) {
-    std::unique_ptr<GlfwWindow> out(new GlfwWindow);
-    if (!glfwInit()) return refused("opening a display");
-    out->initialized_ = true;
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    out->window_ = glfwCreateWindow(width, height, "Oriel", nullptr, nullptr);
-    if (out->window_ == nullptr) return refused("making a window with OpenGL 3.3 core");
-    glfwMakeContextCurrent(out->window_);
-    glfwSwapInterval(1);
-    return out;
-  }
-  ~GlfwWindow() {
-    if (window_ != nullptr) glfwDestroyWindow(window_);
-    if (initialized_) glfwTerminate();
-  }
-  GlfwWindow(const GlfwWindow&) = delete;
-  GlfwWindow& operator=(const GlfwWindow&) = delete;
-  GLFWwindow* get() const { return window_; }
-
- private:
-  GlfwWindow() = default;
-  static tl::unexpected<Error> refused(const char* what) {
-    const char* why = nullptr;
-    glfwGetError(&why);
-    return fail(ErrorCode::kRuntime, "window", "{} failed: {}. Without a display, use --offscreen -o FILE.png", what,
-                why != nullptr ? why : "no reason given");
-  }
-  bool initialized_ = false;
-  GLFWwindow* window_ = nullptr;
-};
 
 // The first free one: ending ".png", ".exr", ".json".
 std::string next_name(const char* ending) {

@@ -90,6 +90,9 @@ const std::map<std::string, Try> kTries{
 };
 
 constexpr const char* kShell = R"(
+try() { echo "== $1"; line=$(wc -l < log); }
+# Until it is said since then, on a machine however slow.
+said() { for i in $(seq 100); do tail -n +$line log | grep -qF -- "$1" && break; sleep 0.1; done; }
 pause() { sleep 0.15; }
 key() { xdotool key --window "$window" "$@"; pause; }
 hold() { xdotool keydown --window "$window" "$1"; sleep 0.2; xdotool keyup --window "$window" "$1"; pause; }
@@ -106,7 +109,8 @@ TEST_F(Keys, DoWhatTheirSheetSays) {
   script += kShell;
   for (const Binding& binding : key_bindings()) {
     ASSERT_TRUE(kTries.contains(binding.keys)) << binding.keys << " is never pressed";
-    script += "echo '== " + std::string(binding.keys) + "'\n" + kTries.at(binding.keys).script + "\n";
+    const Try& tried = kTries.at(binding.keys);
+    script += "try '" + std::string(binding.keys) + "'\n" + tried.script + "\nsaid '" + tried.says + "'\n";
   }
   EXPECT_EQ(kTries.size(), key_bindings().size());
   const Outcome r = in_display(script);

@@ -1,0 +1,28 @@
+// GLFW and its window.
+#pragma once
+
+#include <GLFW/glfw3.h>
+
+#include <memory>
+
+#include "formats/core/result.h"
+
+namespace oriel {
+
+// Closed in the right order on every way out.
+class GlfwWindow {
+ public:
+  // With OpenGL 3.3 core, which is then this thread's. Error kRuntime says why there is none.
+  static Result<std::unique_ptr<GlfwWindow>> open(int width, int height);
+  ~GlfwWindow();
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+  GLFWwindow* get() const { return window_; }
+
+ private:
+  GlfwWindow() = default;
+  bool initialized_ = false;
+  GLFWwindow* window_ = nullptr;
+};
+
+}  // namespace oriel
