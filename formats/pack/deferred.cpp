@@ -280,6 +280,12 @@ Result<std::vector<Vec3>> DeferredImages::direction(std::size_t i) const {
     if (auto status = decode(in, page); !status && in.ok())
       return invalid(section.label, "element 0: {}", status.error().message);
     if (!in.ok()) return invalid(section.label, "its counts need more than its {} bytes", section.raw_bytes);
+    const auto wrong = std::find_if(page.direction.begin(), page.direction.end(), [](const Vec3& d) {
+      return !(is_finite(d) && length2(d) <= 1.001f);  // as validate() has it
+    });
+    if (wrong != page.direction.end())
+      return invalid(section.label, "direction {}: found one that is not finite or longer than 1, expected none",
+                     wrong - page.direction.begin());
     return expect_size(size_of(page), sizes_[at], section);
   });
   if (!loaded) return in_file(file_.path().string(), loaded.error());
@@ -338,7 +344,7 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
 
 Status DeferredImages::check(std::size_t section) const {
   checked_[section] = true;
-  const Status status = check_in(file_, sections_[section]);
+  const Status status = without_exceptions([&] { return check_in(file_, sections_[section]); });
   if (!status) return in_file(file_.path().string(), status.error());
   return {};
 }

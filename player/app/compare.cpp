@@ -179,7 +179,7 @@ Status compare_with_rendered(const Reference& reference, const PlayedFrame& fram
 // Another pack by the same camera, both as shown with one exposure: the first's, unless told.
 Status compare_with_pack(GpuScene& scene, Renderer& renderer, const gpu::Device& device,
                          const PlayArguments& arguments) {
-  ORIEL_TRY(const auto other, Other::open(arguments.reference, device));
+  ORIEL_TRY(const auto other, Other::open(arguments.reference, device, {false, arguments.gpu_memory}));
   ORIEL_TRY(const Camera camera, choose_camera(scene, arguments));
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene.pack(), arguments.moves, arguments.time_s));
@@ -206,7 +206,7 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
     ORIEL_TRY(const auto context, gpu::HeadlessContext::create());
     ORIEL_TRY(const gpu::Device device, gpu::open_device());
     if (arguments.gl_debug) gpu::enable_debug_output(device);
-    ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device));
+    ORIEL_TRY(const auto scene, GpuScene::create(std::move(pack), device, {false, arguments.gpu_memory}));
     ORIEL_TRY(const auto renderer, Renderer::create(device));
     return compare_with_pack(*scene, *renderer, device, arguments);
   }

@@ -204,7 +204,7 @@ Status play_offscreen(DeferredPack pack, const PlayArguments& asked) {
   if (arguments.panorama) return draw_panoramas(shots, arguments, *scene, *renderer);
   std::unique_ptr<Other> other;
   if (!arguments.other.empty()) {
-    ORIEL_TRY(other, Other::open(arguments.other, device));
+    ORIEL_TRY(other, Other::open(arguments.other, device, {false, arguments.gpu_memory}));
     // A picture is seen from where it was taken.
     const auto taken = other->camera(scene->pack().mesh.origin);
     if (taken && arguments.cameras.empty() && !along_path) shots.front() = {taken->name, *taken, shots.front().file};

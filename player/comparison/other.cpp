@@ -32,7 +32,8 @@ FloatImage linear(const ByteImage& shown) {
 
 }  // namespace
 
-Result<std::unique_ptr<Other>> Other::open(const std::string& path, const gpu::Device& device) {
+Result<std::unique_ptr<Other>> Other::open(const std::string& path, const gpu::Device& device,
+                                           const LoadingOptions& loading) {
   std::unique_ptr<Other> other(new Other);
   other->path_ = path;
   if (is_picture(path)) {
@@ -43,7 +44,7 @@ Result<std::unique_ptr<Other>> Other::open(const std::string& path, const gpu::D
                   "found '{}', expected a pack (.oriel) or a picture (.exr, .png) beside the pack",
                   std::filesystem::path(path).extension().string());
     ORIEL_TRY(DeferredPack pack, open_pack(path));
-    ORIEL_TRY(other->scene_, GpuScene::create(std::move(pack), device));
+    ORIEL_TRY(other->scene_, GpuScene::create(std::move(pack), device, loading));
   }
   ORIEL_TRY(other->renderer_, Renderer::create(device));
   return other;

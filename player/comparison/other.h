@@ -15,9 +15,10 @@ namespace oriel {
 
 class Other {
  public:
-  // A pack, .exr (linear light, cd/m²) or .png (as shown). Errors: those of reading them and of GpuScene::create;
-  // kUsage for another kind of file.
-  static Result<std::unique_ptr<Other>> open(const std::string& path, const gpu::Device& device);
+  // A pack, .exr (linear light, cd/m²) or .png (as shown). loading: of a pack. Errors: those of reading them and of
+  // GpuScene::create; kUsage for another kind of file.
+  static Result<std::unique_ptr<Other>> open(const std::string& path, const gpu::Device& device,
+                                             const LoadingOptions& loading = {});
 
   const std::string& path() const { return path_; }
   // Where a picture that tells it was taken from, in the space of that origin. Nothing of a pack.

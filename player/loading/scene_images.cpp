@@ -194,7 +194,7 @@ void SceneImages::give_up(std::size_t index, Error error, std::vector<Error>& er
 std::vector<Error> SceneImages::advance(Clock::duration budget) {
   const Clock::time_point now = Clock::now();
   const Clock::time_point end = budget < Clock::time_point::max() - now ? now + budget : Clock::time_point::max();
-  std::vector<Error> errors;
+  std::vector<Error> errors = std::exchange(page_errors_, {});
   receive(errors);
   if (plan_is_due_) plan();
   while (!uploads_.empty() && step_upload(end)) {
@@ -242,6 +242,7 @@ void SceneImages::settle(Upload& upload) {
   if (item.level >= 0) drop(item);
   item.level = upload.level;
   item.coming = -1;
+  if (item.target < 0) plan_is_due_ = true;  // not wanted any more: its room is others'
   const std::uint32_t i = item.name.index;
   auto& textures = upload.textures;
   switch (item.name.kind) {
@@ -306,7 +307,10 @@ Result<const gpu::Texture*> SceneImages::points(std::uint32_t radiance_map) {
 Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const LightmapPage& in_pack) {
   const DeferredImages* deferred = source_.deferred();
   if (deferred == nullptr) return &in_pack;
-  for (auto& [made, page] : made_pages_.take()) pages_.emplace(made, std::move(page));
+  for (auto& [made, page] : made_pages_.take()) {
+    if (!page) page_errors_.push_back(page.error());
+    pages_.emplace(made, std::move(page));
+  }
   auto found = pages_.find(index);
   if (found == pages_.end() && options_.background) {
     if (coming_pages_.insert(index).second)
@@ -314,6 +318,7 @@ Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const Lightma
     return nullptr;
   }
   if (found == pages_.end()) found = pages_.emplace(index, deferred->lightmap(index)).first;
+  if (!found->second && options_.background) return nullptr;  // advance() tells why
   if (!found->second) return tl::unexpected<Error>(found->second.error());
   return &*found->second;
 }

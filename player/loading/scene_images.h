@@ -141,6 +141,7 @@ class SceneImages {
   std::map<std::uint32_t, Result<LightmapPage>> pages_;
   std::set<std::uint32_t> coming_pages_;
   Mailbox<std::pair<std::uint32_t, Result<LightmapPage>>> made_pages_;
+  std::vector<Error> page_errors_;  // not told yet
   gpu::Texture grey_, flat_;
   LightmapTexture some_light_;
   double lux_sum_ = 0;

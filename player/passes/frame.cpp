@@ -149,7 +149,8 @@ Status Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflec
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
                                  const FrameOptions& options, FrameStats& stats) {
   const GpuReflector& reflector = *candidate.reflector;
-  ORIEL_TRY_VOID(scene.bring_maps(reflector));
+  ORIEL_TRY(const bool there, scene.bring_maps(reflector));
+  if (!there) return {};  // another reflector's took their room
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
@@ -292,7 +293,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   }
   clock_.time(Pass::kCurved, [&] {
     for (const GpuCurvedReflector* reflector : see_through)
-      curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
+      if (scene.images().has({ImageKind::kSurround, reflector->map}))
+        curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
   });
   count_images(scene, stats);
   stats.ms = clock_.read();

@@ -116,14 +116,15 @@ Result<bool> GpuScene::may_show_maps(const GpuReflector& reflector) {
   return images_->has(name);
 }
 
-Status GpuScene::bring_maps(const GpuReflector& reflector) {
+Result<bool> GpuScene::bring_maps(const GpuReflector& reflector) {
   const ImageName name{ImageKind::kMaps, reflector.index};
   images_->want(name);
   if (!images_->has(name)) ORIEL_TRY_VOID(first_of(advance_all()));
+  if (!images_->has(name)) return false;
   const MapMeans& means = images_->maps(reflector.index).means;
   reflectors_[reflector.index].mean_radiance = means.radiance;
   reflectors_[reflector.index].mean_distance = means.distance;
-  return {};
+  return true;
 }
 
 Result<bool> GpuScene::bring_surround_map(std::uint32_t index) {

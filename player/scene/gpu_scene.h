@@ -107,9 +107,9 @@ class GpuScene {
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);
   void want_maps(const GpuReflector& reflector) { images_->want({ImageKind::kMaps, reflector.index}); }
-  // To be called before a reflector's maps are used, where they may be shown: brings them, the first time. Errors of
-  // images.
-  Status bring_maps(const GpuReflector& reflector);
+  // To be called before a reflector's maps are used, where they may be shown: brings them, the first time; false where
+  // within the limit of memory there is no room beside what came since. Errors of images.
+  Result<bool> bring_maps(const GpuReflector& reflector);
   // The same of a curved reflector: whether its map is there.
   Result<bool> bring_surround_map(std::uint32_t index);
   // As points, uploaded on first use and kept; null where there is no room.

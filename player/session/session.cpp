@@ -109,6 +109,7 @@ void perform(const Command& command, const Pack& pack, Session& session) {
       look_from(session.home, session);
       break;
     case Action::kPlayPath:
+      session.walker = {};
       session.path_time_s = session.path_time_s >= 0 || session.path.keys.empty() ? -1 : 0;
       break;
     case Action::kRecord:

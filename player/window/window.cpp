@@ -236,17 +236,19 @@ class Loop {
     auto scene = pack ? GpuScene::create(std::move(*pack), device_, {true, arguments_.gpu_memory})
                       : Result<std::unique_ptr<GpuScene>>(tl::unexpect, pack.error());
     if (!scene) return say("not loaded again: " + scene.error().text());
+    auto poses = poses_at((*scene)->pack(), session_.moves, 0);
+    if (!poses) return say("not loaded again: " + poses.error().text());
     if (beside_) {
-      auto other = Other::open(arguments_.other, device_);
+      auto other = Other::open(arguments_.other, device_, {false, arguments_.gpu_memory});
       if (!other) return say("not loaded again: " + other.error().text());
       beside_->replace(std::move(*other));
     }
-    auto poses = poses_at((*scene)->pack(), session_.moves, 0);
-    if (!poses) return say("not loaded again: " + poses.error().text());
     session_.frame.poses = std::move(*poses);
     const DVec3 moved = scene_->pack().mesh.origin - (*scene)->pack().mesh.origin;
     for (Camera* camera : {&session_.camera, &session_.home}) camera->eye = Vec3(DVec3(camera->eye) + moved);
-    session_.recording.reset();  // it is in the old pack's space
+    session_.recording.reset();  // these are in the old pack's space
+    session_.walker = {};
+    session_.move.orbit.reset();
     scene_ = std::move(*scene);
     meter_.failure.clear();
     aimed_ = {};
@@ -351,7 +353,7 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
   }
   std::unique_ptr<Other> other;
   if (!arguments.other.empty()) {
-    ORIEL_TRY(other, Other::open(arguments.other, device));
+    ORIEL_TRY(other, Other::open(arguments.other, device, {false, arguments.gpu_memory}));
     // A picture is seen from where it was taken.
     const auto taken = other->camera(shown.mesh.origin);
     if (taken && arguments.cameras.empty()) camera = *taken;

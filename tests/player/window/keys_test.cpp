@@ -155,6 +155,7 @@ TEST_F(Keys, DoWhatTheirSheetSays) {
 // Taken off the screen and put back: it waits and goes on. A window of one pixel, and one larger than the screen.
 TEST_F(Keys, TheWindowMayGoAwayAndComeBack) {
   const Outcome r = in_display(std::string(kStart) + kShell + R"(
+key plus; sleep 0.5  # exposure by hand: an eye still adapts after the first frame
 shot before
 xdotool windowunmap --sync "$window"; sleep 0.5
 before=$(awk '{print $14 + $15}' /proc/$pid/stat); sleep 0.5; after=$(awk '{print $14 + $15}' /proc/$pid/stat)
