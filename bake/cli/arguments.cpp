@@ -88,9 +88,9 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->check(checked(parse_verify, "SHARE|off"))
       ->capture_default_str();
   app.add_option("--reuse-error", texts.reuse,
-                 "After an edit of the scene: keep the light of the last whole bake in the cache, with these options, "
-                 "where the edit changes it by no more than that, relative; the error that this brings is measured and "
-                 "stated. The pack then depends on the cache. Default: all is baked")
+                 "After an edit of the scene: keep the light and the radiance maps of the last whole bake in the "
+                 "cache, with these options, where the edit changes them by no more than that, relative; the error "
+                 "that this brings is measured and stated. The pack then depends on the cache. Default: all is baked")
       ->check(checked(parse_fraction, "SHARE"));
   app.add_option("--samples", texts.samples,
                  "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two")

@@ -197,6 +197,10 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
     printer.note("ended early: the pack holds what was there, with the error that is stated");
   print_omissions(result.omissions, printer);
   printer.note(light_line(result.radiosity));
+  if (const MapReuse& reuse = result.map_reuse; reuse.kept > 0)
+    printer.note(fmt::format(
+        "radiance maps: {} of {} bands keep the pixels of the bake before, with {:.2g} % of error in all of them",
+        reuse.kept, reuse.bands, 100 * reuse.error));
   if (result.ledger.emitted_lm() > 0) printer.note(ledger_line(result.ledger));
   ORIEL_TRY_VOID(write_pack(args.bake.output, result.pack));
   if (!args.report.empty()) {

@@ -48,9 +48,16 @@ class Units {
 
   std::size_t count() const { return (loop_.count + side_ - 1) / side_; }
 
+  // Counted as nobody's: who asks may compute it all the same.
+  bool recall(std::size_t unit, const Hash128& inputs) {
+    const std::optional<Bytes> kept = context_.units->recall(name_of(unit, inputs));
+    std::uint64_t traced = 0;
+    return kept && restore(*kept, [&](Archive& a) { results(unit, traced, a); });
+  }
+
   // False: someone else is computing it.
   bool finish(std::size_t unit) {
-    const Hash128 name = name_of(unit);
+    const Hash128 name = name_of(unit, context_.inputs);
     if (take(unit, name)) return true;
     if (!context_.units->claim(name)) return false;
     if (take(unit, name)) {  // it was finished in between
@@ -72,10 +79,10 @@ class Units {
   std::size_t first(std::size_t unit) const { return unit * side_; }
   std::size_t last(std::size_t unit) const { return std::min(loop_.count, (unit + 1) * side_); }
 
-  Hash128 name_of(std::size_t unit) const {
+  Hash128 name_of(std::size_t unit, const Hash128& inputs) const {
     Hasher hasher;
     Archive archive(hasher);
-    archive(context_.inputs, std::string(loop_.stage), last(unit) - first(unit));
+    archive(inputs, std::string(loop_.stage), last(unit) - first(unit));
     for (std::size_t i = first(unit); i < last(unit); ++i) loop_.inputs(i, archive);
     return hasher.result();
   }
@@ -127,6 +134,10 @@ Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::u
     ORIEL_TRY_VOID(
         parallel_for(context, "", left.size(), [&](std::size_t i) { finished[left[i]] = units.finish(left[i]); }));
   }
+}
+
+bool recall_item(Context& context, const Hash128& inputs, const UnitLoop& loop, std::size_t item) {
+  return context.units && Units(context, loop, nullptr).recall(item, inputs);
 }
 
 Status one_unit(Context& context, std::string_view stage, const std::function<void(Archive&)>& inputs,

@@ -77,6 +77,10 @@ struct UnitLoop {
 // null). Error kStopped.
 Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays = nullptr);
 
+// Fills an item's results with those that this loop had under other stage inputs, where the store has them: of loops
+// whose items are units of their own (`rays` at least those of a unit). Whether they were there.
+bool recall_item(Context& context, const Hash128& inputs, const UnitLoop& loop, std::size_t item);
+
 // One unit that is computed by work in parallel of its own: compute() fills what results() writes or reads, and
 // inputs() names. An error of compute() is returned, and nothing kept.
 Status one_unit(Context& context, std::string_view stage, const std::function<void(Archive&)>& inputs,

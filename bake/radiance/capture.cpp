@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "bake/jobs/units.h"
 #include "bake/radiance/reproject.h"
 #include "bake/scene/light/sky.h"
 #include "formats/core/check.h"
@@ -50,83 +49,62 @@ SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing
 
 namespace {
 
-constexpr double kRaysARow = 4096;  // about: many pixels see by way of lobes
+constexpr std::uint32_t kRowsABand = 32;
+constexpr double kRaysABand =
+    1 << 17;  // about, many pixels see by way of lobes: a unit of its own (bake/jobs/units.cpp)
 // From a pixel's centre: one place in each row and column of a 4 x 4 grid.
 constexpr std::array<Vec2, 4> kPlaces = {Vec2(-0.125f, -0.375f), Vec2(0.375f, -0.125f), Vec2(-0.375f, 0.125f),
                                          Vec2(0.125f, 0.375f)};
 constexpr float kSameDistance = 0.005f;  // of the distance: how far from its plane a surface goes on as the same,
 constexpr float kSameNormal = 0.9f;      // while it turns by no more than this cosine
 
-class MapRow {
- public:
-  MapRow(const Surroundings& surroundings, const OutgoingRadiance& outgoing, RadianceMap& map)
-      : surroundings_(surroundings),
-        outgoing_(outgoing),
-        map_(map),
-        reflector_(surroundings.reflectors()[map.reflector].reflector),
-        to_pack_(reflector_.pack_from_reflector) {}
-
-  std::uint64_t capture(std::uint32_t y) {
-    rays_ = 0;
-    for (std::uint32_t x = 0; x < map_.width; ++x) capture_pixel(x, y);
-    return rays_;
-  }
-
- private:
-  struct Seen {
-    SeenLight light;
-    Vec3 at{0};  // what it ended on, or its image; scene space
-  };
-
-  Seen look(const Vec2& place) {
-    const Vec3 q(map_point(map_, place), 0);
-    const Vec3 from = pack_from_reflector(reflector_, q);
-    const Vec3 direction = glm::normalize(to_pack_ * glm::normalize(q - map_.eye));
-    Seen seen{see(surroundings_, outgoing_, map_.reflector, from, direction)};
-    seen.at = from + seen.light.sight.offset;
-    rays_ += seen.light.rays;
-    return seen;
-  }
-
-  static bool same_surface(const Seen& a, const Seen& b) {
-    const Sight &s = a.light.sight, &t = b.light.sight;
-    if (s.state != t.state || s.mirrored != t.mirrored) return false;
-    if (s.state == Sight::kSky) return true;
-    const float away = std::abs(glm::dot(s.normal, b.at - a.at));
-    return away <= kSameDistance * glm::length(s.offset) && glm::dot(s.normal, t.normal) >= kSameNormal;
-  }
-
-  void capture_pixel(std::uint32_t x, std::uint32_t y) {
-    const Vec2 middle = Vec2(x, y) + 0.5f;
-    const Seen centre = look(middle);
-    const Sight& sight = centre.light.sight;
-    Vec3 light = centre.light.radiance;
-    float count = 1;
-    for (std::size_t i = 0; centre.light.textured && i < kPlaces.size(); ++i) {
-      const Seen beside = look(middle + kPlaces[i]);
-      if (same_surface(centre, beside)) light += beside.light.radiance, ++count;
-    }
-    const std::size_t at = std::size_t{y} * map_.width + x;
-    map_.radiance[at] = light / count;
-    map_.valid[at] = sight.state;
-    map_.disparity[at] = sight.state == Sight::kSurface || sight.back
-                             ? disparity_of(map_, std::max(0.0f, glm::dot(sight.offset, to_pack_[2])))
-                             : 0;
-  }
-
-  const Surroundings& surroundings_;
-  const OutgoingRadiance& outgoing_;
-  RadianceMap& map_;
-  const Reflector& reflector_;
-  Mat3 to_pack_;
-  std::uint64_t rays_ = 0;
+struct SeenAt {
+  SeenLight light;
+  Vec3 at{0};  // what it ended on, or its image; scene space
 };
+
+bool same_surface(const SeenAt& a, const SeenAt& b) {
+  const Sight &s = a.light.sight, &t = b.light.sight;
+  if (s.state != t.state || s.mirrored != t.mirrored) return false;
+  if (s.state == Sight::kSky) return true;
+  const float away = std::abs(glm::dot(s.normal, b.at - a.at));
+  return away <= kSameDistance * glm::length(s.offset) && glm::dot(s.normal, t.normal) >= kSameNormal;
+}
 
 }  // namespace
 
-Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
-                    std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
-  std::vector<UVec2> rows;  // map, row: large maps are shared by the threads too
+MapRay map_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at) {
+  const Vec3 q(map_point(map, at), 0);
+  const Mat3 to_pack(reflector.pack_from_reflector);
+  return {pack_from_reflector(reflector, q), glm::normalize(to_pack * glm::normalize(q - map.eye))};
+}
+
+MapPixel capture_pixel(const Surroundings& surroundings, const OutgoingRadiance& outgoing, const RadianceMap& map,
+                       std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
+  const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
+  const auto look = [&](const Vec2& place) {
+    const MapRay ray = map_ray(reflector, map, place);
+    SeenAt seen{see(surroundings, outgoing, map.reflector, ray.from, ray.direction)};
+    seen.at = ray.from + seen.light.sight.offset;
+    rays += seen.light.rays;
+    return seen;
+  };
+  const Vec2 middle = Vec2(x, y) + 0.5f;
+  const SeenAt centre = look(middle);
+  const Sight& sight = centre.light.sight;
+  Vec3 light = centre.light.radiance;
+  float count = 1;
+  for (std::size_t i = 0; centre.light.textured && i < kPlaces.size(); ++i) {
+    const SeenAt beside = look(middle + kPlaces[i]);
+    if (same_surface(centre, beside)) light += beside.light.radiance, ++count;
+  }
+  const bool has_depth = sight.state == Sight::kSurface || sight.back;
+  const float height = std::max(0.0f, glm::dot(sight.offset, Vec3(reflector.pack_from_reflector[2])));
+  return {light / count, has_depth ? disparity_of(map, height) : 0, static_cast<std::uint8_t>(sight.state)};
+}
+
+std::vector<MapBand> make_bands(const Surroundings& surroundings, std::vector<RadianceMap>& maps) {
+  std::vector<MapBand> bands;
   for (std::uint32_t i = 0; i < maps.size(); ++i) {
     RadianceMap& map = maps[i];
     ORIEL_CHECK_LT(map.reflector, surroundings.reflectors().size());
@@ -135,18 +113,44 @@ Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& ou
     map.radiance.resize(pixels);
     map.disparity.resize(pixels);
     map.valid.resize(pixels);
-    for (std::uint32_t y = 0; y < map.height; ++y) rows.emplace_back(i, y);
+    for (std::uint32_t y = 0; y < map.height; y += kRowsABand)
+      bands.push_back({i, y, std::min(kRowsABand, map.height - y)});
   }
-  UnitLoop loop{.stage = "radiance", .count = rows.size(), .rays = kRaysARow};
-  loop.inputs = [&](std::size_t i, Archive& key) { key(frame_of(maps[rows[i].x]), rows[i].y); };
-  loop.compute = [&](std::size_t i) { return MapRow(surroundings, outgoing, maps[rows[i].x]).capture(rows[i].y); };
-  loop.results = [&](std::size_t i, Archive& archive) {
-    RadianceMap& map = maps[rows[i].x];
-    const std::size_t first = std::size_t{rows[i].y} * map.width;
-    archive(std::span(map.radiance).subspan(first, map.width), std::span(map.disparity).subspan(first, map.width),
-            std::span(map.valid).subspan(first, map.width));
+  return bands;
+}
+
+UnitLoop capture_loop(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+                      const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
+  UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysABand};
+  loop.inputs = [&](std::size_t i, Archive& key) {
+    key(frame_of(maps[bands[i].map]), bands[i].first_row, bands[i].rows);
   };
-  return parallel_units(context, loop, rays);
+  loop.compute = [&](std::size_t i) {
+    const MapBand& band = bands[i];
+    RadianceMap& map = maps[band.map];
+    std::uint64_t rays = 0;
+    for (std::uint32_t y = band.first_row; y < band.first_row + band.rows; ++y)
+      for (std::uint32_t x = 0; x < map.width; ++x) {
+        const MapPixel pixel = capture_pixel(surroundings, outgoing, map, x, y, rays);
+        const std::size_t at = std::size_t{y} * map.width + x;
+        map.radiance[at] = pixel.radiance, map.disparity[at] = pixel.disparity, map.valid[at] = pixel.valid;
+      }
+    return rays;
+  };
+  loop.results = [&](std::size_t i, Archive& archive) {
+    RadianceMap& map = maps[bands[i].map];
+    const std::size_t first = std::size_t{bands[i].first_row} * map.width;
+    const std::size_t count = std::size_t{bands[i].rows} * map.width;
+    archive(std::span(map.radiance).subspan(first, count), std::span(map.disparity).subspan(first, count),
+            std::span(map.valid).subspan(first, count));
+  };
+  return loop;
+}
+
+Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
+                    std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
+  const std::vector<MapBand> bands = make_bands(surroundings, maps);
+  return parallel_units(context, capture_loop(surroundings, outgoing, bands, maps), rays);
 }
 
 }  // namespace oriel

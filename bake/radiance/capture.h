@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "bake/jobs/context.h"
+#include "bake/jobs/units.h"
 #include "bake/radiance/sight.h"
 
 namespace oriel {
@@ -24,6 +24,31 @@ struct SeenLight {
 };
 SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction);
+
+// A pixel of a radiance map, as its members have it.
+struct MapPixel {
+  Vec3 radiance{0};
+  float disparity = 0;
+  std::uint8_t valid = 0;
+};
+// The ray of a map's pixel (x, y), counted in pixels: from the plane, scene space.
+struct MapRay {
+  Vec3 from{0}, direction{0};
+};
+MapRay map_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
+// What capture_maps() has for a pixel. Adds to `rays`.
+MapPixel capture_pixel(const Surroundings& surroundings, const OutgoingRadiance& outgoing, const RadianceMap& map,
+                       std::uint32_t x, std::uint32_t y, std::uint64_t& rays);
+
+// Some rows of a map: a unit of work.
+struct MapBand {
+  std::uint32_t map = 0, first_row = 0, rows = 0;
+};
+// The maps in bands, with room for their pixels.
+std::vector<MapBand> make_bands(const Surroundings& surroundings, std::vector<RadianceMap>& maps);
+// Captures those bands. All must outlive it.
+UnitLoop capture_loop(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+                      const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
 
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth is that of the ray through
 // a pixel's centre; where that meets a texture, light is the mean over it and the rays through four more places of the

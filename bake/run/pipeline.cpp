@@ -210,6 +210,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
                 if (made) rays = made->rays;
                 return made;
               }));
+    result.map_reuse = reflections.reuse;
     result.omissions.insert(result.omissions.end(), reflections.omissions.begin(), reflections.omissions.end());
   } else {
     result.omissions.emplace_back("radiance maps: left out by --only");

@@ -3,6 +3,7 @@
 
 #include "bake/jobs/units.h"
 #include "bake/ledger/ledger.h"
+#include "bake/radiance/reuse/kept_maps.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/stopwatch.h"
 #include "formats/pack/pack.h"
@@ -13,6 +14,7 @@ struct BakeResult {
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
   RadiosityReport radiosity;
+  MapReuse map_reuse;  // of radiance maps
   Ledger ledger;
   UnitShare units;                     // not in the pack either: empty without a store of units
   std::vector<std::string> omissions;  // what was not modelled, and why

@@ -149,6 +149,15 @@ Json reuse_json(const ReuseReport& r) {
   return {{"asked", r.asked}, {"tiles", r.tiles}, {"kept", r.kept}, {"relative_error", r.error}};
 }
 
+Json reuse_json(const MapReuse& r) {
+  if (r.asked <= 0) return Json();
+  return {{"asked", r.asked},
+          {"bands", r.bands},
+          {"kept", r.kept},
+          {"reflectors_with_views_kept", r.views},
+          {"relative_error", r.error}};
+}
+
 Json lumens_json(const Lumens& lumens) {
   return {{"lm", lumens.value}, {"standard_error", lumens.error}};
 }
@@ -233,6 +242,7 @@ std::string plan_json(const BakeFacts& f) {
         {"maps", f.pack.radiance_maps.size()},
         {"surround_maps", f.pack.surround_maps.size()},
         {"walkable_m2", walkable_m2(f.pack)},
+        {"reuse", reuse_json(f.reflections.reuse)},
         {"rays", f.reflections.rays}}},
       {"errors", errors_json(f)},
       {"material", {{"kernels", f.pack.kernels.size()}, {"fresnel_maps", f.pack.fresnel_maps.size()}}},

@@ -69,11 +69,12 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/trace"].insert("bake/trace/lights");
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
     m[name] = stage;
-  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});                   // shiny surfaces that no plane holds
-  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});                 // what maps leave out
-  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});                     // which viewpoints
-  m["bake/walk"] = plus(m["bake/trace/lights"], {});                            // where eyes can be
-  m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});  // what eyes see
+  m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
+  m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
+  m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
+  m["bake/radiance/reuse"] = plus(stage, {"bake/radiance", "bake/radiance/plan"});  // maps that an edit leaves
+  m["bake/walk"] = plus(m["bake/trace/lights"], {});                                // where eyes can be
+  m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});      // what eyes see
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
@@ -81,10 +82,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
-  m["bake/run"] = plus(
-      stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
-              "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters", "bake/radiance/plan",
-              "bake/visibility", "bake/walk", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
+  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
+                               "bake/shadow", "bake/scene/motion", "bake/lux", "bake/radiance/curved",
+                               "bake/radiance/emitters", "bake/radiance/plan", "bake/radiance/reuse", "bake/visibility",
+                               "bake/walk", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
   m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
   m["bake/run"].insert("bake/run/stages");
   m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each

@@ -13,35 +13,8 @@ constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector i
 constexpr double kWorthDividing = 0.02;       // by which more of an element must be sharp
 constexpr std::uint32_t kLeastResolution = 16;
 constexpr std::uint32_t kMostShares = 4;  // of options.samples for one reflector
-
-struct ElementPlan {
-  Element window;
-  std::vector<Vec3> candidates;  // viewpoints, reflector space
-  Choice choice;
-  double weight = 0;  // of its samples
-};
-
-void fields(Archive& archive, ElementPlan& e) {
-  archive(e.window.lower, e.window.upper, e.candidates, e.choice, e.weight);
-}
-
-struct ReflectorPlan {
-  ElementGrid grid;
-  std::vector<ElementPlan> elements;
-
-  double sharp() const {
-    double sharp = 0, total = 0;
-    for (const ElementPlan& e : elements) {
-      sharp += e.weight * e.choice.sharp;
-      total += e.weight;
-    }
-    return total > 0 ? sharp / total : 1;
-  }
-};
-
-void fields(Archive& archive, ReflectorPlan& plan) {
-  archive(plan.grid.x, plan.grid.y, plan.elements);
-}
+// A known plan is kept where what it shows now, as shares, is less by no more than that.
+constexpr double kSeenLess = 0.002, kSharpLess = 0.01;
 
 std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
                                  std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
@@ -62,6 +35,11 @@ std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const E
   return out;
 }
 
+bool is_inside(const Element& window, const ReflectedSample& s) {
+  return glm::all(glm::greaterThanEqual(Vec2(s.on_plane), window.lower)) &&
+         glm::all(glm::lessThanEqual(Vec2(s.on_plane), window.upper));
+}
+
 class Planner {
  public:
   Planner(const Surroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
@@ -72,9 +50,7 @@ class Planner {
 
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
-    const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
-    ORIEL_TRY(const auto samples, sample_reflections(surroundings_, reflector, eyes_,
-                                                     options_.samples * shares.x * shares.y, context_.seed, context_));
+    ORIEL_TRY(const auto samples, samples_of(reflector));
     ReflectorPlan best;
     ElementGrid grid;
     for (;;) {
@@ -87,7 +63,37 @@ class Planner {
     }
   }
 
+  // Whether the views that are known still show what they showed, as far as eyes see it now.
+  Result<bool> holds(std::uint32_t reflector, const ReflectorPlan& known) {
+    ORIEL_TRY(const auto samples, samples_of(reflector));
+    std::vector<std::uint8_t> shown(samples.size());  // 1: seen, 2: sharp
+    ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+      for (const ElementPlan& element : known.elements)
+        for (const Pick& pick : element.choice.picks) {
+          if (shown[i] == 2 || !is_inside(element.window, samples[i])) break;
+          const float needed = needed_resolution(surroundings_, reflector, element.candidates[pick.candidate],
+                                                 element.window, samples[i]);
+          const bool sharp = needed <= static_cast<float>(element.choice.resolution);
+          if (std::isfinite(needed)) shown[i] = std::max<std::uint8_t>(shown[i], sharp ? 2 : 1);
+        }
+    }));
+    double total = 0, seen = 0, sharp = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      total += samples[i].weight;
+      seen += shown[i] > 0 ? samples[i].weight : 0;
+      sharp += shown[i] > 1 ? samples[i].weight : 0;
+    }
+    return seen >= (known.seen() - kSeenLess) * total && sharp >= (known.sharp() - kSharpLess) * total;
+  }
+
  private:
+  Result<std::vector<ReflectedSample>> samples_of(std::uint32_t reflector) {
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
+    return sample_reflections(surroundings_, reflector, eyes_, options_.samples * shares.x * shares.y, context_.seed,
+                              context_);
+  }
+
   Result<ReflectorPlan> plan_on(std::uint32_t reflector, const ElementGrid& grid,
                                 std::span<const ReflectedSample> samples) {
     const FoundReflector& found = surroundings_.reflectors()[reflector];
@@ -95,9 +101,7 @@ class Planner {
     for (const Element& window : covered_elements(surroundings_.accel().scene(), found, grid)) {
       std::vector<ReflectedSample> inside;
       for (const ReflectedSample& s : samples)
-        if (s.on_plane.x >= window.lower.x && s.on_plane.x <= window.upper.x && s.on_plane.y >= window.lower.y &&
-            s.on_plane.y <= window.upper.y)
-          inside.push_back(s);
+        if (is_inside(window, s)) inside.push_back(s);
       if (inside.empty()) continue;
       ORIEL_TRY(ElementPlan element, plan_element(reflector, window, inside));
       plan.elements.push_back(std::move(element));
@@ -185,6 +189,37 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
   omitted.push_back(line);
 }
 
+// The plan that is known of the reflector, where it holds still. Whether it does.
+Result<bool> take_known(Planner& planner, std::uint32_t reflector, const Hash128& identity,
+                        std::span<const KnownPlan> known, Context& context, ReflectorPlan& plan) {
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const KnownPlan& k) { return k.reflector == identity; });
+  if (found == known.end()) return false;
+  bool holds = false;
+  ORIEL_TRY_VOID(one_unit(
+      context, "known views", [&](Archive& key) { key(reflector, *found); },
+      [&]() -> Status {
+        ORIEL_TRY(holds, planner.holds(reflector, found->plan));
+        return {};
+      },
+      [&](Archive& archive) { archive(holds); }));
+  if (holds) plan = found->plan;
+  return holds;
+}
+
+// The plan without the candidates that were not picked.
+ReflectorPlan picked_only(ReflectorPlan plan) {
+  for (ElementPlan& element : plan.elements) {
+    std::vector<Vec3> picked;
+    for (Pick& pick : element.choice.picks) {
+      picked.push_back(element.candidates[pick.candidate]);
+      pick.candidate = static_cast<std::uint32_t>(picked.size() - 1);
+    }
+    element.candidates = std::move(picked);
+  }
+  return plan;
+}
+
 void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector<RadianceMap>& maps) {
   for (const ElementPlan& e : plan.elements)
     for (const Pick& pick : e.choice.picks)
@@ -222,26 +257,33 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
 
 Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span<const Vec3> eyes,
                                      const PlannedViewOptions& options, Context& context,
-                                     std::vector<FoundReflector>& reflectors) {
+                                     std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known,
+                                     std::vector<KnownPlan>* now) {
   Planner planner(surroundings, eyes, options, context);
+  ViewPlan out;
   std::vector<ReflectorPlan> plans;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
     ReflectorPlan plan;
-    ORIEL_TRY_VOID(one_unit(
-        context, "views",
-        [&](Archive& key) {
-          key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
-              options.max_elements, options.map_resolution);
-        },
-        [&]() -> Status {
-          ORIEL_TRY(plan, planner.plan(r));
-          return {};
-        },
-        [&](Archive& archive) { archive(plan); }));
+    ORIEL_TRY(const bool kept, take_known(planner, r, identity, known, context, plan));
+    out.kept += kept;
+    if (!kept) {
+      ORIEL_TRY_VOID(one_unit(
+          context, "views",
+          [&](Archive& key) {
+            key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
+                options.max_elements, options.map_resolution);
+          },
+          [&]() -> Status {
+            ORIEL_TRY(plan, planner.plan(r));
+            return {};
+          },
+          [&](Archive& archive) { archive(plan); }));
+    }
+    if (now) now->push_back({identity, picked_only(plan)});
     plans.push_back(std::move(plan));
     context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
   }
-  ViewPlan out;
   fit_memory(reflectors, options.memory_bytes, plans, out.omitted);
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     Reflector& reflector = reflectors[r].reflector;

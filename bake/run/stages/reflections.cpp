@@ -64,12 +64,61 @@ bool shines(const Scene& scene) {
   return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
 }
 
-Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, std::span<const Vec3> eyes, Context& context,
-                           std::vector<FoundReflector>& reflectors) {
+Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Context& context,
+                           PlannedReflections& planned) {
+  std::vector<FoundReflector>& reflectors = planned.all.found.reflectors;
   if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
   const std::vector<FoundReflector> as_found = reflectors;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
-  return plan_views_for_eyes(Surroundings(accel, as_found, options.sight), eyes, options.planned, context, reflectors);
+  planned.plans.clear();
+  const auto known = planned.known ? std::span<const KnownPlan>(planned.known->plans) : std::span<const KnownPlan>();
+  return plan_views_for_eyes(Surroundings(accel, as_found, options.sight), planned.all.eyes, options.planned, context,
+                             reflectors, known, &planned.plans);
+}
+
+// Where in the store the last bake with these options of a scene with as many triangles left what it knew.
+Hash128 name_of_known(const BakeOptions& options, const Scene& scene, const Context& context) {
+  BakeOptions same = options;
+  same.radiosity.reuse_error = 0;
+  return hash_of(std::string("known reflections"), scene.triangles.size(), scene.surfaces.size(),
+                 options_json(same, context.seed));
+}
+
+std::vector<ScenePart> parts_of(const Scene& scene) {
+  std::vector<ScenePart> parts;
+  for (const Hash128& look : surface_looks(scene))
+    parts.push_back({look, Vec3(std::numeric_limits<float>::max()), Vec3(std::numeric_limits<float>::lowest())});
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    ScenePart& part = parts[scene.triangle_surface[t]];
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3& p = scene.positions[scene.triangles[t][corner]];
+      part.lower = glm::min(part.lower, p), part.upper = glm::max(part.upper, p);
+    }
+  }
+  return parts;
+}
+
+// The maps' pixels, those of the bake before where that is allowed; leaves what the next one may ask for.
+Status capture_or_keep(const BakeOptions& options, const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+                       PlannedReflections& planned, Context& context, MapReuse& reuse,
+                       std::atomic<std::uint64_t>& rays) {
+  const Scene& scene = surroundings.accel().scene();
+  KnownReflections now{.parts = parts_of(scene), .plans = planned.plans, .captured = {}, .inputs = context.inputs};
+  for (const FoundReflector& found : surroundings.reflectors()) now.captured.push_back(identity_of(scene, found));
+  const double error = options.radiosity.reuse_error;
+  if (planned.known) {
+    const std::vector<Box> edited = edited_boxes(planned.known->parts, now.parts);
+    ORIEL_TRY_VOID(capture_edited_maps(surroundings, outgoing, *planned.known, edited, error, context,
+                                       planned.plan.maps, reuse, &rays));
+  } else {
+    ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays));
+  }
+  reuse.asked = error;
+  reuse.views = planned.plan.kept;
+  // What took pixels from elsewhere is not passed on: errors would add up from edit to edit.
+  if (reuse.kept == 0 && reuse.views == 0)
+    remember_reflections(context, name_of_known(options, scene, context), std::move(now));
+  return {};
 }
 
 Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
@@ -180,6 +229,8 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};
   if (planned.all.empty()) return planned;
+  if (options.radiosity.reuse_error > 0)
+    planned.known = recall_reflections(context, name_of_known(options, accel.scene(), context));
   const std::vector<FoundReflector> found = planned.all.found.reflectors;
   BakeOptions fewer = options;
   for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
@@ -187,7 +238,7 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
     const double reused_before = reused_s(context);
     fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
     planned.all.found.reflectors = found;
-    ORIEL_TRY(planned.plan, plan_maps(fewer, accel, planned.all.eyes, context, planned.all.found.reflectors));
+    ORIEL_TRY(planned.plan, plan_maps(fewer, accel, context, planned));
     seconds -= clock.spent();
     planned.seconds = clock.spent() + (reused_s(context) - reused_before) / thread_count(context);
     if (divisor == 1 || kFewer * planned.seconds > seconds) break;
@@ -268,7 +319,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   const Surroundings surroundings(accel, reflectors, options.sight);
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
-  ORIEL_TRY_VOID(capture_maps(surroundings, to_planar, context, plan.maps, &rays));
+  ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
   if (options.view_scheme == ViewScheme::kPlanned) {
     const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};

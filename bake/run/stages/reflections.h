@@ -3,6 +3,7 @@
 
 #include "bake/radiance/curved/curved_reflectors.h"
 #include "bake/radiance/plan/samples.h"
+#include "bake/radiance/reuse/kept_maps.h"
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/baked_light.h"
@@ -32,15 +33,18 @@ struct ReflectionReport {
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
   std::vector<std::string> omissions;  // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
+  MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
 };
 
 // Reflections before there is light: what needs none of it.
 struct PlannedReflections {
   FoundReflections all;
-  ViewPlan plan;          // of the planar reflectors; without pixels
-  double seconds = 0;     // that planning takes where nothing of it is known already
-  double capture_s = 0;   // that the rest is likely to take; 0 unless asked for
-  double pixels() const;  // of all maps
+  ViewPlan plan;                          // of the planar reflectors; without pixels
+  double seconds = 0;                     // that planning takes where nothing of it is known already
+  double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
+  std::vector<KnownPlan> plans;           // to be known next time
+  std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
+  double pixels() const;                  // of all maps
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
 };
 

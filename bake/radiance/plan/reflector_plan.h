@@ -1,0 +1,53 @@
+// The views of one reflector, element by element, and what the last bake knew of them.
+#pragma once
+
+#include "bake/radiance/elements.h"
+#include "bake/radiance/plan/choice.h"
+
+namespace oriel {
+
+struct ElementPlan {
+  Element window;
+  std::vector<Vec3> candidates;  // viewpoints, reflector space
+  Choice choice;
+  double weight = 0;  // of its samples
+};
+inline void fields(Archive& archive, ElementPlan& e) {
+  archive(e.window.lower, e.window.upper, e.candidates, e.choice, e.weight);
+}
+
+struct ReflectorPlan {
+  ElementGrid grid;
+  std::vector<ElementPlan> elements;
+
+  // Shares of the samples' weight.
+  double seen() const { return mean(&Choice::seen); }
+  double sharp() const { return mean(&Choice::sharp); }
+
+ private:
+  double mean(double Choice::*share) const {
+    double sum = 0, total = 0;
+    for (const ElementPlan& e : elements) {
+      sum += e.weight * e.choice.*share;
+      total += e.weight;
+    }
+    return total > 0 ? sum / total : 1;
+  }
+};
+inline void fields(Archive& archive, ReflectorPlan& plan) {
+  archive(plan.grid.x, plan.grid.y, plan.elements);
+}
+
+// A plan, and the reflector that it is of (identity_of). Its candidates are those that were picked.
+struct KnownPlan {
+  Hash128 reflector;
+  ReflectorPlan plan;
+};
+inline void fields(Archive& archive, KnownPlan& k) {
+  archive(k.reflector, k.plan);
+}
+
+// The same for reflectors of the same shape and lobe at the same place, whose maps leave out the same emitters.
+Hash128 identity_of(const Scene& scene, const FoundReflector& found);
+
+}  // namespace oriel
