@@ -169,13 +169,14 @@ std::string program_identity() {
   return program ? hash128_hex(*program) : "";
 }
 
-std::string instruction_sets() {
+std::string instruction_sets(bool embree_fixed) {
   std::string names;
   const auto add = [&](const char* name, bool has) { names += has ? std::string(name) + " " : ""; };
+  add("fma", __builtin_cpu_supports("fma"));
+  if (embree_fixed) return names;
   add("sse4.2", __builtin_cpu_supports("sse4.2"));
   add("avx", __builtin_cpu_supports("avx"));
   add("avx2", __builtin_cpu_supports("avx2"));
-  add("fma", __builtin_cpu_supports("fma"));
   add("avx512", __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                     __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"));
   return names;

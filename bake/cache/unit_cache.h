@@ -48,8 +48,9 @@ class UnitCache : public UnitStore {
 // The bytes of this program, as a hash: another build may compute other bits.
 std::string program_identity();
 
-// The instruction sets of this machine that results may depend on: Embree and the C library choose among them.
-std::string instruction_sets();
+// The instruction sets of this machine that results may depend on: Embree and the C library choose among them. With
+// Embree's fixed (BakeOptions::reproducible) only FMA, which the C library's functions use where the CPU has it.
+std::string instruction_sets(bool embree_fixed);
 
 // A cache's files.
 struct CacheContent {

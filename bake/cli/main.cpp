@@ -146,7 +146,7 @@ std::optional<UnitCache> open_cache(const Arguments& args, Context& context) {
   std::filesystem::path folder = args.cache.folder;
   if (folder.empty()) folder = args.bake.output.parent_path() / kDefaultCache;
   if (args.cache.off) return std::nullopt;
-  const std::string program = program_identity() + (args.bake.reproducible ? "" : instruction_sets());
+  const std::string program = program_identity() + instruction_sets(args.bake.reproducible);
   return std::optional<UnitCache>(std::in_place, folder, program, context.warn);
 }
 

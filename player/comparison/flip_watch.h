@@ -1,6 +1,8 @@
 // FLIP between two frames, found in the background once they are at rest. No OpenGL.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <future>
 #include <optional>
 
@@ -28,6 +30,7 @@ class FlipWatch {
     FrameOptions options;
     float ev100 = 0;
     ToneCurve curve = ToneCurve::kAces;
+    std::array<std::uint64_t, 2> image_bytes{};  // of both packs, on the device: images may still come
   };
   static constexpr double kRest_s = 0.3;
 

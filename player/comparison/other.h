@@ -42,6 +42,8 @@ class Other {
   }
   std::vector<float> read_light() const { return renderer_->read_light(); }
   Renderer& renderer() { return *renderer_; }
+  // Of a pack's images, on the device. They come with draw().
+  std::uint64_t image_bytes() const { return scene_ ? scene_->images().state().used : 0; }
   // Any other RGBA picture instead, as Renderer::take_light().
   Status show(const FloatImage& rgba);
 

@@ -260,8 +260,8 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
       find_lit(scene.pack().light_field.lights, movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   if (lights.empty()) return std::nullopt;
   const BrightChange change{&of_movers_.change, &of_scene_.change, &of_scene_.surfaces};
-  Known now{scene.serial(), view.clip_from_pack,  view.width,           view.height,
-            depth.name(),   options.mover_lights, options.light_points, {}};
+  Known now{scene.serial(),       view.clip_from_pack,  view.width,           view.height, depth.name(),
+            options.mover_lights, options.light_points, options.visible_sets, {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
   if (now == known_) return change;
   if (known_.width != now.width || known_.height != now.height || known_.depth != now.depth)

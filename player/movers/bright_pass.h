@@ -65,6 +65,7 @@ class BrightPass {
     GLuint depth = 0;  // of the frame
     MoverLights lights = MoverLights::kShadowed;
     int points = 0;
+    bool visible_sets = true;  // which batches are shown depends on it
     std::vector<Mat4> poses;
     bool operator==(const Known&) const = default;
   };

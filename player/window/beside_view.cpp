@@ -31,19 +31,23 @@ void BesideView::replace(std::unique_ptr<Other> other) {
   shows_flip_ = false;
 }
 
-Status BesideView::draw(Renderer& first, const Other::Seen& seen, Session& session, double now_s) {
+Status BesideView::draw(Renderer& first, std::uint64_t image_bytes, const Other::Seen& seen, Session& session,
+                        double now_s) {
   session.comparison.elsewhere = is_elsewhere(seen.camera, other_->camera(seen.origin));
-  if (session.comparison.beside == Beside::kDifference) return draw_difference(first, seen, session, now_s);
+  if (session.comparison.beside == Beside::kDifference)
+    return draw_difference(first, image_bytes, seen, session, now_s);
   session.comparison.flip.reset();
   shows_flip_ = false;
   if (session.comparison.beside == Beside::kFirst) return {};
   return other_->draw(seen);
 }
 
-Status BesideView::draw_difference(Renderer& first, const Other::Seen& seen, Session& session, double now_s) {
+Status BesideView::draw_difference(Renderer& first, std::uint64_t image_bytes, const Other::Seen& seen,
+                                   Session& session, double now_s) {
   const IVec2 size(seen.width, seen.height);
   const float ev100 = session.shown_ev100;
-  if (watch_.look({seen.camera, size, seen.options, ev100, session.curve}, now_s)) {
+  if (watch_.look({seen.camera, size, seen.options, ev100, session.curve, {image_bytes, other_->image_bytes()}},
+                  now_s)) {
     ORIEL_TRY_VOID(other_->draw(seen));
     ByteImage left{UVec2(size).x, UVec2(size).y, 3, {}}, right = left;
     ORIEL_TRY(left.pixels, first.read_display(ev100, session.curve));

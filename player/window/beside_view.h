@@ -14,8 +14,9 @@ class BesideView {
   const Other& other() const { return *other_; }
   void replace(std::unique_ptr<Other> other);
 
-  // What the session asks for of the other one, once `first` has drawn its frame. Tells the session what FLIP found.
-  Status draw(Renderer& first, const Other::Seen& seen, Session& session, double now_s);
+  // What the session asks for of the other one, once `first` has drawn its frame, with so many bytes of images on the
+  // device. Tells the session what FLIP found.
+  Status draw(Renderer& first, std::uint64_t image_bytes, const Other::Seen& seen, Session& session, double now_s);
   // Into the bound framebuffer.
   void display(const Renderer& first, const Session& session) const;
   // What is seen, as a file, n x n pixels averaged to one.
@@ -23,7 +24,8 @@ class BesideView {
                std::uint32_t n);
 
  private:
-  Status draw_difference(Renderer& first, const Other::Seen& seen, Session& session, double now_s);
+  Status draw_difference(Renderer& first, std::uint64_t image_bytes, const Other::Seen& seen, Session& session,
+                         double now_s);
 
   std::unique_ptr<Other> other_;
   FlipWatch watch_;

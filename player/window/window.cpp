@@ -148,7 +148,9 @@ class Loop {
     meter_.loading = scene_->images().state();  // with what the frame wanted
     ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
     adapt_exposure(metered, dt_s, session_);
-    if (beside_) ORIEL_TRY_VOID(beside_->draw(renderer_, seen(width, height), session_, seconds_since(start_)));
+    if (beside_)
+      ORIEL_TRY_VOID(
+          beside_->draw(renderer_, meter_.loading.used, seen(width, height), session_, seconds_since(start_)));
     if (std::exchange(session_.screenshot, false)) keep_screenshot(next_name(".png"), width, height);
     if (std::exchange(session_.light_screenshot, false)) keep_screenshot(next_name(".exr"), width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -210,7 +212,7 @@ class Loop {
   Status redraw(int width, int height) {
     ORIEL_TRY_VOID(renderer_.render(*scene_, view_of(width, height), session_.frame));
     if (!beside_) return {};
-    return beside_->draw(renderer_, seen(width, height), session_, seconds_since(start_));
+    return beside_->draw(renderer_, meter_.loading.used, seen(width, height), session_, seconds_since(start_));
   }
 
   Other::Seen seen(int width, int height) const {

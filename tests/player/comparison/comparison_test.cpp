@@ -133,6 +133,9 @@ TEST(FlipWatches, AskOnceTheFramesRest) {
   while (watch.busy()) EXPECT_EQ(watch.found(), nullptr) << "the answer came too late";
   EXPECT_EQ(watch.found(), nullptr);
   EXPECT_TRUE(watch.look(key, 34));
+  key.image_bytes[1] = 1;
+  EXPECT_FALSE(watch.look(key, 35)) << "an image came";
+  EXPECT_TRUE(watch.look(key, 36));
 }
 
 }  // namespace
