@@ -16,6 +16,7 @@ class CheckingStore : public UnitStore {
   void keep(const Hash128& name, const KeptUnit& unit) override;
   void leave(const Hash128& name) override;
   UnitShare share() const override { return kept_.share(); }
+  std::optional<Bytes> peek(const Hash128& name) override { return kept_.peek(name); }
   std::optional<Bytes> recall(const Hash128& name) override { return kept_.recall(name); }
 
   std::uint64_t checked() const { return checked_; }

@@ -17,6 +17,8 @@ namespace oriel {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char *kUnit = ".unit", *kKnown = ".known";
+
 constexpr std::uint64_t kMagic = 0x32304e5545524fULL;  // "OREUN02"
 
 constexpr int kLevel = 1;                                // of zstd: writing is to cost next to nothing
@@ -99,22 +101,22 @@ UnitCache::UnitCache(fs::path folder, std::string program, std::function<void(co
       warn_(std::move(warn)),
       leases_(folder_ / "leases", lease_life) {}
 
-fs::path UnitCache::path_of(const Hash128& own_name) const {
+fs::path UnitCache::path_of(const Hash128& own_name, const char* ending) const {
   const std::string hex = to_hex(own_name);
-  return folder_ / hex.substr(0, 2) / (hex.substr(2) + ".unit");
+  return folder_ / hex.substr(0, 2) / (hex.substr(2) + ending);
 }
 
-std::optional<KeptUnit> UnitCache::read(const Hash128& own_name) const {
-  const fs::path path = path_of(own_name);
+std::optional<KeptUnit> UnitCache::read(const Hash128& own_name, const char* ending) const {
+  const fs::path path = path_of(own_name, ending);
   const auto file = bytes_of(path);
   auto unit = file ? unit_in(*file, own_name) : std::nullopt;
   if (unit) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // prune_cache() leaves what was used last
   return unit;
 }
 
-void UnitCache::write(const Hash128& own_name, const KeptUnit& unit) {
+void UnitCache::write(const Hash128& own_name, const char* ending, const KeptUnit& unit) {
   if (!writes_) return;
-  const fs::path path = path_of(own_name);
+  const fs::path path = path_of(own_name, ending);
   std::error_code ec;
   fs::create_directories(path.parent_path(), ec);
   const fs::path beside = path.string() + ".tmp-" + to_hex(hash_of(Leases::own_name(), ++written_));
@@ -124,7 +126,7 @@ void UnitCache::write(const Hash128& own_name, const KeptUnit& unit) {
 }
 
 std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
-  auto unit = read(own(name));
+  auto unit = read(own(name), kUnit);
   if (!unit) return std::nullopt;
   const std::lock_guard lock(mutex_);
   ++share_.reused;
@@ -132,13 +134,18 @@ std::optional<KeptUnit> UnitCache::find(const Hash128& name) {
   return unit;
 }
 
+std::optional<Bytes> UnitCache::peek(const Hash128& name) {
+  auto kept = read(own(name), kUnit);
+  return kept ? std::optional(std::move(kept->results)) : std::nullopt;
+}
+
 std::optional<Bytes> UnitCache::recall(const Hash128& name) {
-  auto kept = read(own(name));
+  auto kept = read(own(name), kKnown);
   return kept ? std::optional(std::move(kept->results)) : std::nullopt;
 }
 
 void UnitCache::remember(const Hash128& name, Bytes bytes) {
-  write(own(name), {std::move(bytes), 0});
+  write(own(name), kKnown, {std::move(bytes), 0});
 }
 
 // Where nothing can be written, nobody waits for it.
@@ -152,7 +159,7 @@ void UnitCache::leave(const Hash128& name) {
 
 void UnitCache::keep(const Hash128& name, const KeptUnit& unit) {
   const Hash128 own_name = own(name);
-  write(own_name, unit);
+  write(own_name, kUnit, unit);
   leases_.release(own_name);
   const std::lock_guard lock(mutex_);
   ++share_.computed;
@@ -190,17 +197,22 @@ struct CacheFile {
   std::uint64_t bytes = 0;
 };
 
-// As path_of() names units, or what is written beside them: nobody else's files.
-bool is_unit(const fs::path& path) {
+// As path_of() names files, or what is written beside them: nobody else's.
+bool is_kept(const fs::path& path) {
   const auto is_hex = [](std::string_view text, std::size_t digits) {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
   };
   const std::string name = path.filename().string(), folder = path.parent_path().filename().string();
-  const std::size_t dot = name.find(".unit");
+  const std::size_t dot = name.find('.');
   if (!is_hex(folder, 2) || dot == std::string::npos || !is_hex(std::string_view(name).substr(0, dot), 30))
     return false;
-  const std::string_view rest = std::string_view(name).substr(dot + 5);
-  return rest.empty() || rest.starts_with(".tmp-");
+  std::string_view rest = std::string_view(name).substr(dot);
+  for (const std::string_view ending : {std::string_view(kUnit), std::string_view(kKnown)})
+    if (rest.starts_with(ending)) {
+      rest.remove_prefix(ending.size());
+      return rest.empty() || rest.starts_with(".tmp-");
+    }
+  return false;
 }
 
 // Units of all programs, and what was being written when a process died.
@@ -208,7 +220,7 @@ Result<std::vector<CacheFile>> files_of(const fs::path& folder) {
   std::vector<CacheFile> files;
   std::error_code ec;
   for (fs::recursive_directory_iterator entry(folder, ec), end; !ec && entry != end; entry.increment(ec)) {
-    if (!is_unit(entry->path()) || !entry->is_regular_file(ec)) continue;
+    if (!is_kept(entry->path()) || !entry->is_regular_file(ec)) continue;
     files.push_back({entry->last_write_time(ec), entry->path(), entry->file_size(ec)});
   }
   if (ec) return fail(ErrorCode::kIo, folder.string(), "cannot be listed: {}", ec.message());
@@ -232,7 +244,8 @@ Result<CacheContent> prune_cache(const fs::path& folder, std::uint64_t bytes) {
   CacheContent removed;
   std::uint64_t kept = 0;
   for (const CacheFile& file : files) {
-    const bool unfinished = file.path.extension() != ".unit";  // of a process that may still be at it
+    const bool unfinished =
+        file.path.extension() != kUnit && file.path.extension() != kKnown;  // of a process that may still be at it
     if (unfinished ? file.used > day_ago : kept + file.bytes <= bytes) {
       kept += file.bytes;
       continue;

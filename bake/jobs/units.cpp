@@ -48,9 +48,8 @@ class Units {
 
   std::size_t count() const { return (loop_.count + side_ - 1) / side_; }
 
-  // Counted as nobody's: who asks may compute it all the same.
   bool recall(std::size_t unit, const Hash128& inputs) {
-    const std::optional<Bytes> kept = context_.units->recall(name_of(unit, inputs));
+    const std::optional<Bytes> kept = context_.units->peek(name_of(unit, inputs));
     std::uint64_t traced = 0;
     return kept && restore(*kept, [&](Archive& a) { results(unit, traced, a); });
   }

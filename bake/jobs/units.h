@@ -36,6 +36,8 @@ class UnitStore {
   virtual bool claim(const Hash128& name) = 0;
   virtual void keep(const Hash128& name, const KeptUnit& unit) = 0;
   virtual void leave(const Hash128& name) = 0;
+  // As find(), but not counted in share(): who looks may compute it all the same.
+  virtual std::optional<Bytes> peek(const Hash128&) { return std::nullopt; }
   virtual UnitShare share() const = 0;
   // What was remembered last under a name: no unit, since what it is depends on who came last. Not counted in share().
   virtual std::optional<Bytes> recall(const Hash128&) { return std::nullopt; }

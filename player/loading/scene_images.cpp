@@ -169,15 +169,17 @@ void SceneImages::receive(std::vector<Error>& errors) {
   for (Made& made : made_.take()) {
     Item& item = items_[made.item];
     const std::uint64_t bytes = item.bytes[static_cast<std::size_t>(made.level)];
+    if (made.image && item.target == made.level) {
+      uploads_.push_back({made.item, made.level, std::move(*made.image), {}, 0});  // in flight until it is there
+      continue;
+    }
     --in_flight_;
     bytes_in_flight_ -= bytes;
     if (!made.image) {
       give_up(made.item, std::move(made.image).error(), errors);
-    } else if (item.target != made.level) {  // things have changed meanwhile
+    } else {  // things have changed meanwhile
       account_.give_back(bytes);
       item.coming = -1;
-    } else {
-      uploads_.push_back({made.item, made.level, std::move(*made.image), {}, 0});
     }
   }
 }
@@ -231,6 +233,8 @@ bool SceneImages::step_upload(Clock::time_point end) {
     if (upload.textures.back().step(kSlice)) ++upload.next;
     if (Clock::now() >= end) return false;
   }
+  --in_flight_;
+  bytes_in_flight_ -= items_[upload.item].bytes[static_cast<std::size_t>(upload.level)];
   settle(upload);
   uploads_.erase(first);
   return Clock::now() < end;

@@ -25,10 +25,11 @@ class MemoryStore : public UnitStore {
   }
   void leave(const Hash128&) override {}
   UnitShare share() const override { return {}; }
-  std::optional<Bytes> recall(const Hash128& name) override {
-    if (auto unit = found(units_, name)) return unit->results;
-    return found(remembered_, name);
+  std::optional<Bytes> peek(const Hash128& name) override {
+    const auto unit = found(units_, name);
+    return unit ? std::optional(unit->results) : std::nullopt;
   }
+  std::optional<Bytes> recall(const Hash128& name) override { return found(remembered_, name); }
   void remember(const Hash128& name, Bytes bytes) override { remembered_[name] = std::move(bytes); }
   void forget() { units_.clear(); }
 
