@@ -100,6 +100,7 @@ class Surroundings::Walk {
                                           .throughput = throughput_,
                                           .mirror = mirror != nullptr,
                                           .mirrors_passed = mirrors_passed_,
+                                          .planar = reflector != nullptr,
                                           .glossy = reflector && !narrow});
     if (!mirror || (depth_known_ && !goes_on)) return true;
     bounce(*mirror, r, p);

@@ -26,7 +26,8 @@ struct SeenSurface {
   bool mirror = false;   // what it reflects follows, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
-  bool glossy = false;  // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
+  bool planar = false;               // of a planar reflector
+  bool glossy = false;  // its lobe is too wide to be followed but narrow enough that what it shows depends on the eye
   std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 
