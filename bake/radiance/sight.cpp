@@ -1,6 +1,8 @@
 #include "bake/radiance/sight.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "bake/scene/shade.h"
 #include "bake/trace/albedo.h"
@@ -12,6 +14,7 @@ constexpr int kMaxLayers = 64;             // of transmitting surfaces before th
 constexpr float kSeeThrough = 0.5f;        // transmittance from which depth is that of what lies behind
 constexpr float kImage = 0.5f;             // reflectance from which depth is that of the mirror's image
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
+constexpr float kBackdrop = 1e-3f;         // of the scene's diagonal: how far outside its bounds a plain sky stands
 
 }  // namespace
 
@@ -67,8 +70,31 @@ class Surroundings::Walk {
   Sight leave() {
     sight_.sky_direction = ray_.direction;
     sight_.sky_throughput = throughput_;
-    if (!depth_known_) sight_.state = Sight::kSky;
+    if (depth_known_) return sight_;
+    sight_.state = Sight::kSky;
+    if (scene_.sky_image.texels.empty()) meet_backdrop();
     return sight_;
+  }
+
+  // Where the ray leaves the scene's bounds.
+  void meet_backdrop() {
+    const float margin = kBackdrop * glm::length(scene_.upper - scene_.lower);
+    float nearest = std::numeric_limits<float>::max();
+    int side = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (ray_.direction[axis] == 0) continue;
+      const float face = ray_.direction[axis] > 0 ? scene_.upper[axis] + margin : scene_.lower[axis] - margin;
+      const float distance = (face - ray_.origin[axis]) / ray_.direction[axis];
+      if (distance < nearest) nearest = distance, side = axis;
+    }
+    if (!(nearest > 0) || side < 0) return;
+    Vec3 normal(0);
+    normal[side] = -std::copysign(1.0f, ray_.direction[side]);
+    sight_.state = Sight::kSurface;
+    sight_.backdrop = true;
+    sight_.mirrored = mirrors_passed_ > 0;
+    sight_.offset = offset_ + unfold_ * (ray_.origin + nearest * ray_.direction - start_);
+    sight_.normal = unfold_ * normal;
   }
 
   // True where the ray ends there.
@@ -100,6 +126,7 @@ class Surroundings::Walk {
                                           .throughput = throughput_,
                                           .mirror = mirror != nullptr,
                                           .mirrors_passed = mirrors_passed_,
+                                          .planar = reflector != nullptr,
                                           .glossy = reflector && !narrow});
     if (!mirror || (depth_known_ && !goes_on)) return true;
     bounce(*mirror, r, p);

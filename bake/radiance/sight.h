@@ -26,7 +26,8 @@ struct SeenSurface {
   bool mirror = false;   // what it reflects follows, and is not to be counted here
   bool emission = true;  // its own light is to be counted; where not, it is an emitter of the reflector's list
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
-  bool glossy = false;  // of a reflector whose lobe is too wide to be followed: what it shows depends on the eye
+  bool planar = false;               // of a planar reflector
+  bool glossy = false;  // its lobe is too wide to be followed but narrow enough that what it shows depends on the eye
   std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 
@@ -40,6 +41,7 @@ struct Sight {
   bool back = false;      // kNothing because it ended on the back of a one-sided surface
   Vec3 normal{0};         // unit, of the surface, unfolded; scene space
   Vec3 sky_direction{0};  // the last ray's, where it left the scene
+  bool backdrop = false;  // kSurface, but a sky of one colour
   Vec3 sky_throughput{0};
   std::uint32_t rays = 0;
 };
@@ -53,7 +55,10 @@ class Surroundings {
   // light alone.
   using Visit = std::function<bool(const SeenSurface&)>;
 
-  // The ray from a point on the plane of a reflector (scene space, unit direction to its front). Surfaces that let at
+  // The ray from a point on the plane of a reflector (scene space, unit direction to its front). A sky of one colour is
+  // a surface that stands around the scene's bounds: so its parallax is that of what it is seen through, and rays that
+  // pass a gap beside a window find it where they leave the scene, not where parallel ones from elsewhere end. A sky
+  // image is at infinity. Surfaces that let at
   // least half of the light pass in some channel are walked through; the offset is that of what lies behind. A planar
   // mirror is followed to what it reflects, and where it reflects more than half, the offset is that of the image.
   Sight look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit) const;

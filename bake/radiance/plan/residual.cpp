@@ -97,7 +97,8 @@ class ResidualCapture {
       const float step = glm::length(seen.sight.offset);
       if (!(step > 0)) return;
       passed += step;
-      if (!sky && seen.sight.state == Sight::kSurface && std::abs(passed - expected) <= kSameSurface * expected) {
+      if (!sky && seen.sight.state == Sight::kSurface && seen.sight.backdrop == aim.sky &&
+          std::abs(passed - expected) <= kSameSurface * expected) {
         ReflectedSample found = aim;
         found.image = Vec4(q + passed * along, 1);
         if (is_shown(found)) return;

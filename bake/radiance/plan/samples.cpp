@@ -91,6 +91,7 @@ std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::ui
   const Vec3 along = Vec3(-to_eye.x, -to_eye.y, to_eye.z) / distance;
   const Sight sight = look_along(surroundings, reflector, s.on_plane, along);
   if (sight.state == Sight::kNothing) return {};
+  s.sky = sight.state == Sight::kSky || sight.backdrop;
   const float alpha = found.roughness * found.roughness;
   if (sight.state == Sight::kSurface) {
     const float away = glm::length(sight.offset);
@@ -125,7 +126,7 @@ Result<std::vector<ReflectedSample>> draw_samples(const Surroundings& surroundin
       if (sample) samples.push_back(*sample);
     }
   }
-  const auto is_sky = [](const ReflectedSample& s) { return s.image.w == 0; };
+  const auto is_sky = [](const ReflectedSample& s) { return s.sky; };
   if (!shows_sky(surroundings.accel().scene()) && std::all_of(samples.begin(), samples.end(), is_sky)) samples.clear();
   for (ReflectedSample& s : samples) s.weight *= static_cast<float>(points.area()) / static_cast<float>(tries);
   return samples;
@@ -168,6 +169,7 @@ float needed_resolution(const Surroundings& surroundings, std::uint32_t reflecto
   if (sight.state != (sky ? Sight::kSky : Sight::kSurface)) return kNever;
   const float to_window = glm::length(through - viewpoint);
   if (!sky) {
+    if (sight.backdrop != s.sky) return kNever;
     const float expected = glm::length(Vec3(s.image) - through);
     if (std::abs(glm::length(sight.offset) - expected) > kSameDistance * expected) return kNever;
   }

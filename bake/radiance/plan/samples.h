@@ -14,14 +14,15 @@ inline constexpr double kSharpAngleRad = 2 * 2 * 0.57735026919 / 486;
 // A point of a reflector, an eye that sees it, and what it reflects there. Reflector space.
 struct ReflectedSample {
   Vec3 on_plane{0}, eye{0};
-  Vec4 image{0};      // homogeneous: the point behind the plane's front that is seen; w = 0: a direction, the sky
-  Vec3 normal{0};     // of the surface there, unit; sky: 0
+  Vec4 image{0};      // homogeneous: the point behind the plane's front that is seen; w = 0: a direction, a sky image
+  Vec3 normal{0};     // of the surface there, unit; a sky image: 0
   float spacing = 0;  // at the image, across the eye's ray: the widest that is still sharp; metres, sky: radians
   float weight = 0;   // solid angle that it stands for, on average over the eyes
+  bool sky = false;   // of one colour, or an image
 };
 
 inline void fields(Archive& archive, ReflectedSample& s) {
-  archive(s.on_plane, s.eye, s.image, s.normal, s.spacing, s.weight);
+  archive(s.on_plane, s.eye, s.image, s.normal, s.spacing, s.weight, s.sky);
 }
 
 // Pairs of an eye (scene space, those of `eyes` in turn) and a point of the reflector that see each other: `count` of

@@ -59,6 +59,17 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
   return sum / static_cast<float>(paths);
 }
 
+// Whether the lobe is to be traced: of glossy reflectors, and of all that are no planar ones but reflect more than
+// their diffuse share. Dark frames beside a window, bulbs and rough metals shine where the lamp is ahead, ten times as
+// bright as even light would have them.
+bool shows_lobe(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface) {
+  if (seen.mirror || seen.planar || seen.glossy) return seen.glossy;
+  const Scene& scene = baked.accel.scene();
+  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material];
+  const float r = max_component(reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye)));
+  return seen.hit.front && !material.unlit && r > max_component(surface.shade.diffuse) * (1 - r);
+}
+
 }  // namespace
 
 Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
@@ -82,8 +93,8 @@ std::uint32_t lobe_paths(double pixels) {
 
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays) {
-  if (!seen.glossy) return baked_radiance(baked, seen);
   const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye);
+  if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
   if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, paths, seed, rays);
 }

@@ -29,8 +29,9 @@ struct BakedScene {
 // that counts; backs reflect nothing. Constant cost: no further ray.
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
 
-// The same, but glossy reflectors show what their lobe does: its light is traced until it meets diffuse surfaces, the
-// mean of so many paths, of fewer from mirrors. So a mirror shows the highlights in a polished floor. Adds to `rays`.
+// The same, but glossy reflectors, and other surfaces that reflect more by their lobe than diffusely, show what that
+// lobe does: its light is traced until it meets diffuse surfaces, the mean of so many paths, of fewer from mirrors. So
+// a mirror shows the highlights in a polished floor and the shine of a dark window frame. Adds to `rays`.
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays);
 

@@ -88,7 +88,7 @@ TEST(Capture, StopsWhenAskedAndCountsItsRays) {
 
 // A pane before the mirror and something behind it: what the one map of the middle view sees.
 RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const OutgoingRadiance& outgoing,
-                    const Vec3& sky = Vec3(0)) {
+                    const Vec3& sky = Vec3(0), bool sky_image = false) {
   test::SceneParts parts;
   parts.add(SceneMaterial{});
   parts.diffuse(Vec3(0.5f));
@@ -96,6 +96,7 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   furnish(parts);
   Scene scene = parts.finish();
   scene.sky = sky;
+  if (sky_image) scene.sky_image = {2, 1, {sky, sky}};
   scene.lower = Vec3(-10);
   scene.upper = Vec3(10);
   auto accel = Accel::build(scene);
@@ -119,12 +120,24 @@ Vec3 white(const SeenSurface&) {
   return Vec3(1);
 }
 
-TEST(Capture, TheSkyIsAtInfinity) {
-  const RadianceMap map = one_map([](test::SceneParts&) {}, white, Vec3(3, 4, 5));
-  for (std::size_t i = 0; i < map.valid.size(); ++i) {
-    EXPECT_EQ(map.valid[i], 2);
-    EXPECT_EQ(map.disparity[i], 0);
-    EXPECT_EQ(map.radiance[i], Vec3(3, 4, 5));
+// One of one colour stands around the scene, here 10 m from its middle, an image at infinity.
+TEST(Capture, ASkyImageIsAtInfinityAndAPlainSkyAroundTheScene) {
+  const Vec3 sky(3, 4, 5);
+  for (const bool image : {false, true}) {
+    const RadianceMap map = one_map([](test::SceneParts&) {}, white, sky, image);
+    for (std::size_t i = 0; i < map.valid.size(); ++i) {
+      EXPECT_EQ(map.valid[i], image ? 2 : 1);
+      EXPECT_EQ(map.radiance[i], sky);
+      if (image) {
+        EXPECT_EQ(map.disparity[i], 0);
+        continue;
+      }
+      const Vec3 along = Vec3(map_point(map, Vec2(i % map.width, i / map.width) + 0.5f), 0) - map.eye;
+      const float edge = 10 * (1 + 1e-3f * 2 * std::sqrt(3.0f));  // outside of it by a thousandth of its diagonal
+      const float z = std::min(
+          {edge, edge * along.z / std::abs(along.x) + map.eye.z, edge * along.z / std::abs(along.y) + map.eye.z});
+      EXPECT_NEAR(map.disparity[i], disparity_of(map, z), 1e-4f);
+    }
   }
 }
 

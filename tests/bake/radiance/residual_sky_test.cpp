@@ -11,7 +11,7 @@ namespace oriel {
 namespace {
 
 // A mirror that looks at a panel under the sky.
-Scene terrace(const Vec3& sky, bool panel) {
+Scene terrace(const Vec3& sky, bool panel, bool image) {
   test::SceneParts parts;
   parts.add(SceneMaterial{});
   parts.diffuse(Vec3(0.5f));
@@ -19,6 +19,7 @@ Scene terrace(const Vec3& sky, bool panel) {
   if (panel) parts.quad("panel", 1, {0.7f, -2, 2}, {-1.4f, 0, 0}, {0, 4, 0});
   Scene scene = parts.finish();
   scene.sky = sky;
+  if (image) scene.sky_image = {2, 1, {sky, sky}};
   scene.lower = Vec3(-10);
   scene.upper = Vec3(10);
   return scene;
@@ -41,7 +42,7 @@ std::vector<Vec3> eyes_before() {
 
 TEST(SkySamples, ABlackSkyCountsBesideSurfacesAlone) {
   for (const bool panel : {false, true}) {
-    const Scene scene = terrace(Vec3(0), panel);
+    const Scene scene = terrace(Vec3(0), panel, false);
     const auto accel = Accel::build(scene);
     ASSERT_TRUE(accel);
     const auto reflectors = mirror_of(*accel);
@@ -49,16 +50,16 @@ TEST(SkySamples, ABlackSkyCountsBesideSurfacesAlone) {
     Context context;
     const auto samples = sample_reflections(Surroundings(*accel, reflectors, {}), 0, eyes_before(), 500, 1, context);
     ASSERT_TRUE(samples);
-    const auto skies = std::count_if(samples->begin(), samples->end(), [](const auto& s) { return s.image.w == 0; });
+    const auto skies = std::count_if(samples->begin(), samples->end(), [](const auto& s) { return s.sky; });
     EXPECT_EQ(samples->empty(), !panel);
     EXPECT_EQ(skies > 0, panel);
   }
 }
 
-// One map cannot see the sky behind the panel; its residual has it, at infinity.
+// One map cannot see the sky behind the panel; its residual has it, an image at infinity.
 TEST(SkySamples, ResidualsHoldTheSkyBehindThings) {
   for (const Vec3& sky : {Vec3(0), Vec3(3, 4, 5)}) {
-    const Scene scene = terrace(sky, true);
+    const Scene scene = terrace(sky, true, true);
     const auto accel = Accel::build(scene);
     ASSERT_TRUE(accel);
     auto reflectors = mirror_of(*accel);

@@ -53,8 +53,8 @@ TEST(BakedLight, LobesShowTheirReflectanceInAnEvenRoom) {
   }
 }
 
-// Those that are followed add nothing of their lobe, others show it as wide: R E/π.
-TEST(BakedLight, MirrorsAndWideLobesTraceNothing) {
+// Planar ones that are followed add nothing of their lobe, those at the end of a chain show it as wide: R E/π.
+TEST(BakedLight, PlanarMirrorsTraceNothing) {
   const EvenRoom room(0);
   const auto accel = Accel::build(room.scene);
   ASSERT_TRUE(accel);
@@ -64,10 +64,32 @@ TEST(BakedLight, MirrorsAndWideLobesTraceNothing) {
   ASSERT_TRUE(hit);
   std::uint64_t rays = 0;
   SeenSurface seen{hit, Vec3(0, 0, 1)};
+  seen.planar = true;
   EXPECT_NEAR(baked_radiance_with_lobes(baked, seen, 32, 7, rays).g, 0.9f, 0.01f);
   seen.mirror = true;
   EXPECT_EQ(baked_radiance_with_lobes(baked, seen, 32, 7, rays), Vec3(0));
   EXPECT_EQ(rays, 0u);
+}
+
+// What is no planar reflector: traced where it reflects more by its lobe than diffusely, as wide where less.
+TEST(BakedLight, SurfacesThatMostlyShineShowTheirLobe) {
+  for (const bool shines : {true, false}) {
+    EvenRoom room(0.9f);
+    room.scene.materials[0].metallic = 0;
+    room.scene.materials[0].base_color = Vec3(shines ? 0.01f : 0.5f);
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    const LightSet lights(room.scene);
+    const BakedScene baked{*accel, lights, room.atlas, room.pages};
+    const Hit hit = accel->intersect({{2, 1.5f, 1}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    const ShadePoint point = shade_point(room.scene, room.scene.triangles.size() - 1, Vec2(0.3f));
+    const float r = reflectance(point, 1).g, diffuse = point.diffuse.g * (1 - r);
+    std::uint64_t rays = 0;
+    const float shown = baked_radiance_with_lobes(baked, SeenSurface{hit, Vec3(0, 0, 1)}, 4096, 7, rays).g;
+    EXPECT_NEAR(shown, shines ? diffuse + 3.5f * r : diffuse + r, shines ? 0.05f * 3.5f * r : 1e-4f) << shines;
+    EXPECT_EQ(rays > 0, shines);
+  }
 }
 
 }  // namespace
