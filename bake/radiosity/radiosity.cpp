@@ -1,6 +1,7 @@
 #include "bake/radiosity/radiosity.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/cached/cached.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
 constexpr std::size_t kRaysAPath = 10;     // about
+constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by,
+constexpr double kStitchLeast = 0.03;      // or this: steps at seams show more than that
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
@@ -102,14 +105,16 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
 }
 
 Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                       Context& context, std::atomic<std::uint64_t>& rays, Radiosity& radiosity) {
+                       double error, Context& context, std::atomic<std::uint64_t>& rays, Radiosity& radiosity) {
   ORIEL_TRY(const Seams seams, find_seams(transport, atlas, radiosity.pages, context, rays));
   if (seams.points.empty()) return {};
   const auto power = [&] {
     return luminance(Vec3(incident_power(transport.accel.scene(), atlas, texel_map, radiosity)));
   };
   const double before = power();
-  radiosity.report.seams = stitch(seams, texel_map, radiosity.pages);
+  const double at_most =
+      error > 0 ? std::max(kStitchShare * error, kStitchLeast) : std::numeric_limits<double>::infinity();
+  radiosity.report.seams = stitch(seams, texel_map, at_most, radiosity.pages);
   if (before > 0) radiosity.report.seams.energy_change = power() / before - 1;
   return {};
 }
@@ -209,7 +214,7 @@ class Finisher {
         dilate(options_.dilation, result.pages[p]);
       }
       if (options_.stitch && !is_dark(transport_))
-        ORIEL_TRY_VOID(stitch_lightmap(transport_, atlas_, map_, context_, rays_, result));
+        ORIEL_TRY_VOID(stitch_lightmap(transport_, atlas_, map_, options_.error, context_, rays_, result));
     }
     summarize(transport_.accel.scene(), atlas_, map_, result);
     return {};

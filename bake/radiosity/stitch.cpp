@@ -17,6 +17,8 @@ constexpr double kOwn = 1;       // the largest change of a texel: of its standa
 constexpr double kPooled = 0.3;  // or, if more, of its light, as far as three times the errors around it go,
 constexpr double kSlack = 3;     // so many times kLeast beside, and twice kFree
 constexpr int kRounds = 4;
+constexpr double kRestraint = 0.6;  // of the freedom of texels, so many times at most, where they move by too much
+constexpr int kRestraints = 12;
 constexpr double kHeld = 1e-6;  // relative error of a texel that must not move
 constexpr std::uint32_t kNone = ~0u;
 
@@ -64,7 +66,7 @@ class Stitcher {
  public:
   Stitcher(std::span<const TexelMapPage> texel_map, std::vector<LightmapPage>& pages) : pages_(pages) {
     double sum = 0;
-    std::size_t count = 0;
+    std::size_t& count = valid_;
     for (std::size_t p = 0; p < pages.size(); ++p) {
       unknown_.emplace_back(pages[p].state.size(), kNone);
       covered_.emplace_back(pages[p].state.size(), 0.0f);
@@ -106,23 +108,20 @@ class Stitcher {
     }
   }
 
-  // False where there is nothing to solve, or rounding left no solution.
-  bool solve() {
+  // Texels move by no more than at_most, relative, root mean square over all texels. False where there is nothing to
+  // solve, or rounding left no solution.
+  bool solve(double at_most) {
     if (rows_.empty()) return false;
     for (Texel& t : texels_) {
       t.baked = light(t);
       for (int c = 0; c < 3; ++c) t.most[c] = largest_change(t, c);
     }
-    Columns change;
-    for (int round = 0; round < kRounds; ++round) {
-      change = least_squares();
-      if (change.rows() == 0 || !change.allFinite()) {
-        for (const Texel& t : texels_) light(t) = t.baked;
-        return false;
-      }
-      if (!hold_at_limits(change)) break;
+    if (!solve_within_limits()) return false;
+    // The least squares with less freedom for all: what is mended at a small price stays mended.
+    for (int round = 0; round < kRestraints && root_mean_square() > at_most; ++round) {
+      freedom_ *= kRestraint;
+      if (!solve_within_limits()) return false;
     }
-    for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = within_limits(texels_[i], changed(i, change));
     return true;
   }
 
@@ -173,6 +172,36 @@ class Stitcher {
     return any;
   }
 
+  bool solve_within_limits() {
+    for (Texel& t : texels_) light(t) = t.baked, t.held = false;
+    Columns change;
+    for (int round = 0; round < kRounds; ++round) {
+      change = least_squares();
+      if (change.rows() == 0 || !change.allFinite()) {
+        for (const Texel& t : texels_) light(t) = t.baked;
+        return false;
+      }
+      if (!hold_at_limits(change)) break;
+    }
+    for (std::size_t i = 0; i < texels_.size(); ++i) light(texels_[i]) = within_limits(texels_[i], changed(i, change));
+    return true;
+  }
+
+  // Squared change of a texel relative to its light; mean over channels.
+  double square(const Texel& t) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double off = double{light(t)[c]} - t.baked[c], floor = dark_, brighter = std::max(light(t)[c], t.baked[c]);
+      sum += off * off / (brighter * brighter + floor * floor) / 3;
+    }
+    return sum;
+  }
+  double root_mean_square() {
+    double sum = 0;
+    for (const Texel& t : texels_) sum += square(t);
+    return std::sqrt(sum / static_cast<double>(valid_));
+  }
+
   // Relative changes of the texels; no rows where there is no solution.
   Columns least_squares() const {
     const auto n = static_cast<Eigen::Index>(texels_.size()), m = static_cast<Eigen::Index>(rows_.size());
@@ -183,7 +212,7 @@ class Stitcher {
     Matrix normal = Matrix(jacobian.transpose() * jacobian);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Texel& t = texels_[static_cast<std::size_t>(i)];
-      const double error = t.held ? kHeld : error_of(t);
+      const double error = t.held ? kHeld : freedom_ * error_of(t);
       normal.coeffRef(i, i) += 1 / (error * error);
     }
     const Eigen::SimplicialLDLT<Matrix> solver(normal);
@@ -253,6 +282,8 @@ class Stitcher {
 
   std::vector<LightmapPage>& pages_;
   double dark_ = 0;
+  double freedom_ = 1;                               // of error_of()
+  std::size_t valid_ = 0;                            // texels of all pages
   std::vector<std::vector<std::uint32_t>> unknown_;  // by page and texel
   std::vector<std::vector<float>> covered_;          // share of the texel that has a baked surface
   std::vector<Texel> texels_;
@@ -261,14 +292,15 @@ class Stitcher {
 
 }  // namespace
 
-SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, std::vector<LightmapPage>& pages) {
+SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, double at_most,
+                  std::vector<LightmapPage>& pages) {
   SeamReport report;
   Stitcher stitcher(texel_map, pages);
   if (stitcher.black()) return report;
   for (const SeamPoint& point : seams.points) stitcher.add(point);
   stitcher.measure(report.mean_step_before, report.max_step_before);
   report.mean_step = report.mean_step_before, report.max_step = report.max_step_before;
-  if (!stitcher.solve()) return report;
+  if (!stitcher.solve(at_most)) return report;
   report.pairs = seams.pairs;
   stitcher.measure(report.mean_step, report.max_step);
   return report;

@@ -82,6 +82,7 @@ int bench(const char* file) {
   for (const std::uint32_t t : coherent_order(*texels))
     if (texels->visible[t] > 0) order.push_back(t);
   const Surroundings around(transport, *texels, true, 1);
+  const MoreSites sites(transport, *atlas, *map, *texels, context.seed);
   const std::vector<Vec3> irradiance(texels->count(), Vec3(1));
   const CachedLight cached = cache_light(*texels, *graph, irradiance, context);
   for (int round = 0; round < 3; ++round) {
@@ -90,7 +91,7 @@ int bench(const char* file) {
     HalfSums sums(texels->count(), false);
     rays = 0;
     const auto start = std::chrono::steady_clock::now();
-    if (!gather(*texels, around, order, kPerHalf, cached, context, sums, rays)) return 4;
+    if (!gather(*texels, sites, around, order, kPerHalf, cached, context, sums, rays)) return 4;
     const double seconds = seconds_since(start), count = static_cast<double>(order.size()) * 2 * kPerHalf * 1e-6;
     std::printf(
         "%s: %.1f Mray, one by one %.2f Mray/s, in the gather's order %.2f Mray/s (%.1f times), the gather %.2f Mray/s "

@@ -8,15 +8,19 @@
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
 #include "bake/radiosity/gather/moments.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
+constexpr std::uint32_t kCrowdedDirect = 16;            // where something is close by
 constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
 constexpr float kUncertain = 0.1f, kUneven = 0.02f;     // of the direct light
 constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
 constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
+constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
+constexpr float kDark = 0.002f;                         // of the mean
 constexpr double kDirectShare = 0.3;                    // of the squared error asked for
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
 constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
@@ -32,7 +36,8 @@ class CachedBake {
         rays_(rays),
         texels_(texels),
         order_(coherent_order(texels)),
-        direct_light_(t, atlas, maps, texels, context.seed),
+        sites_(t, atlas, maps, texels, context.seed),
+        direct_light_(t, texels, sites_, context.seed),
         around_(t, texels, direct_light_.closed_form(), context.seed),
         direct_(texels.count(), options.directional),
         gathered_(texels.count(), options.directional),
@@ -129,6 +134,10 @@ class CachedBake {
     // Closed forms do not tell where light comes from, samples do.
     const std::uint32_t first = options_.directional ? 4 * kFirstDirect : kFirstDirect;
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
+    // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
+    std::vector<std::uint32_t> crowded = order_;
+    std::erase_if(crowded, [&](std::uint32_t i) { return !texels_.has_many[i]; });
+    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, rays_));
     known_now_.glance = direct_.value;
     if (reuse_) take_known_direct();
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
@@ -137,7 +146,8 @@ class CachedBake {
       per_half *= 4;
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
-      const std::vector<std::uint32_t> list = uncertain_direct(round == 0 ? 0 : kUncertain);
+      std::vector<std::uint32_t> list = uncertain_direct(round == 0 ? 0 : kUncertain);
+      std::erase_if(list, [&](std::uint32_t i) { return direct_.per_half[i] >= per_half; });
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
     known_now_.first_direct = direct_.value;
@@ -242,18 +252,27 @@ class CachedBake {
     return baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
   }
 
+  bool is_dark(std::size_t i) const {
+    return luminance(direct_.value[i] + estimate_.value[i]) < kDark * luminance(Vec3(mean_));
+  }
+
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
 
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
     std::vector<std::uint32_t> list;
     std::copy_if(order_.begin(), order_.end(), std::back_inserter(list), [&](std::uint32_t i) { return !keeps(i); });
-    ORIEL_TRY_VOID(gather(texels_, around_, list, per_half, cached_, context_, gathered_, rays_));
-    // In a gap few rays find any light: none of a handful says nothing.
+    ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, per_half, cached_, context_, gathered_, rays_));
     std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half)
-      ORIEL_TRY_VOID(gather(texels_, around_, list, more, cached_, context_, gathered_, rays_));
+      ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, more, cached_, context_, gathered_, rays_));
     update_estimate();
+    // In a gap few rays find any light: none of a handful says nothing.
+    for (std::uint32_t more = 2 * kFirstCrowded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
+      std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
+      ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, more, cached_, context_, gathered_, rays_));
+      update_estimate();
+    }
     return {};
   }
 
@@ -286,8 +305,8 @@ class CachedBake {
         const std::vector<std::uint32_t> same(list.begin(), rest);
         list.erase(list.begin(), rest);
         const std::uint32_t per_half = std::min(most, 2 * std::max(1u, samples));
-        ORIEL_TRY_VOID(
-            refine([&] { return gather(texels_, around_, same, per_half, cached_, context_, gathered_, rays_); }));
+        ORIEL_TRY_VOID(refine(
+            [&] { return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_); }));
       }
       update_estimate();
     }
@@ -340,6 +359,7 @@ class CachedBake {
   std::atomic<std::uint64_t>& rays_;
   const Texels& texels_;
   std::vector<std::uint32_t> order_;
+  MoreSites sites_;
   DirectLight direct_light_;
   Surroundings around_;
   TexelGraph graph_;

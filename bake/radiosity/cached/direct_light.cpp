@@ -78,22 +78,9 @@ class DirectGroup {
   }
 
   void add_points(std::uint32_t i) {
-    const std::uint32_t texel = list_[i];
-    const Texels& t = d_.texels_;
-    const TexelMapPage& map = d_.maps_[t.page[texel]];
     for (int half = 0; half < kHalves; ++half)
-      for (std::uint32_t k = 0; k < per_half_; ++k) {
-        Point point{t.site_for(texel, half, k), i, half, k};
-        if (k >= kSitesPerHalf && t.visible[texel] == 1) {
-          Sampler sampler(d_.seed_ + static_cast<std::uint64_t>(half),
-                          std::uint64_t{t.page[texel]} << 32 | map.texel[t.index[texel]], k);
-          const Vec2 uv = sampler.next2();
-          const TexelPoint p = sample_texel(d_.atlas_, map, t.index[texel], Vec3(uv, sampler.next1()));
-          const SurfacePoint s = point_on_side(d_.t_.accel.scene(), p.triangle, p.barycentric);
-          point.site = {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
-        }
-        points_.push_back(point);
-      }
+      for (std::uint32_t k = 0; k < per_half_; ++k)
+        points_.push_back({d_.sites_.at(list_[i], half, k, rays_), i, half, k});
   }
 
   void aim_at_polygon(std::uint32_t l) {
@@ -218,9 +205,8 @@ class DirectGroup {
   std::uint64_t rays_ = 0;
 };
 
-DirectLight::DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                         const Texels& texels, std::uint64_t seed)
-    : t_(transport), atlas_(atlas), maps_(texel_map), texels_(texels), seed_(seed) {
+DirectLight::DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed)
+    : t_(transport), texels_(texels), sites_(sites), seed_(seed) {
   const Scene& scene = transport.accel.scene();
   polygons_ = find_polygon_lights(scene);
   closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;

@@ -1,7 +1,7 @@
 // Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
 #pragma once
 
-#include "bake/radiosity/texels/texels.h"
+#include "bake/radiosity/texels/more_sites.h"
 
 namespace oriel {
 
@@ -25,9 +25,7 @@ struct DirectSums {
 
 class DirectLight {
  public:
-  // texel_map and atlas: for points beyond the texels' own sites.
-  DirectLight(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-              const Texels& texels, std::uint64_t seed);
+  DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed);
 
   // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
   // polygons than it pays to visit one by one), see LightSet.
@@ -41,9 +39,8 @@ class DirectLight {
  private:
   friend class DirectGroup;
   const Transport& t_;
-  const Atlas& atlas_;
-  std::span<const TexelMapPage> maps_;
   const Texels& texels_;
+  const MoreSites& sites_;
   std::uint64_t seed_;
   std::vector<PolygonLight> polygons_;
   bool closed_form_ = true;

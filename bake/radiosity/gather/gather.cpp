@@ -12,9 +12,9 @@ constexpr std::size_t kGroup = 64;  // texels whose rays of one number are trace
 // One group of texels, in its thread's memory: what every ray needs of its texel is fetched once.
 class GroupGather {
  public:
-  GroupGather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
-              const CachedLight& cached, const ShiftedNet& net, bool moments)
-      : texels_(texels), around_(around), cached_(cached), net_(net), moments_(moments) {
+  GroupGather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
+              std::span<const std::uint32_t> list, const CachedLight& cached, const ShiftedNet& net, bool moments)
+      : texels_(texels), sites_(sites), around_(around), cached_(cached), net_(net), moments_(moments) {
     for (const std::uint32_t t : list) {
       if (texels.visible[t] == 0) continue;
       members_.emplace_back();
@@ -47,6 +47,7 @@ class GroupGather {
 
  private:
   static constexpr std::uint32_t kKeptSites = kSitesPerHalf;  // most texels have no others
+  static constexpr std::uint32_t kRaysAPoint = 16;            // once all that are kept were used
   struct Member {
     std::uint32_t texel = 0;
     std::uint32_t done = 0;  // samples of each half that it has
@@ -57,9 +58,17 @@ class GroupGather {
   };
 
   void fetch_sites(int half, std::uint32_t k, bool all) {
-    for (Member& m : members_)
-      for (std::uint32_t i = 0; i < kKeptSites && (all || texels_.has_many[m.texel]); ++i)
-        m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
+    for (Member& m : members_) {
+      const bool many = texels_.has_many[m.texel];
+      if (many ? m.done >= k + kKeptSites : !all) continue;
+      const std::uint32_t kept = texels_.kept_sites(m.texel, half);
+      if (many && k >= kept) {  // new points cost more than rays
+        if (k % kRaysAPoint == 0 || m.done > k - k % kRaysAPoint)
+          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + k / kRaysAPoint, rays_)));
+      } else {
+        for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
+      }
+    }
   }
 
   void add_sample(int half, std::uint32_t k) {
@@ -94,6 +103,7 @@ class GroupGather {
   }
 
   const Texels& texels_;
+  const MoreSites& sites_;
   const Surroundings& around_;
   const CachedLight& cached_;
   const ShiftedNet& net_;
@@ -108,9 +118,9 @@ class GroupGather {
 
 }  // namespace
 
-Status gather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
-              std::uint32_t per_half, const CachedLight& cached, Context& context, HalfSums& sums,
-              std::atomic<std::uint64_t>& rays) {
+Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
+              std::span<const std::uint32_t> list, std::uint32_t per_half, const CachedLight& cached, Context& context,
+              HalfSums& sums, std::atomic<std::uint64_t>& rays) {
   const ShiftedNet net(context.seed + 0x9a7e, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
@@ -128,7 +138,7 @@ Status gather(const Texels& texels, const Surroundings& around, std::span<const 
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {
-    GroupGather group(texels, around, part(g), cached, net, !sums.moments.empty());
+    GroupGather group(texels, sites, around, part(g), cached, net, !sums.moments.empty());
     group.run(per_half, sums);
     return group.rays();
   };

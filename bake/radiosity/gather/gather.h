@@ -4,6 +4,7 @@
 #include "bake/radiosity/gather/cached_light.h"
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/texels/more_sites.h"
 
 namespace oriel {
 
@@ -26,8 +27,8 @@ struct HalfSums {
 
 // Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. Directions are
 // a net (ShiftedNet) of each texel's and half's own. Error kStopped.
-Status gather(const Texels& texels, const Surroundings& around, std::span<const std::uint32_t> list,
-              std::uint32_t per_half, const CachedLight& cached, Context& context, HalfSums& sums,
-              std::atomic<std::uint64_t>& rays);
+Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
+              std::span<const std::uint32_t> list, std::uint32_t per_half, const CachedLight& cached, Context& context,
+              HalfSums& sums, std::atomic<std::uint64_t>& rays);
 
 }  // namespace oriel

@@ -10,7 +10,9 @@ struct GatherRay {
   float incidence = 0;       // of its direction: π times its density
   std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
   std::uint32_t sample = 0;
-  bool near = false;  // texels met from nearer than their side are not asked: a path goes on from the point met
+  // Texels met from nearer than their side, and those that something stands or hangs close to, are not asked: a path
+  // goes on from the point met.
+  bool near = false;
 };
 
 // A texel seen through lobes and layers.
@@ -45,9 +47,10 @@ class Surroundings {
   const Transport& transport() const { return t_; }
 
  private:
-  // Whether the mean over a texel says too little about the point that was met.
+  // Whether the mean over a texel says too little about the point that was met: it is close by, or the texel reaches
+  // under or into something and is lit elsewhere.
   bool is_near(const GatherRay& about, float distance, std::uint32_t texel) const {
-    return about.near && texel != kNoTexel && distance < side_[texel];
+    return about.near && texel != kNoTexel && (texels_.has_many[texel] || distance < side_[texel]);
   }
 
   // At a surface that is more than a matt wall, or that is near.

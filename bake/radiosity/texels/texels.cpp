@@ -4,6 +4,7 @@
 
 #include "bake/direct/buried.h"
 #include "bake/jobs/units.h"
+#include "bake/radiosity/texels/more_sites.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/warp.h"
@@ -84,12 +85,7 @@ class SiteFinder {
 
  private:
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
-    const TexelMapPage& map = maps_[texels.page[i]];
-    const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | map.texel[texels.index[i]];
-    Sampler sampler(seed_ + static_cast<std::uint64_t>(half), stream, k);
-    const Vec2 uv = sampler.next2();
-    const TexelPoint point = sample_texel(atlas_, map, texels.index[i], Vec3(uv, sampler.next1()));
-    return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
+    return texel_candidate(t_, atlas_, maps_, texels, i, half, k, seed_);
   }
   Vec3 albedo_at(const SurfacePoint& s) const {
     return shade_point(t_.accel.scene(), s.triangle, s.barycentric).diffuse;
@@ -103,10 +99,6 @@ class SiteFinder {
         glm::normalize(frame_from_normal(site.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
     ++rays;
     return bool(t_.accel.intersect({site.origin, direction, std::sqrt(texels.area_m2[i])}));
-  }
-
-  static TexelSite site_of(const SurfacePoint& s) {
-    return {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
   }
 
   const Transport& t_;

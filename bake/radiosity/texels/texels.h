@@ -47,6 +47,9 @@ struct Texels {
 
   std::size_t count() const { return page.size(); }
 
+  std::uint32_t kept_sites(std::uint32_t i, int half) const {
+    return has_many[i] ? static_cast<std::uint32_t>(many_sites.at(i)[half].size()) : kSitesPerHalf;
+  }
   // The k-th site of a half, again from the first where there are no more. The texel must be visible.
   const TexelSite& site_for(std::uint32_t i, int half, std::uint32_t k) const {
     if (!has_many[i]) return site[i][half * kSitesPerHalf + k % kSitesPerHalf];

@@ -119,6 +119,34 @@ TEST(Cached, TellsTheLightOfAGapNarrowerThanATexel) {
   EXPECT_LT(std::sqrt(squares / dark), 0.1) << "looked up in texels it is 0.96";
 }
 
+// A closed shaft stands on a lit floor, all of it on one texel, most of which lies outside. The shaft is as black as a
+// closed room, though rays in it meet that texel, and from far.
+TEST(Cached, NoLightComesThroughTexelsThatReachUnderAWall) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.8f));
+  parts.quad("floor", white, {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  constexpr float kLow = 0.12f, kHigh = 0.38f, kThick = 0.02f, kTop = 1.5f;  // of the inside
+  parts.box("west", white, {kLow - kThick, 0, kLow - kThick}, {kLow, kTop, kHigh + kThick});
+  parts.box("east", white, {kHigh, 0, kLow - kThick}, {kHigh + kThick, kTop, kHigh + kThick});
+  parts.box("north", white, {kLow, 0, kLow - kThick}, {kHigh, kTop, kLow});
+  parts.box("south", white, {kLow, 0, kHigh}, {kHigh, kTop, kHigh + kThick});
+  parts.box("lid", white, {kLow - kThick, kTop, kLow - kThick}, {kHigh + kThick, kTop + kThick, kHigh + kThick});
+  parts.scene().sky = Vec3(1);
+  const Baked b = bake(parts.finish(), 0.5f, to_error(0.05));
+  const auto is_inside = [](float x) { return x > kLow && x < kHigh; };
+  double light = 0;
+  int count = 0;
+  b.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t triangle) {
+    const SurfacePoint p = point_on_side(b.scene, triangle, Vec2(1.0f / 3));
+    const Vec3 ahead = p.position + 0.01f * p.geometric_normal;
+    if (!is_inside(ahead.x) || !is_inside(ahead.z) || ahead.y > kTop || ahead.y < 0.1f) return;
+    light += page.irradiance[t].g;
+    ++count;
+  });
+  ASSERT_GE(count, 8);
+  EXPECT_LT(light / count, 0.01 * kPiD) << "looked up in the floor's texel it is 0.15";
+}
+
 TEST(Cached, OneAndTwoThreadsGiveTheSameBytes) {
   const Scene scene = room(Feature::kDielectric);
   const Baked a = bake(scene, 0.15f, to_error(0.05), 1), b = bake(scene, 0.15f, to_error(0.05), 2);

@@ -1,0 +1,44 @@
+#include "bake/radiosity/texels/more_sites.h"
+
+#include "bake/direct/buried.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kTries = 64;  // for one point, where most of the texel is hidden
+constexpr std::uint64_t kBuriedSeed = 0x3a17;
+
+}  // namespace
+
+SurfacePoint texel_candidate(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps,
+                             const Texels& texels, std::size_t i, int half, std::uint32_t k, std::uint64_t seed) {
+  const TexelMapPage& map = maps[texels.page[i]];
+  const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | map.texel[texels.index[i]];
+  Sampler sampler(seed + static_cast<std::uint64_t>(half), stream, k);
+  const Vec2 uv = sampler.next2();
+  const TexelPoint point = sample_texel(atlas, map, texels.index[i], Vec3(uv, sampler.next1()));
+  return point_on_side(transport.accel.scene(), point.triangle, point.barycentric);
+}
+
+TexelSite site_of(const SurfacePoint& s) {
+  return {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
+}
+
+TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const {
+  if (k < texels_.kept_sites(i, half)) return texels_.site_for(i, half, k);
+  const auto cut = texels_.cut.find(i);
+  const bool divided = cut != texels_.cut.end();
+  const std::uint32_t first = texels_.has_many[i] ? 1 : 0;  // those of the first attempt are kept already
+  for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {
+    const SurfacePoint point =
+        texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
+    if (texels_.visible[i] == 1 && !divided) return site_of(point);
+    const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
+    const std::uint64_t seed = seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
+    if (is_buried(t_, point, seed, stream, k, rays)) continue;
+    if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
+  }
+  return texels_.site_for(i, half, k);
+}
+
+}  // namespace oriel

@@ -1,0 +1,34 @@
+// Points of a texel beyond the few that Texels keeps.
+#pragma once
+
+#include "bake/radiosity/texels/texels.h"
+
+namespace oriel {
+
+// A candidate for the k-th point of a texel's half: on its surface, whatever is there. Points of one k and half are
+// spread evenly.
+SurfacePoint texel_candidate(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps,
+                             const Texels& texels, std::size_t i, int half, std::uint32_t k, std::uint64_t seed);
+
+TexelSite site_of(const SurfacePoint& surface);
+
+// However many points of a texel are kept, those of a texel that is partly hidden see some of the light only: beyond
+// them new ones are drawn, from the part that the texel's light is taken from.
+class MoreSites {
+ public:
+  MoreSites(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps, const Texels& texels,
+            std::uint64_t seed)
+      : t_(transport), atlas_(atlas), maps_(maps), texels_(texels), seed_(seed) {}
+
+  // The k-th site of a half, of as many as are asked for. The texel must be visible. Adds to rays.
+  TexelSite at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const;
+
+ private:
+  const Transport& t_;
+  const Atlas& atlas_;
+  std::span<const TexelMapPage> maps_;
+  const Texels& texels_;
+  std::uint64_t seed_;
+};
+
+}  // namespace oriel
