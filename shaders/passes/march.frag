@@ -52,16 +52,19 @@ void main() {
   float pace = length(direction);
   float to_plane = u_ortho > 0.5 ? dot(u_depth_row, vec4(on_plane, 1.0)) : pace;
 
-  // Beyond the reflector's edges, where only blurring looks, the best map must do.
+  // Beyond the reflector's edges, where only blurring looks, the best map must do: there, or else at the edge. Filled from afar such a
+  // pixel would shine into the foot of a wall.
   bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
   int count = inside ? u_count : min(u_count, 1);
+  vec2 place = v_on_plane;
+  bool at_edge = inside;
   vec4 sum = vec4(0.0);
   float total = 0.0, trust = 0.0;
   int i = 0;
   do {  // asks at the end, so that no round is begun for nothing
     vec4 map = u_maps[i];
     vec3 eye = u_eyes[i].xyz;
-    MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, v_on_plane, direction);
+    MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, place, direction);
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
     if (hit.trust > 0.0) {
       float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
@@ -81,6 +84,11 @@ void main() {
       trust = max(trust, hit.trust);
     }
     ++i;
+    if (!at_edge && total == 0.0) {
+      at_edge = true;
+      place = clamp(v_on_plane, u_lower, u_upper);
+      i = 0;
+    }
   } while (i < count && (i < u_blended || trust <= kEnough));
   if (total > 0.0) o_light = sum / total;
 }
