@@ -11,18 +11,21 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kPilotPaths = 32;               // of each half: they tell how many it gets
+constexpr std::uint32_t kPilotPaths = 32;               // of each estimate: they tell how many it gets
 constexpr double kRaysAPath = 8;                        // about, with those to lights
-constexpr std::uint32_t kMostPaths = 8192;              // of each half
+constexpr std::uint32_t kMostPaths = 5461;              // of each estimate
 constexpr std::size_t kBatch = 64, kMostTexels = 4096;  // texels asked at a time and at most
 constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything
 constexpr double kWellKnown = 0.2;                      // of the squared error asked for
 
 struct HeldOut {
   std::size_t page = 0, index = 0;
-  DVec3 baked{0}, a{0}, b{0};  // lux
-  std::uint32_t paths = 0;     // of both halves
-  bool compared = false;       // false: nearly all of its points are buried
+  DVec3 baked{0};                             // lux
+  std::array<DVec3, kEstimates> estimates{};  // lux, independent of each other
+  std::uint32_t paths = 0;                    // of all of them
+  bool compared = false;                      // false: nearly all of its points are buried
+
+  DVec3 mean() const { return std::accumulate(estimates.begin(), estimates.end(), DVec3(0)) / double{kEstimates}; }
 };
 
 std::uint32_t reversed(std::uint32_t bits) {
@@ -68,13 +71,13 @@ class Verifier {
     for (const Context& own : seeds_) paths_.emplace_back(transport, atlas, false, own);
   }
 
-  // How many paths both halves together of a texel may have, so that a batch stays within the rays.
+  // How many paths an estimate may have, so that a batch stays within the rays.
   Status limit_paths(std::span<HeldOut> first) {
     ORIEL_TRY_VOID(ask(first, kPilotPaths));
     std::uint64_t paths = 0;
     for (const HeldOut& h : first) paths += h.paths;
     const double rays_a_path = static_cast<double>(rays_) / static_cast<double>(std::max<std::uint64_t>(paths, 1));
-    const double fit = static_cast<double>(rays_at_most_) / (rays_a_path * 2 * static_cast<double>(kBatch));
+    const double fit = static_cast<double>(rays_at_most_) / (rays_a_path * kEstimates * static_cast<double>(kBatch));
     most_paths_ = static_cast<std::uint32_t>(std::clamp(fit, double{kPilotPaths}, double{kMostPaths}));
     return {};
   }
@@ -82,17 +85,7 @@ class Verifier {
   Status ask(std::span<HeldOut> batch) { return ask(batch, most_paths_); }
   std::uint64_t rays() const { return rays_; }
 
-  // Squared relative error, mean over channels, free of the paths' noise on average: relative to what is brighter, the
-  // texel or its paths, so that no texel counts for more than its whole light.
-  double square(const HeldOut& h) const {
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const double brighter = std::max(h.baked[c], 0.5 * (h.a[c] + h.b[c]));
-      const double denominator = brighter * brighter + floor2_[c];
-      if (denominator > 0) sum += (h.baked[c] - h.a[c]) * (h.baked[c] - h.b[c]) / denominator;
-    }
-    return sum / 3;
-  }
+  double square(const HeldOut& h) const { return squared_error(h.baked, h.estimates, floor2_); }
 
  private:
   Status ask(std::span<HeldOut> batch, std::uint32_t most) {
@@ -103,16 +96,20 @@ class Verifier {
     loop.compute = [&](std::size_t k) {
       HeldOut& h = batch[k];
       std::uint64_t traced = 0;
-      const TexelSums pilot = sums(2, h, kPilotPaths, traced);
+      const TexelSums pilot = sums(kEstimates, h, kPilotPaths, traced);
       const std::uint32_t wanted = paths_for(h, pilot, most);
-      const TexelSums a = sums(0, h, wanted, traced), b = sums(1, h, wanted, traced);
-      h.a = a.irradiance(), h.b = b.irradiance();
-      h.paths = a.count + b.count;
-      h.compared = a.count * 4 >= wanted && b.count * 4 >= wanted;
+      h.paths = 0;
+      h.compared = true;
+      for (std::size_t e = 0; e < kEstimates; ++e) {
+        const TexelSums own = sums(e, h, wanted, traced);
+        h.estimates[e] = own.irradiance();
+        h.paths += own.count;
+        h.compared = h.compared && own.count * 4 >= wanted;
+      }
       return traced;
     };
     loop.results = [&](std::size_t k, Archive& archive) {
-      archive(batch[k].a, batch[k].b, batch[k].paths, batch[k].compared);
+      archive(batch[k].estimates, batch[k].paths, batch[k].compared);
     };
     return parallel_units(context_, loop, &rays_);
   }
@@ -139,7 +136,7 @@ class Verifier {
   double asked2_;
   std::uint64_t rays_at_most_;
   Context& context_;
-  std::array<Context, 3> seeds_;  // of both halves and the foretelling
+  std::array<Context, kEstimates + 1> seeds_;  // of the estimates and the foretelling
   std::vector<TexelPaths> paths_;
   std::uint32_t most_paths_ = kPilotPaths;
   std::atomic<std::uint64_t> rays_{0};
@@ -147,7 +144,7 @@ class Verifier {
 
 // The ratio Σ (baked - path) / Σ path in luminance, and 1.96 standard errors of it.
 void state_bias(std::span<const HeldOut> samples, Certificate& c) {
-  const auto path = [](const HeldOut& h) { return double{luminance(Vec3(0.5 * (h.a + h.b)))}; };
+  const auto path = [](const HeldOut& h) { return double{luminance(Vec3(h.mean()))}; };
   const auto off = [&](const HeldOut& h) { return luminance(Vec3(h.baked)) - path(h); };
   double difference = 0, paths = 0, squares = 0;
   for (const HeldOut& h : samples) difference += off(h), paths += path(h);
@@ -171,6 +168,19 @@ MeanSquare mean_square(std::span<const HeldOut> samples, const Verifier& verifie
 }
 
 }  // namespace
+
+double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& estimates, const DVec3& floor2) {
+  double sum = 0;
+  for (std::size_t divisor = 0; divisor < kEstimates; ++divisor) {
+    const DVec3 &a = estimates[(divisor + 1) % kEstimates], &b = estimates[(divisor + 2) % kEstimates];
+    for (int c = 0; c < 3; ++c) {
+      const double brighter = std::max(baked[c], estimates[divisor][c]);
+      const double denominator = brighter * brighter + floor2[c];
+      if (denominator > 0) sum += (baked[c] - a[c]) * (baked[c] - b[c]) / denominator;
+    }
+  }
+  return sum / (3 * kEstimates);
+}
 
 Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                             const Radiosity& radiosity, double asked, std::uint64_t rays_at_most, Context& context) {

@@ -34,7 +34,8 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
         texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
     if (texels_.visible[i] == 1 && !divided) return site_of(point);
     const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
-    const std::uint64_t seed = seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
+    const std::uint64_t seed =
+        seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
     if (is_buried(t_, point, seed, stream, k, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
   }

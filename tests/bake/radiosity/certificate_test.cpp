@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bake/trace/sampler.h"
+
 #include "tests/bake/radiosity/baked.h"
 #include "tests/bake/radiosity/rooms.h"
 
@@ -97,6 +99,27 @@ TEST(CoveredTexels, AreBuriedForBothEstimators) {
     states.push_back(b.radiosity.pages[0].state);
   }
   EXPECT_EQ(states[0], states[1]);
+}
+
+// A texel lit by what one path in ten finds: where it is right, nothing is off on average, however often all paths miss
+// the light. (Divided by the brighter of the texel and those paths, 0.75 were off.)
+TEST(SquaredError, KnowsNothingOfThePathsNoise) {
+  constexpr std::uint32_t kTexels = 2'000'000;
+  for (const double light : {1.0, 0.5}) {
+    double sum = 0, squares = 0;
+    for (std::uint32_t i = 0; i < kTexels; ++i) {
+      Sampler sampler(5, i, 0);
+      std::array<DVec3, kEstimates> estimates;
+      for (DVec3& e : estimates) e = DVec3(sampler.next1() < 0.1f ? 10.0 : 0.0);
+      const double square = squared_error(DVec3(light), estimates, DVec3(0));
+      sum += square, squares += square * square;
+    }
+    // The divisor is the texel's light where the third estimate has none.
+    const double off = (light - 1) * (light - 1);
+    const double noise = std::sqrt(squares) / kTexels;
+    EXPECT_LT(noise, 0.03);
+    EXPECT_NEAR(sum / kTexels, 0.9 * off / (light * light) + 0.1 * off / 100, 4 * noise) << light;
+  }
 }
 
 }  // namespace

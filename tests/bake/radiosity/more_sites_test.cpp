@@ -35,7 +35,8 @@ struct Strip {
     std::atomic<std::uint64_t> rays{0};
     texels = *list_texels(transport(), atlas, map, context, rays);
     for (std::uint32_t i = 0; i < texels.count(); ++i)
-      if (scene.triangle_surface[map[texels.page[i]].fragments[map[texels.page[i]].first[texels.index[i]]].triangle] == 0)
+      if (scene.triangle_surface[map[texels.page[i]].fragments[map[texels.page[i]].first[texels.index[i]]].triangle] ==
+          0)
         floor = i;
   }
   Transport transport() const { return {*accel, *lights, {}}; }
