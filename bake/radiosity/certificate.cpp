@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t kPilotPaths = 32;               // of each estimate: they tell how many it gets
 constexpr double kRaysAPath = 8;                        // about, with those to lights
+constexpr std::uint32_t kDarkPaths = 8 * kPilotPaths;   // where a pilot that finds no light foretells nothing:
+constexpr double kDark = 0.1;                           // of the mean
 constexpr std::uint32_t kMostPaths = 5461;              // of each estimate
 constexpr std::size_t kBatch = 64, kMostTexels = 4096;  // texels asked at a time and at most
 constexpr std::size_t kLeastCompared = 8;               // for an interval to mean anything
@@ -126,7 +128,8 @@ class Verifier {
     double relative = 0;
     for (int c = 0; c < 3; ++c)
       if (const double d = h.baked[c] * h.baked[c] + floor2_[c]; d > 0) relative += variance[c] / d / 3;
-    std::uint32_t paths = kPilotPaths;
+    const float light = luminance(Vec3(h.baked)), mean = 100 * luminance(Vec3(glm::sqrt(floor2_)));
+    std::uint32_t paths = light < static_cast<float>(kDark) * mean ? std::min(most, kDarkPaths) : kPilotPaths;
     while (paths * 2 <= most && paths * asked2_ < relative) paths *= 2;
     return paths;
   }
