@@ -65,7 +65,7 @@ struct SeenAt {
 
 bool same_surface(const SeenAt& a, const SeenAt& b) {
   const Sight &s = a.light.sight, &t = b.light.sight;
-  if (s.state != t.state || s.mirrored != t.mirrored) return false;
+  if (s.state != t.state || s.mirrored != t.mirrored || s.backdrop != t.backdrop) return false;
   if (s.state == Sight::kSky) return true;
   const float away = std::abs(glm::dot(s.normal, b.at - a.at));
   return away <= kSameDistance * glm::length(s.offset) && glm::dot(s.normal, t.normal) >= kSameNormal;

@@ -130,7 +130,7 @@ class Verifier {
       if (const double d = h.baked[c] * h.baked[c] + floor2_[c]; d > 0) relative += variance[c] / d / 3;
     const float light = luminance(Vec3(h.baked)), mean = 100 * luminance(Vec3(glm::sqrt(floor2_)));
     std::uint32_t paths = light < static_cast<float>(kDark) * mean ? std::min(most, kDarkPaths) : kPilotPaths;
-    while (paths * 2 <= most && paths * asked2_ < relative) paths *= 2;
+    while (paths < most && paths * asked2_ < relative) paths = std::min(2 * paths, most);
     return paths;
   }
 

@@ -18,7 +18,8 @@ constexpr double kPooled = 0.3;  // or, if more, of its light, as far as three t
 constexpr double kSlack = 3;     // so many times kLeast beside, and twice kFree
 constexpr int kRounds = 4;
 constexpr double kRestraint = 0.6;  // of the freedom of texels, so many times at most, where they move by too much
-constexpr int kRestraints = 12;
+constexpr double kStrongest = 0.1;
+constexpr int kRestraints = 8;
 constexpr double kHeld = 1e-6;  // relative error of a texel that must not move
 constexpr std::uint32_t kNone = ~0u;
 
@@ -118,8 +119,10 @@ class Stitcher {
     }
     if (!solve_within_limits()) return false;
     // The least squares with less freedom for all: what is mended at a small price stays mended.
-    for (int round = 0; round < kRestraints && root_mean_square() > at_most; ++round) {
-      freedom_ *= kRestraint;
+    for (int round = 0; round < kRestraints; ++round) {
+      const double moved = root_mean_square();
+      if (moved <= at_most) break;
+      freedom_ *= std::clamp(kRestraint * at_most / moved, kStrongest, kRestraint);
       if (!solve_within_limits()) return false;
     }
     return true;
@@ -198,8 +201,9 @@ class Stitcher {
   }
   double root_mean_square() {
     double sum = 0;
-    for (const Texel& t : texels_) sum += square(t);
-    return std::sqrt(sum / static_cast<double>(valid_));
+    for (const Texel& t : texels_)
+      if (covered_[t.page][t.texel] > 0) sum += square(t);  // others lie beside charts
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(valid_, 1)));
   }
 
   // Relative changes of the texels; no rows where there is no solution.

@@ -191,6 +191,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
               return baked;
             }));
   result.radiosity = radiosity.report;
+  planned.light_reused = radiosity.report.reuse.kept > 0;
   context.finishable = true;
   warn_about_error(options, radiosity.report, deadline, context);
   ORIEL_TRY(result.ledger, timed("ledger", [&](std::uint64_t& rays) {

@@ -189,15 +189,26 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
   omitted.push_back(line);
 }
 
+// What plans are functions of, beside the stage's inputs.
+void add_inputs(std::uint32_t reflector, std::span<const Vec3> eyes, const PlannedViewOptions& options, Archive& key) {
+  key(reflector, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
+      options.max_elements, options.map_resolution);
+}
+
 // The plan that is known of the reflector, where it holds still. Whether it does.
-Result<bool> take_known(Planner& planner, std::uint32_t reflector, const Hash128& identity,
-                        std::span<const KnownPlan> known, Context& context, ReflectorPlan& plan) {
+Result<bool> take_known(Planner& planner, std::uint32_t reflector, const Hash128& identity, std::span<const Vec3> eyes,
+                        const PlannedViewOptions& options, std::span<const KnownPlan> known, Context& context,
+                        ReflectorPlan& plan) {
   const auto found =
       std::find_if(known.begin(), known.end(), [&](const KnownPlan& k) { return k.reflector == identity; });
   if (found == known.end()) return false;
   bool holds = false;
   ORIEL_TRY_VOID(one_unit(
-      context, "known views", [&](Archive& key) { key(reflector, *found); },
+      context, "known views",
+      [&](Archive& key) {
+        add_inputs(reflector, eyes, options, key);
+        key(*found);
+      },
       [&]() -> Status {
         ORIEL_TRY(holds, planner.holds(reflector, found->plan));
         return {};
@@ -265,15 +276,11 @@ Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
     ReflectorPlan plan;
-    ORIEL_TRY(const bool kept, take_known(planner, r, identity, known, context, plan));
+    ORIEL_TRY(const bool kept, take_known(planner, r, identity, eyes, options, known, context, plan));
     out.kept += kept;
     if (!kept) {
       ORIEL_TRY_VOID(one_unit(
-          context, "views",
-          [&](Archive& key) {
-            key(r, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
-                options.max_elements, options.map_resolution);
-          },
+          context, "views", [&](Archive& key) { add_inputs(r, eyes, options, key); },
           [&]() -> Status {
             ORIEL_TRY(plan, planner.plan(r));
             return {};

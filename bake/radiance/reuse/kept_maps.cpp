@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kBlock = 4;      // pixels along each side, of which one is captured anew
-constexpr double kRaysABand = 1024;      // that these take, about
+constexpr double kRaysABand = 1 << 13;   // that these take, about
 constexpr double kDarkest = 0.01;        // of the map's mean: what darker light is compared with
 constexpr float kSameDisparity = 0.03f;  // relative, as where a map is read
 constexpr float kBehind = 1 + 1e-4f;     // of the distance to what a pixel shows: still that

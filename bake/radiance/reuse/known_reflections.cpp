@@ -10,7 +10,7 @@ constexpr float kEnlarged = 1e-4f;      // of the box's size and distance from t
 
 // Inlined into a writer of an empty vector, GCC 12 warns of an overflow that is none (-Wstringop-overflow).
 [[gnu::noinline]] void fields(Archive& archive, KnownReflections& k) {
-  archive(k.parts, k.plans, k.captured, k.inputs);
+  archive(k.parts, k.plans, k.captured, k.inputs, k.around);
 }
 
 std::vector<Hash128> looks_of(std::span<const ScenePart> parts) {
@@ -49,7 +49,8 @@ std::vector<Box> edited_boxes(std::span<const ScenePart> before, std::span<const
   std::vector<Box> boxes;
   const auto add_unknown = [&](std::span<const ScenePart> parts, const std::vector<Hash128>& looks) {
     for (const ScenePart& part : parts)
-      if (!std::binary_search(looks.begin(), looks.end(), part.look)) boxes.push_back(enlarged(part));
+      if (part.lower.x <= part.upper.x && !std::binary_search(looks.begin(), looks.end(), part.look))
+        boxes.push_back(enlarged(part));
   };
   add_unknown(before, looks_of(now));
   add_unknown(now, looks_of(before));

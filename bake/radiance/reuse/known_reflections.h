@@ -23,6 +23,7 @@ struct KnownReflections {
   std::vector<KnownPlan> plans;
   std::vector<Hash128> captured;  // by the number that maps had it under: which reflector (identity_of)
   Hash128 inputs;                 // of the stage that captured the maps
+  Hash128 around;  // the scene's bounds and the sky: where it is another, all that sees the sky is edited
 };
 
 // Nothing where the store holds none, or one that is not whole.

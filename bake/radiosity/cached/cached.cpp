@@ -270,6 +270,7 @@ class CachedBake {
     // In a gap few rays find any light: none of a handful says nothing.
     for (std::uint32_t more = 2 * kFirstCrowded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
       std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
+      if (list.empty()) break;
       ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, more, cached_, context_, gathered_, rays_));
       update_estimate();
     }

@@ -103,10 +103,17 @@ Status capture_or_keep(const BakeOptions& options, const Surroundings& surroundi
                        PlannedReflections& planned, Context& context, MapReuse& reuse,
                        std::atomic<std::uint64_t>& rays) {
   const Scene& scene = surroundings.accel().scene();
-  KnownReflections now{.parts = parts_of(scene), .plans = planned.plans, .captured = {}, .inputs = context.inputs};
+  if (!context.units) return capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays);
+  const SkyImage& sky = scene.sky_image;
+  KnownReflections now{
+      .parts = parts_of(scene),
+      .plans = planned.plans,
+      .captured = {},
+      .inputs = context.inputs,
+      .around = hash_of(scene.lower, scene.upper, scene.sky, sky.width, sky.height, sky.texels, sky.rotation_rad)};
   for (const FoundReflector& found : surroundings.reflectors()) now.captured.push_back(identity_of(scene, found));
   const double error = options.radiosity.reuse_error;
-  if (planned.known) {
+  if (planned.known && planned.known->around == now.around) {
     const std::vector<Box> edited = edited_boxes(planned.known->parts, now.parts);
     ORIEL_TRY_VOID(capture_edited_maps(surroundings, outgoing, *planned.known, edited, error, context,
                                        planned.plan.maps, reuse, &rays));
@@ -116,7 +123,7 @@ Status capture_or_keep(const BakeOptions& options, const Surroundings& surroundi
   reuse.asked = error;
   reuse.views = planned.plan.kept;
   // What took pixels from elsewhere is not passed on: errors would add up from edit to edit.
-  if (reuse.kept == 0 && reuse.views == 0)
+  if (reuse.kept == 0 && reuse.views == 0 && !planned.light_reused)
     remember_reflections(context, name_of_known(options, scene, context), std::move(now));
   return {};
 }

@@ -44,6 +44,7 @@ struct PlannedReflections {
   double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
   std::vector<KnownPlan> plans;           // to be known next time
   std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
+  bool light_reused = false;              // some of the lightmap is that of the bake before
   double pixels() const;                  // of all maps
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
 };

@@ -91,7 +91,7 @@ class KeptMaps : public testing::Test {
     const StageInputs inputs(context, std::string("light"), f.box, ++bakes_);
     const Surroundings surroundings(*accel, out.reflectors, {});
     const std::vector<ScenePart> parts = {f.part()};
-    out.known = {parts, {}, {identity_of(f.room.scene, out.reflectors[0])}, context.inputs};
+    out.known = {parts, {}, {identity_of(f.room.scene, out.reflectors[0])}, context.inputs, {}};
     std::atomic<std::uint64_t> rays{0};
     if (before) {
       EXPECT_TRUE(capture_edited_maps(surroundings, outgoing, *before, edited_boxes(before->parts, parts), error,
@@ -159,12 +159,13 @@ TEST_F(KeptMaps, WhatIsRememberedIsWholeOrNothing) {
   context.units = &store_;
   const Hash128 name = hash_of(1);
   EXPECT_FALSE(recall_reflections(context, name));
-  KnownReflections known{{{hash_of(2), Vec3(1), Vec3(2)}}, {}, {hash_of(3)}, hash_of(4)};
+  KnownReflections known{{{hash_of(2), Vec3(1), Vec3(2)}}, {}, {hash_of(3)}, hash_of(4), hash_of(5)};
   remember_reflections(context, name, known);
   const auto found = recall_reflections(context, name);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->captured, known.captured);
   EXPECT_EQ(found->inputs, known.inputs);
+  EXPECT_EQ(found->around, known.around);
   EXPECT_EQ(found->parts[0].upper, Vec3(2));
   Bytes bytes = *store_.recall(name);
   bytes.pop_back();
@@ -192,9 +193,11 @@ TEST(EditedBoxes, AreThoseOfWhatIsNewOrGone) {
   EXPECT_GE(one[0].upper.x, 65);
 }
 
-// A screen put before the viewpoints' sight, or nothing.
+// A screen put before the viewpoints' sight, or nothing; or eyes that go to its other side, while what was found for
+// the first ones is still in the store.
 TEST(KnownViews, StayWhileTheyShowAsMuch) {
   std::vector<Vec3> eyes;
+  MemoryStore store;
   for (int i = 0; i < 200; ++i) eyes.push_back({0.4f + 0.016f * i, 1.6f, 1 + 0.015f * ((37 * i) % 200)});
   const auto plan = [&](const MirrorRoom& room, std::span<const KnownPlan> known, std::vector<KnownPlan>* now) {
     const auto accel = Accel::build(room.scene);
@@ -202,6 +205,8 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
     auto reflectors = find_reflectors(*accel, room.materials(), room.reflector_options()).reflectors;
     const auto as_found = reflectors;
     Context context;
+    context.units = &store;
+    const StageInputs inputs(context, room.scene.positions);
     auto made = plan_views_for_eyes(Surroundings(*accel, as_found, {}), eyes, {}, context, reflectors, known, now);
     EXPECT_TRUE(made);
     return made ? *made : ViewPlan();
@@ -223,6 +228,18 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
   parts.box("screen", parts.diffuse(Vec3(0.5f)), {1.9f, 0, 0.5f}, {2.1f, 2.2f, 2});
   screened.scene = parts.finish();
   EXPECT_EQ(plan(screened, known, nullptr).kept, 0u);
+
+  const std::vector<Vec3> everywhere = eyes;
+  const auto keep_eyes = [&](bool left) {
+    eyes = everywhere;
+    std::erase_if(eyes, [&](const Vec3& eye) { return (eye.x < 1.9f) != left || eye.z > 2; });
+  };
+  keep_eyes(true);
+  std::vector<KnownPlan> of_left;
+  plan(screened, {}, &of_left);
+  EXPECT_EQ(plan(screened, of_left, nullptr).kept, 1u);
+  keep_eyes(false);
+  EXPECT_EQ(plan(screened, of_left, nullptr).kept, 0u);
 }
 
 }  // namespace
