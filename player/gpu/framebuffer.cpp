@@ -35,6 +35,14 @@ Framebuffer Framebuffer::create_for_layers() {
   return framebuffer;
 }
 
+void Framebuffer::copy_depth_stencil(const Framebuffer& other, const IVec2& from, const IVec2& size,
+                                     const IVec2& to) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, other.handle_.name());
+  glBlitFramebuffer(from.x, from.y, from.x + size.x, from.y + size.y, to.x, to.y, to.x + size.x, to.y + size.y,
+                    GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+}
+
 void Framebuffer::attach_depth_layer(const TextureArray& depth, int layer) const {
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
 }

@@ -1,6 +1,7 @@
 // What a pass draws into.
 #pragma once
 
+#include "formats/core/vec.h"
 #include "player/gpu/texture.h"
 
 namespace oriel::gpu {
@@ -16,6 +17,9 @@ class Framebuffer {
   static Framebuffer create_for_layers();
 
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, handle_.name()); }
+  // Copies depth and stencil from another framebuffer, whose own have the same format, into this one, which is bound:
+  // `size` pixels from `from` there to `to` here.
+  void copy_depth_stencil(const Framebuffer& other, const IVec2& from, const IVec2& size, const IVec2& to) const;
   // Draws into a level of a texture from now on.
   void attach_color_level(const Texture& color, int level) const;
   // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.

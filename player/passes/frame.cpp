@@ -132,8 +132,11 @@ Result<std::vector<Renderer::Candidate>> Renderer::draw_masks(GpuScene& scene, c
 }
 
 // M into the image.
-Status Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view,
-                                     const ImageRect& rect, const FrameOptions& options, FrameStats& stats) {
+Status Renderer::draw_mirrored_world(GpuScene& scene, const Candidate& candidate, const GpuKernel* kernel,
+                                     const View& view, const ImageRect& rect, const FrameOptions& options,
+                                     FrameStats& stats) {
+  const GpuReflector& reflector = *candidate.reflector;
+  const ShownPixels shown{&frame_->framebuffer, candidate.value, kReflectorBits};
   switch (options.reflections) {
     case Reflections::kPoints:
       return reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
@@ -141,7 +144,7 @@ Status Renderer::draw_mirrored_world(GpuScene& scene, const GpuReflector& reflec
       draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, options.white, stats);
       return {};
     default:
-      march_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+      march_pass_.draw(scene, reflector, kernel, view, rect, *image_, shown, options, stats);
       return {};
   }
 }
@@ -158,14 +161,14 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && candidate.value > 0;
   if (counted && !kernel.blurs() && options.reflections == Reflections::kMarch) {
-    FrameStats unused;
-    march_pass_.draw(scene, reflector, view, rect, *image_, options, unused, true);
+    march_pass_.measure(scene, reflector, view, rect, *image_, options);
     const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_sharp);
     stats.mirror_pixels += count.pixels;
     stats.sharp += count.counted;
   }
-  ORIEL_TRY_VOID(
-      clock_.time(Pass::kReflect, [&] { return draw_mirrored_world(scene, reflector, view, rect, options, stats); }));
+  ORIEL_TRY_VOID(clock_.time(Pass::kReflect, [&] {
+    return draw_mirrored_world(scene, candidate, blurs ? &kernel : nullptr, view, rect, options, stats);
+  }));
   if (counted) {
     const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_hole);
     stats.reflected_pixels += count.pixels;

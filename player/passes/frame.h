@@ -56,8 +56,9 @@ class Renderer {
   Status ensure_frame(int width, int height);
   Result<std::vector<Candidate>> draw_masks(GpuScene& scene, const View& view, const FrameOptions& options,
                                             FrameStats& stats);
-  Status draw_mirrored_world(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                             const FrameOptions& options, FrameStats& stats);
+  // kernel: the one that will blur it, if any.
+  Status draw_mirrored_world(GpuScene& scene, const Candidate& candidate, const GpuKernel* kernel, const View& view,
+                             const ImageRect& rect, const FrameOptions& options, FrameStats& stats);
   Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
                          FrameStats& stats);
   // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.

@@ -21,13 +21,16 @@ ImageRect choose_image(const NdcRect& screen, float median, const View& view, in
   const float blur = view.orthographic ? 0.0f : 0.5f * median * pixels_per_tangent(view);
   if (blur >= 6) rect.coarse = 2;
   if (blur >= 16) rect.coarse = 4;
+  // With narrower lobes most of what is seen is marched finely anyway, and the feet of walls show what lies beyond
+  // them.
+  if (blur >= 6) rect.marched = 4;
   float margin = std::ceil(std::clamp(4 * blur, 4.0f, 0.15f * std::max(size.x, size.y) + 4));
   margin = std::min(margin, std::floor(0.5f * (static_cast<float>(texture_limit) - std::max(size.x, size.y)) - 8));
   margin = std::max(margin, 0.0f);
   // Snapped to whole coarse pixels, so that a standing image does not shimmer when its rectangle grows.
   const Vec2 lower = (screen.lower * 0.5f + 0.5f) * size - margin;
   const Vec2 upper = (screen.upper * 0.5f + 0.5f) * size + margin;
-  const auto coarse = static_cast<float>(rect.coarse);
+  const auto coarse = static_cast<float>(std::max(rect.coarse, rect.marched));
   const Vec2 first = coarse * glm::floor(lower / coarse), last = coarse * glm::ceil(upper / coarse);
   rect.origin = first;
   rect.width = std::max(static_cast<int>(last.x - first.x), 1);
@@ -55,18 +58,10 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
-                     const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius,
-                     Blur blur) {
+void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
+                    const View& view, const ImageRect& rect, float scene_radius, Blur blur) {
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
-  const float to_image = pixels_per_tangent(view);
-  target.filled.bind(0);
-  kernel.taps.bind(2);
-  program.set("u_image", 0);
-  program.set("u_image_size", IVec2(rect.width, rect.height));
-  program.set("u_texture_size",
-              Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
   program.set("u_ndc_from_image", ndc_from_image(rect, view));
   program.set("u_tangents", view.tangents);
   program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
@@ -76,7 +71,19 @@ void set_convolution(const gpu::Program& program, const GpuReflector& reflector,
   program.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
   program.set("u_median", kernel.median);
   program.set("u_coarse", rect.coarse);
-  program.set("u_pixels_per_tangent", to_image);
+  program.set("u_pixels_per_tangent", pixels_per_tangent(view));
+}
+
+void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
+                     const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius,
+                     Blur blur) {
+  set_blur_width(program, reflector, kernel, view, rect, scene_radius, blur);
+  target.filled.bind(0);
+  kernel.taps.bind(2);
+  program.set("u_image", 0);
+  program.set("u_image_size", IVec2(rect.width, rect.height));
+  program.set("u_texture_size",
+              Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
   program.set("u_taps", 2);
   program.set("u_tap_count", kernel.count);
   program.set("u_tap_rows", kernel.rows);

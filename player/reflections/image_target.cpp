@@ -51,27 +51,37 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   gpu::TextureOptions linear;
   linear.min_filter = linear.mag_filter = GL_LINEAR;
   target.blurred = gpu::Texture(gpu::kRgba32f, w, h, nullptr, linear);
-  target.depth = gpu::Texture(gpu::kDepth32f, w, h, nullptr);
+  target.depth = gpu::Texture(gpu::kDepthStencil, w, h, nullptr);
   ORIEL_TRY_VOID(gpu::check_gl("making the reflected image's textures"));
-  ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth));
+  ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth, true));
   ORIEL_TRY(target.level_framebuffer,
             gpu::Framebuffer::create("levels of the reflected image", &target.filled, nullptr));
   current = std::move(target);
   return {};
 }
 
-void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light) {
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light, GLint stencil) {
   target.sharp_framebuffer.bind();
   target.sharp_framebuffer.attach_color_level(target.sharp, 0);
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
+  state.stencil_write = 0xff;
   gpu::apply(state);
   glViewport(0, 0, rect.width, rect.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(0, 0, rect.width, rect.height);
   glClearColor(light.x, light.y, light.z, light.w);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClearStencil(stencil);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
+}
+
+void copy_stencil(const ImageTarget& target, const ImageRect& rect, const gpu::Framebuffer& frame, const View& view) {
+  const IVec2 origin(rect.origin), size(rect.width, rect.height);
+  const IVec2 lower = glm::max(origin, IVec2(0)), upper = glm::min(origin + size, IVec2(view.width, view.height));
+  if (lower.x >= upper.x || lower.y >= upper.y) return;
+  target.sharp_framebuffer.bind();
+  target.sharp_framebuffer.copy_depth_stencil(frame, lower, upper - lower, lower - origin);
 }
 
 }  // namespace oriel

@@ -13,6 +13,7 @@ struct ImageRect {
   Vec2 origin{0};             // lower left corner, frame pixels
   int width = 0, height = 0;  // pixels of the frame
   int coarse = 1;             // of them along a side of a pixel of M * K, where the lobe is wide: 1, 2 or 4
+  int marched = 1;            // of M, where the lobe is wide or the reflector is not seen: 1 or 4
 };
 
 // Image pixels to normalised device coordinates of the frame: scale in xy, offset in zw.
@@ -25,13 +26,16 @@ Mat4 image_from_clip(const ImageRect& rect, const View& view);
 // corner.
 struct ImageTarget {
   gpu::Texture sharp, filled, blurred, depth;
-  gpu::Framebuffer sharp_framebuffer;  // with depth
+  gpu::Framebuffer sharp_framebuffer;  // with depth and stencil
   gpu::Framebuffer level_framebuffer;  // no depth; passes attach what they draw into
 };
 // At least that large; keeps `current` where it suffices.
 Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit);
-// Binds the image to be drawn into, with depth, and fills its rectangle: with a hole, or with light all over.
-void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0));
+// Binds the image to be drawn into, with depth and stencil, and fills its rectangle: with a hole, or with light all
+// over.
+void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0), GLint stencil = 0);
+// Binds the image, and gives it the stencil (and depth) of the frame of that view, where it lies within.
+void copy_stencil(const ImageTarget& target, const ImageRect& rect, const gpu::Framebuffer& frame, const View& view);
 
 // 1 / distance is never stored smaller than this where something is seen, the sky too.
 inline constexpr float kClosest = 1e-15f;

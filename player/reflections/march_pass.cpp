@@ -3,10 +3,17 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/reflections/convolve_pass.h"
 #include "player/reflections/reflected_view.h"
 
 namespace oriel {
 namespace {
+
+// Instead of 1 / distance where a coarse pixel sees nothing: what is interpolated with it is below 0 too.
+constexpr float kCoarseHole = -1e30f;
+
+// Of the lobe, in coarse pixels for those to do.
+constexpr float kLeastRadius = 2;
 
 struct PlaneRect {
   Vec2 from{0}, to{0};
@@ -24,19 +31,97 @@ PlaneRect served_by(const ReflectorElement& element, const Reflector& reflector,
   return rect;
 }
 
+// Pixels of the image whose stencil, copied from the frame's or 1 all over, tells that they show the reflector, or not.
+gpu::RasterState where(const ShownPixels& shown, GLenum equal_or_not) {
+  gpu::RasterState state;
+  state.stencil_func = equal_or_not;
+  state.stencil_ref = shown.value != 0 ? shown.value : 1;
+  state.stencil_read = shown.value != 0 ? shown.bits : 0xff;
+  return state;
+}
+
 }  // namespace
 
 Result<MarchPass> MarchPass::create(gpu::Dialect dialect) {
   MarchPass pass;
   ORIEL_TRY(pass.program_, gpu::Program::create("march", dialect));
+  ORIEL_TRY(pass.spread_, gpu::Program::create("screen/spread", dialect));
+  ORIEL_TRY(pass.spread_everywhere_, gpu::Program::create("screen/spread", dialect, "EVERYWHERE"));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }
 
-void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                     const ImageTarget& target, const FrameOptions& options, FrameStats& stats, bool measure) const {
+void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const GpuKernel* kernel, const View& view,
+                     const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
+                     const FrameOptions& options, FrameStats& stats) const {
+  const bool coarse = kernel != nullptr && rect.marched > 1;
+  gpu::RasterState state;
+  if (coarse) {
+    draw_coarse(scene, reflector, *kernel, view, rect, target, shown, options, stats);
+    state = where(shown, GL_EQUAL);
+  } else {
+    clear_image(target, rect);
+    if (kernel == nullptr && shown.value != 0) {
+      copy_stencil(target, rect, *shown.frame, view);
+      state = where(shown, GL_EQUAL);
+    }
+  }
+  gpu::apply(state);
+  FrameStats again;
+  march(scene, reflector, view, rect, 1, false, options, coarse ? again : stats);
+  stats.draws += again.draws;
+}
+
+void MarchPass::measure(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                        const ImageTarget& target, const FrameOptions& options) const {
+  FrameStats unused;
   clear_image(target, rect);
   gpu::apply({});
+  march(scene, reflector, view, rect, 1, true, options, unused);
+}
+
+void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
+                            const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
+                            const FrameOptions& options, FrameStats& stats) const {
+  const gpu::Texture& marched = target.blurred;  // M * K comes later
+  const float least_radius = kLeastRadius * static_cast<float>(rect.marched);
+  target.level_framebuffer.bind();
+  target.level_framebuffer.attach_color_level(marched, 0);
+  gpu::apply({});
+  const int width = rect.width / rect.marched, height = rect.height / rect.marched;
+  glViewport(0, 0, width, height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, width, height);
+  glClearColor(0, 0, 0, kCoarseHole);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+  march(scene, reflector, view, rect, rect.marched, false, options, stats);
+
+  clear_image(target, rect, Vec4(0), shown.value == 0 ? 1 : 0);
+  if (shown.value != 0) copy_stencil(target, rect, *shown.frame, view);
+  marched.bind(0);
+  glBindVertexArray(no_vertices_.name());
+  const Vec2 texels(static_cast<float>(marched.width()), static_cast<float>(marched.height()));
+  const auto spread = [&](const gpu::Program& program, const gpu::RasterState& state) {
+    gpu::apply(state);
+    program.use();
+    program.set("u_marched", 0);
+    program.set("u_marched_scale", 1.0f / (static_cast<float>(rect.marched) * texels));
+    program.set("u_marched_last", (Vec2(static_cast<float>(width), static_cast<float>(height)) - 0.5f) / texels);
+    set_blur_width(program, reflector, kernel, view, rect, scene.bounds().radius(), options.blur);
+    program.set("u_least_radius", least_radius);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++stats.draws;
+  };
+  spread(spread_everywhere_, where(shown, GL_NOTEQUAL));
+  gpu::RasterState done = where(shown, GL_EQUAL);
+  done.stencil_write = 0xff;
+  done.stencil_pass = GL_ZERO;
+  spread(spread_, done);
+}
+
+void MarchPass::march(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+                      int coarse, bool measure, const FrameOptions& options, FrameStats& stats) const {
   const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
   program_.use();
   const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
@@ -44,8 +129,9 @@ void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const View&
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_reflector)[2]);
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
-  program_.set("u_pixel", 2 * view.tangents.y / static_cast<float>(view.height));
+  program_.set("u_pixel", 2 * static_cast<float>(coarse) * view.tangents.y / static_cast<float>(view.height));
   program_.set("u_closest", kClosest);
+  program_.set("u_hole", coarse > 1 ? kCoarseHole : 0.0f);
   program_.set("u_measure", measure ? 1 : 0);
   program_.set("u_light", 0);
   program_.set("u_disparity", 1);

@@ -8,20 +8,39 @@
 
 namespace oriel {
 
+// Where the frame shows a reflector: its stencil holds `value` in `bits`. value 0: the stencil does not tell.
+struct ShownPixels {
+  const gpu::Framebuffer* frame = nullptr;
+  GLint value = 0;
+  GLuint bits = 0;
+};
+
 class MarchPass {
  public:
   static Result<MarchPass> create(gpu::Dialect dialect);
 
-  // Clears the image and draws all of it that lies on the reflector's plane, beyond the reflector's edges too. The
-  // reflector's front faces the eye. What no map sees keeps a = 0.
-  // measure: instead of light, how many pixels of the image one of the map covers, across.
-  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-            const ImageTarget& target, const FrameOptions& options, FrameStats& stats, bool measure = false) const;
+  // Clears the image and draws what it takes to show the reflector, whose front faces the eye: of a mirror (no kernel)
+  // the pixels that show it, for a kernel also what lies around, on its plane beyond its edges. Where the kernel blurs
+  // as wide as pixels of rect.coarse they are that large, and interpolated. What no map sees keeps a = 0.
+  void draw(GpuScene& scene, const GpuReflector& reflector, const GpuKernel* kernel, const View& view,
+            const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown, const FrameOptions& options,
+            FrameStats& stats) const;
+  // Instead of light, how many pixels of the image one of the map covers, across; all over the image.
+  void measure(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
+               const ImageTarget& target, const FrameOptions& options) const;
 
  private:
+  // Into what is bound, in pixels of `coarse` of the image's.
+  void march(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect, int coarse,
+             bool measure, const FrameOptions& options, FrameStats& stats) const;
+  // Coarse pixels over all of the image but those that show the reflector and are blurred less: those alone keep their
+  // value in its stencil.
+  void draw_coarse(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
+                   const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
+                   const FrameOptions& options, FrameStats& stats) const;
   void choose_maps(const GpuScene& scene, const ReflectorElement& element, const MapArray& array,
                    const Vec4& mirrored_eye, const FrameOptions& options, FrameStats& stats) const;
-  gpu::Program program_;
+  gpu::Program program_, spread_, spread_everywhere_;
   gpu::VertexArray no_vertices_;
 };
 

@@ -21,6 +21,7 @@ uniform vec4 u_depth_row;     // view-space -z of a point of reflector space = d
 uniform float u_ortho;        // 1: distances run along the view direction
 uniform float u_pixel;        // tangent of an image pixel, or its metres
 uniform bool u_measure;       // instead of light: how many pixels of the image one of the map covers
+uniform float u_hole;         // what a holds where nothing is seen
 uniform float u_closest;      // 1 / distance is never stored smaller: marks the sky as seen
 
 in vec2 v_on_plane;
@@ -45,7 +46,7 @@ vec3 light_of_hit(MapHit hit, vec4 map, float pixels) {
 }
 
 void main() {
-  o_light = vec4(0.0);
+  o_light = vec4(vec3(0.0), u_hole);
   vec3 on_plane = vec3(v_on_plane, 0.0);
   vec3 direction = on_plane * u_mirrored_eye.w - u_mirrored_eye.xyz;
   if (!(direction.z > 0.0) || u_count == 0) return;

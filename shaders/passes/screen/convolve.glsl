@@ -2,20 +2,11 @@
 // is carried to the mirrored image at the distance that M has there, so that what touches the reflector stays sharp and what is
 // far away blurs: footprint d / (d + e) of the angle, e from the eye to the plane, d from there to the hit.
 #include "lib/lobe/kernel.glsl"
+#include "passes/screen/blur_width.glsl"
 
 uniform sampler2D u_image;     // M, filled, with all its coarser levels
 uniform ivec2 u_image_size;    // pixels in use
 uniform vec2 u_texture_size;
-uniform vec4 u_ndc_from_image; // scale, offset
-uniform vec2 u_tangents;       // view-space x, y over -z at ndc 1; orthographic: half sizes in metres
-uniform float u_ortho;
-uniform vec3 u_plane_normal;   // view space, towards the eye's side
-uniform float u_plane_offset;  // dot(normal, point of the plane)
-uniform float u_farthest;      // metres: distances are cut off here
-uniform float u_constant_footprint;  // not negative: share of the angle (metres where orthographic) for all distances
-uniform float u_median;        // tangent of the radius that holds half of the lobe
-uniform float u_pixels_per_tangent;  // of the image, at its centre
-uniform int u_coarse;          // pixels along a side of one of u_blurred
 uniform sampler2D u_taps;      // see kernel_tap()
 uniform int u_tap_count;
 uniform int u_tap_rows;
@@ -27,35 +18,10 @@ vec4 image_at(vec2 pixel, float level) {
   return textureLod(u_image, at / u_texture_size, level);
 }
 
-// The view ray of a pixel, and where it meets the plane. valid: it does.
-struct PlaneHit {
-  vec3 view;
-  vec3 at;
-  float cos_theta;
-  float distance;
-  bool valid;
-};
-
-PlaneHit plane_hit(vec2 pixel) {
-  vec2 ndc = pixel * u_ndc_from_image.xy + u_ndc_from_image.zw;
-  vec3 origin = vec3(ndc * u_tangents, 0.0) * u_ortho;
-  vec3 view = normalize(vec3(ndc * u_tangents * (1.0 - u_ortho), -1.0));
-  float cos_theta = -dot(u_plane_normal, view);
-  float distance = (u_plane_offset - dot(u_plane_normal, origin)) / -max(cos_theta, 1e-6);
-  return PlaneHit(view, origin + distance * view, cos_theta, distance, cos_theta >= 1e-4 && distance > 0.0);
-}
-
 // How far behind the plane the pixel's image lies.
 float distance_behind(vec2 pixel, float to_plane) {
-  if (u_constant_footprint >= 0.0)
-    return u_ortho > 0.5 ? u_constant_footprint : to_plane * u_constant_footprint / max(1.0 - u_constant_footprint, 1e-6);
   float level = log2(max(0.25 * u_median * u_pixels_per_tangent / float(u_coarse), 1.0));
-  return max(1.0 / max(image_at(pixel, level).a, 1.0 / u_farthest) - to_plane, 0.0);
-}
-
-// Pixels that a tangent spans at such a distance.
-float pixels_at(float behind, float to_plane) {
-  return u_pixels_per_tangent * (u_ortho > 0.5 ? behind : behind / (behind + to_plane));
+  return behind_plane(u_constant_footprint >= 0.0 ? 1.0 : image_at(pixel, level).a, to_plane);
 }
 
 float lobe_radius(vec2 pixel) {

@@ -1,0 +1,99 @@
+// M as coarse as its blur allows: where it may be, and where it must not.
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+const Vec3 kRed(50, 0, 0), kGreen(0, 50, 0);
+
+// The mirror of add_mirror with a lobe even over a square: half of it within 0.8 of that tangent.
+Pack blurring_pack(float half_extent, const std::vector<Vec3>& eyes,
+                   const std::function<Seen(const Vec2&, const Vec3&)>& seen, std::uint32_t size = 256) {
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].metallic = 1;
+  pack.materials[0].kernel = 0;
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(1)));
+  BrdfKernel kernel;
+  kernel.alpha = 0.1f;
+  kernel.size = 9;
+  kernel.half_extent = half_extent;
+  kernel.weights.assign(81, 1.0f / 81);
+  pack.kernels.push_back(kernel);
+  add_mirror(pack, eyes, size, seen);
+  return pack;
+}
+
+Camera camera_at(const Vec3& eye, const Vec3& target) {
+  Camera camera;
+  camera.eye = eye;
+  camera.forward = glm::normalize(target - eye);
+  camera.vertical_fov_rad = 1.2f;
+  return camera;
+}
+
+constexpr int kWidth = 480, kHeight = 360;
+
+class Blurred : public FrameTest {
+ protected:
+  Picture draw_mk(const Pack& pack, const Camera& camera) {
+    FrameOptions options;
+    options.show = Show::kMK;
+    return draw(pack, camera, kWidth, kHeight, options);
+  }
+};
+
+// Stripes at three distances above one another, red to the right of the middle: each edge is as wide as its distance blurs it. The
+// nearest, next to the plane, is sharp between rows whose M is coarse.
+TEST_F(Blurred, WhatIsNearStaysSharpBesideWhatIsFar) {
+  const auto band = [](float y) { return std::fabs(y) < 0.2f ? 0.01f : 3.0f; };
+  const Pack pack = blurring_pack(0.3f, {{0, 0, -1}}, [&](const Vec2& p, const Vec3& d) {
+    const float near = band(p.y + 0.01f * d.y / d.z), z = near;
+    return Seen{p.x + d.x * (z / d.z) > 0 ? kRed : kGreen, z};
+  });
+  const Picture p = draw_mk(pack, camera_at({0, 0, 1}, {0, 0, 0}));
+  const auto share = [&](int x, int y) { return p.at(kWidth / 2 + x, kHeight / 2 + y).x / kRed.x; };
+  const float pixels = 0.5f * kHeight / std::tan(0.6f);  // a tangent
+  for (const int y : {-20, 0, 20}) {                     // the near band's half is 0.2 * pixels = 52
+    EXPECT_GT(share(4, y), 0.97f) << y;
+    EXPECT_LT(share(-5, y), 0.03f) << y;
+  }
+  const int far = static_cast<int>(0.5f * pixels), half = static_cast<int>(0.5f * 0.3f * 0.75f * pixels);
+  for (const int y : {-far, far}) {
+    EXPECT_NEAR(share(half, y), 0.75f, 0.08f);
+    EXPECT_NEAR(share(-half, y), 0.25f, 0.08f);
+  }
+}
+
+// What lies behind a board in the image blurs into what is seen beside it, the same as without the board.
+TEST_F(Blurred, WhatIsHiddenBlursIntoWhatIsSeen) {
+  Pack pack = blurring_pack(0.3f, {{0, 0, -1}}, [](const Vec2& p, const Vec3& d) {
+    const Vec2 at = p + Vec2(d) * (3 / d.z);
+    return Seen{Vec3(20 + 15 * std::sin(6 * at.x), 20 + 15 * std::sin(6 * at.y), 1), 3};
+  });
+  const Camera camera = camera_at({0, 0, 1}, {0, 0, 0});
+  const Picture open = draw_mk(pack, camera);
+  pack.materials.resize(2);
+  add_quad(pack, {-0.4f, -0.5f, 0.1f}, {0.5f, 0, 0}, {0, 1, 0}, 1, -1);
+  const Picture behind = draw_mk(pack, camera);
+  int seen = 0, hidden = 0;
+  float worst = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      if (open.at(x, y) == Vec3(0)) continue;
+      if (behind.at(x, y) == Vec3(0)) {
+        ++hidden;
+        continue;
+      }
+      ++seen;
+      worst = std::max(worst, glm::length(behind.at(x, y) - open.at(x, y)));
+    }
+  EXPECT_GT(seen, 20000);
+  EXPECT_GT(hidden, 5000);
+  EXPECT_LT(worst, 0.5f) << "of 5 to 35";
+}
+
+}  // namespace
+}  // namespace oriel
