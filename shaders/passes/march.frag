@@ -85,7 +85,7 @@ void main() {
       trust = max(trust, hit.trust);
     }
     ++i;
-    if (!at_edge && total == 0.0) {
+    if (!at_edge && trust <= kEnough) {
       at_edge = true;
       place = clamp(v_on_plane, u_lower, u_upper);
       i = 0;

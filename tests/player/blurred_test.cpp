@@ -1,4 +1,4 @@
-// M as coarse as its blur allows: where it may be, and where it must not.
+// M as coarse as its blur allows: where it may be, and where it must not; and M beyond a reflector's edges, which blur alone looks at.
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
@@ -93,6 +93,23 @@ TEST_F(Blurred, WhatIsHiddenBlursIntoWhatIsSeen) {
   EXPECT_GT(seen, 20000);
   EXPECT_GT(hidden, 5000);
   EXPECT_LT(worst, 0.5f) << "of 5 to 35";
+}
+
+// A low red wall stands on the reflector's right edge, before a green one far away. No map tells what lies beyond the edge: there
+// it is as at the edge, and no green shines into the wall's foot.
+TEST_F(Blurred, BeyondItsEdgeAReflectorShowsWhatItShowsThere) {
+  const Pack pack = blurring_pack(0.3f, {{-3, 0, -1}}, [](const Vec2& p, const Vec3& d) {
+    const float z = (1 - p.x) / d.x * d.z;
+    return d.x > 0 && z < 0.3f ? Seen{kRed, z} : Seen{kGreen, 3};
+  });
+  const Picture p = draw_mk(pack, camera_at({-0.9f, 0, 1}, {0.8f, 0, 0}));
+  int feet = 0;
+  for (int y = kHeight / 2 - 40; y <= kHeight / 2 + 40; y += 8) {
+    int x = kWidth - 1;
+    while (x > 0 && p.at(x, y) == Vec3(0)) --x;  // the reflector's last pixel of this row
+    for (int i = 0; i < 4; ++i, ++feet) EXPECT_LT(p.at(x - i, y).y, 0.05f * kGreen.y) << x - i << "," << y;
+  }
+  EXPECT_GT(feet, 20);
 }
 
 }  // namespace
