@@ -3,7 +3,7 @@
 #include "lib/march.glsl"
 
 const int kMaps = 16;             // kMostMapsPerElement
-const float kEnough = 0.05;       // trust after which no further map is asked
+const float kLeastTrust = 0.2;    // below, what is hidden before a hit (a 30th of the map's width) may be nearer: filled from beside it errs less
 const float kLeastWeight = 0.01;  // of a map whose own weight is 0
 const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
 
@@ -60,14 +60,14 @@ void main() {
   vec2 place = v_on_plane;
   bool at_edge = inside;
   vec4 sum = vec4(0.0);
-  float total = 0.0, trust = 0.0;
+  float total = 0.0;
   int i = 0;
   do {  // asks at the end, so that no round is begun for nothing
     vec4 map = u_maps[i];
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, place, direction);
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
-    if (hit.trust > 0.0) {
+    if (hit.trust >= kLeastTrust) {
       float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
       float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
       float pixels = map_pixels(hit, map, s_distance);
@@ -82,14 +82,13 @@ void main() {
       }
       sum += weight * light;
       total += weight;
-      trust = max(trust, hit.trust);
     }
     ++i;
-    if (!at_edge && trust <= kEnough) {
+    if (!at_edge && total == 0.0) {
       at_edge = true;
       place = clamp(v_on_plane, u_lower, u_upper);
       i = 0;
     }
-  } while (i < count && (i < u_blended || trust <= kEnough));
+  } while (i < count && (i < u_blended || total == 0.0));
   if (total > 0.0) o_light = sum / total;
 }
