@@ -1,4 +1,5 @@
-// M as coarse as its blur allows: where it may be, and where it must not; and M beyond a reflector's edges, which blur alone looks at.
+// M as coarse as its blur allows: where it may be, and where it must not; and M beyond a reflector's edges, which blur
+// alone looks at.
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
@@ -45,8 +46,8 @@ class Blurred : public FrameTest {
   }
 };
 
-// Stripes at three distances above one another, red to the right of the middle: each edge is as wide as its distance blurs it. The
-// nearest, next to the plane, is sharp between rows whose M is coarse.
+// Stripes at three distances above one another, red to the right of the middle: each edge is as wide as its distance
+// blurs it. The nearest, next to the plane, is sharp between rows whose M is coarse.
 TEST_F(Blurred, WhatIsNearStaysSharpBesideWhatIsFar) {
   const auto band = [](float y) { return std::fabs(y) < 0.2f ? 0.01f : 3.0f; };
   const Pack pack = blurring_pack(0.3f, {{0, 0, -1}}, [&](const Vec2& p, const Vec3& d) {
@@ -95,8 +96,8 @@ TEST_F(Blurred, WhatIsHiddenBlursIntoWhatIsSeen) {
   EXPECT_LT(worst, 0.5f) << "of 5 to 35";
 }
 
-// A low red wall stands on the reflector's right edge, before a green one far away. No map tells what lies beyond the edge: there
-// it is as at the edge, and no green shines into the wall's foot.
+// A low red wall stands on the reflector's right edge, before a green one far away. No map tells what lies beyond the
+// edge: there it is as at the edge, and no green shines into the wall's foot.
 TEST_F(Blurred, BeyondItsEdgeAReflectorShowsWhatItShowsThere) {
   const Pack pack = blurring_pack(0.3f, {{-3, 0, -1}}, [](const Vec2& p, const Vec3& d) {
     const float z = (1 - p.x) / d.x * d.z;
