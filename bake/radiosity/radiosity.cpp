@@ -58,26 +58,30 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
   return sum;
 }
 
-// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean. The
-// irradiance is the true one's mean square: of a dark texel that is not known at all the error is its light, not more.
+// Root mean square, over what is seen of texels and over channels, of standard error over irradiance, with a floor of
+// 1 % of the mean. The irradiance is the true one's mean square: of a dark texel that is not known at all the error is
+// its light, not more.
 double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
   DVec3 mean(0);
-  double count = 0, squares = 0;
+  double count = 0, seen = 0, squares = 0;
   const auto each_valid = [&](const auto& visit) {
     for (std::size_t p = 0; p < texel_map.size(); ++p)
-      for (const std::uint32_t t : texel_map[p].texel)
+      for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
+        const std::uint32_t t = texel_map[p].texel[i];
         if (radiosity.pages[p].state[t] == TexelState::kValid)
-          visit(radiosity.pages[p].irradiance[t], radiosity.pages[p].standard_error[t]);
+          visit(seen_share(texel_map, radiosity, p, i), radiosity.pages[p].irradiance[t],
+                radiosity.pages[p].standard_error[t]);
+      }
   };
-  each_valid([&](const Vec3& e, const Vec3&) { mean += DVec3(e), ++count; });
-  each_valid([&](const Vec3& e, const Vec3& error) {
+  each_valid([&](double share, const Vec3& e, const Vec3&) { mean += DVec3(e), ++count, seen += share; });
+  each_valid([&](double share, const Vec3& e, const Vec3& error) {
     for (int c = 0; c < 3; ++c) {
       const double floor = 0.01 * mean[c] / count, square = double{error[c]} * error[c];
       const double denominator = double{e[c]} * e[c] + square + floor * floor;
-      if (denominator > 0) squares += square / denominator;
+      if (denominator > 0) squares += share * square / denominator;
     }
   });
-  return count > 0 ? std::sqrt(squares / (3 * count)) : 0;
+  return seen > 0 ? std::sqrt(squares / (3 * seen)) : 0;
 }
 
 void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
@@ -255,6 +259,10 @@ class Finisher {
 };
 
 }  // namespace
+
+double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page, std::size_t i) {
+  return double{covered_share(texel_map[page], i)} * radiosity.visible[page][i];
+}
 
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,

@@ -206,12 +206,12 @@ class CachedBake {
   void update_estimate() {
     estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
     DVec3 sum(0);
-    count_ = baked_ = 0;
+    count_ = 0, baked_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
       sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
       ++count_;
-      baked_ += !keeps(i);
+      if (!keeps(i)) baked_ += texels_.seen(i);
     }
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
@@ -228,12 +228,13 @@ class CachedBake {
     for (const std::uint32_t i : order_)
       if (typical[i] > goal / 4 && samples[i] < most && !keeps(i)) by_error.push_back(i);
     std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double ea = typical[a] / samples[a], eb = typical[b] / samples[b];
+      const double ea = typical[a] / samples[a] * texels_.seen(a), eb = typical[b] / samples[b] * texels_.seen(b);
       return ea != eb ? ea > eb : a < b;
     });
-    double left = (now - goal) * static_cast<double>(baked_);
+    double left = (now - goal) * baked_;
     std::size_t taken = 0;
-    while (taken < by_error.size() && left > 0) left -= gain * typical[by_error[taken++]];
+    for (; taken < by_error.size() && left > 0; ++taken)
+      left -= gain * typical[by_error[taken]] * texels_.seen(by_error[taken]);
     by_error.resize(taken);
     std::sort(by_error.begin(), by_error.end());
     std::vector<std::uint32_t> in_order;
@@ -242,14 +243,15 @@ class CachedBake {
     return in_order;
   }
 
-  // The mean of relative2() over the texels that are baked: what others keep is not theirs to make up for.
+  // The mean of relative2() over what is seen of the texels that are baked: what others keep is not theirs to make up
+  // for.
   double mean_squares(const std::vector<Vec3>& variance) {
     double sum = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
-      sum += keeps(i) ? 0 : relative_[i];
+      sum += keeps(i) ? 0 : relative_[i] * texels_.seen(i);
     }
-    return baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
+    return baked_ > 0 ? sum / baked_ : 0;
   }
 
   bool is_dark(std::size_t i) const {
@@ -281,8 +283,9 @@ class CachedBake {
   // goal: the others cannot make up for it and are refined to the goal among themselves.
   double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
     double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most && !keeps(i) ? relative_[i] : 0;
-    const double mean = baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (samples[i] >= most && !keeps(i)) sum += relative_[i] * texels_.seen(i);
+    const double mean = baked_ > 0 ? sum / baked_ : 0;
     return mean > goal ? mean : 0;
   }
 
@@ -377,7 +380,7 @@ class CachedBake {
   std::vector<float> relative_;  // by texel: squared relative error of the part being refined
   DVec3 mean_{0};                // lux, over texels that see light
   std::size_t count_ = 0;        // of them
-  std::size_t baked_ = 0;        // of these, those that do not keep their light
+  double baked_ = 0;             // what is seen of those that do not keep their light, in texels
   bool ended_early_ = false;
 };
 
