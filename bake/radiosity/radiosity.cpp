@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
 constexpr std::size_t kRaysAPath = 10;     // about
-constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by,
-constexpr double kStitchLeast = 0.03;      // or this: steps at seams show more than that
+constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
@@ -117,7 +116,7 @@ Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span
   };
   const double before = power();
   const double at_most =
-      error > 0 ? std::max(kStitchShare * error, kStitchLeast) : std::numeric_limits<double>::infinity();
+error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
   radiosity.report.seams = stitch(seams, texel_map, at_most, radiosity.pages);
   if (before > 0) radiosity.report.seams.energy_change = power() / before - 1;
   return {};
@@ -224,31 +223,35 @@ class Finisher {
     return {};
   }
 
-  // The error to refine to, where held-out texels tell of a larger one than was asked for; else 0.
-  Result<double> finish_and_verify(Radiosity& result) {
+  // How to refine, where held-out texels tell of a larger error than was asked for.
+  Result<Refinement> finish_and_verify(Radiosity& result) {
     ORIEL_TRY_VOID(finish(result));
     RadiosityReport& report = result.report;
-    if (options_.verify <= 0) return 0;
+    if (options_.verify <= 0) return {};
     const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
     ORIEL_TRY(report.certificate, certify(transport_, atlas_, map_, result, options_.error, at_most, context_));
     rays_ += report.certificate.rays;
     const double asked = options_.error;
     const Certificate& c = report.certificate;
     const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
-    if (!missed || report.ended_early || report.refinements == kRefinements) return 0;
-    if (options_.enough && options_.enough()) return 0;
-    // What the noise that is stated does not explain stays, however many rays are traced.
-    const double stays = std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2);
-    const double goal2 = asked * asked - std::max(stays, 0.0);
-    if (goal2 < std::pow(kSharpest * asked, 2)) return 0;
+    if (!missed || report.ended_early || report.refinements == kRefinements) return {};
+    if (options_.enough && options_.enough()) return {};
+    // What the noise that is stated does not explain stays, however many rays are traced, unless less is looked up.
+    const double stays = std::max(std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2), 0.0);
+    Refinement how;
+    how.nearer = report.refinements == 0 && stays > kUnexplained * asked * asked;
+    const double least = std::pow(kSharpest * asked, 2);
+    how.error = std::sqrt(std::max(asked * asked - (how.nearer ? kNearerLeaves : 1) * stays, least));
     ++report.refinements;
     result.pages = empty_pages(map_, options_.directional);
-    return std::sqrt(goal2);
+    return how;
   }
 
  private:
   static constexpr double kTolerated = 1.1;
-  static constexpr double kSharpest = 0.25;  // of the error asked for: less noise would cost more than it brings
+  static constexpr double kUnexplained = 0.3;   // of the squared error asked for: more is a matter of what is looked up,
+  static constexpr double kNearerLeaves = 0.5;  // of which so much is left where less is
+  static constexpr double kSharpest = 0.5;      // of the error asked for: less noise would cost more than it brings
 
   const Transport& transport_;
   const Atlas& atlas_;
@@ -276,7 +279,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     ORIEL_TRY_VOID(bake_dark(transport, atlas, texel_map, context, rays, result));
     ORIEL_TRY_VOID(finisher.finish(result));
   } else if (options.estimator == Estimator::kCached) {
-    const NextError next = [&] { return finisher.finish_and_verify(result); };
+    const NextRefinement next = [&] { return finisher.finish_and_verify(result); };
     ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result, next));
   } else {
     ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,

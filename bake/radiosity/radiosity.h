@@ -58,6 +58,7 @@ struct SeamReport {
   double mean_step_before = 0, max_step_before = 0;
   double mean_step = 0, max_step = 0;  // after
   double energy_change = 0;            // of the power on all surfaces, relative
+  double moved = 0;                    // by how much, rms over all surfaces, relative to the light of each texel
 };
 
 // What unbiased paths from held-out texels say of a bake.

@@ -119,12 +119,19 @@ class Stitcher {
     if (!solve_within_limits()) return false;
     // The least squares with less freedom for all: what is mended at a small price stays mended.
     for (int round = 0; round < kRestraints; ++round) {
-      const double moved = root_mean_square();
-      if (moved <= at_most) break;
-      freedom_ *= std::clamp(kRestraint * at_most / moved, kStrongest, kRestraint);
+      const double by = moved();
+      if (by <= at_most) break;
+      freedom_ *= std::clamp(kRestraint * at_most / by, kStrongest, kRestraint);
       if (!solve_within_limits()) return false;
     }
     return true;
+  }
+
+  // By how much texels were moved, relative, root mean square over all surfaces.
+  double moved() {
+    double sum = 0;
+    for (const Texel& t : texels_) sum += covered_[t.page][t.texel] * square(t);
+    return area_ > 0 ? std::sqrt(sum / area_) : 0;
   }
 
  private:
@@ -197,11 +204,6 @@ class Stitcher {
       sum += off * off / (brighter * brighter + floor * floor) / 3;
     }
     return sum;
-  }
-  double root_mean_square() {
-    double sum = 0;
-    for (const Texel& t : texels_) sum += covered_[t.page][t.texel] * square(t);
-    return area_ > 0 ? std::sqrt(sum / area_) : 0;
   }
 
   // Relative changes of the texels; no rows where there is no solution.
@@ -304,6 +306,7 @@ SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, d
   report.mean_step = report.mean_step_before, report.max_step = report.max_step_before;
   if (!stitcher.solve(at_most)) return report;
   report.pairs = seams.pairs;
+  report.moved = stitcher.moved();
   stitcher.measure(report.mean_step, report.max_step);
   return report;
 }

@@ -25,6 +25,7 @@ constexpr double kDirectShare = 0.3;                    // of the squared error 
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
 constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
 constexpr std::size_t kMaxLinks = 64u << 20;            // between patches: 1 GiB
+constexpr float kNearer = 4;                            // times as far (Refinement::nearer)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedBake {
@@ -44,7 +45,7 @@ class CachedBake {
         target_(options.error),
         relative_(texels.count()) {}
 
-  Status run(Radiosity& result, const NextError& next) {
+  Status run(Radiosity& result, const NextRefinement& next) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
     recall();
     ORIEL_TRY_VOID(first_direct());
@@ -69,9 +70,10 @@ class CachedBake {
       ORIEL_TRY_VOID(gather_to_target());
       ORIEL_TRY_VOID(refine_direct());
       store(result);
-      ORIEL_TRY(const double error, next());
-      if (error <= 0) break;
-      target_ = error;
+      ORIEL_TRY(const Refinement more, next());
+      if (more.error <= 0) break;
+      target_ = more.error;
+      if (more.nearer) ORIEL_TRY_VOID(gather_nearer());
     }
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (ended_early_ || result.report.reuse.kept > 0) return {};
@@ -192,6 +194,20 @@ class CachedBake {
     return {};
   }
 
+  // The refinement of a list's texels, those that have the same number of samples at a time.
+  template <class Work>
+  Status by_samples(std::vector<std::uint32_t> list, const std::vector<std::uint32_t>& samples, const Work& work) {
+    while (!list.empty() && !ended_early_) {
+      const std::uint32_t own = samples[list.front()];
+      const auto rest =
+          std::stable_partition(list.begin(), list.end(), [&](std::uint32_t i) { return samples[i] == own; });
+      const std::vector<std::uint32_t> same(list.begin(), rest);
+      list.erase(list.begin(), rest);
+      ORIEL_TRY_VOID(refine([&] { return work(same, own); }));
+    }
+    return {};
+  }
+
   // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
   double relative2(std::size_t i, const Vec3& variance) const {
     double sum = 0;
@@ -299,19 +315,12 @@ class CachedBake {
       now -= out_of_reach(goal, most, gathered_.samples);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      // Each texel doubles its own count: those of one count are gathered together.
-      std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
+      const std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
       if (list.empty()) return {};
-      while (!list.empty() && !ended_early_) {
-        const std::uint32_t samples = gathered_.samples[list.front()];
-        const auto rest = std::stable_partition(list.begin(), list.end(),
-                                                [&](std::uint32_t i) { return gathered_.samples[i] == samples; });
-        const std::vector<std::uint32_t> same(list.begin(), rest);
-        list.erase(list.begin(), rest);
+      ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
         const std::uint32_t per_half = std::min(most, 2 * std::max(1u, samples));
-        ORIEL_TRY_VOID(refine(
-            [&] { return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_); }));
-      }
+        return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
+      }));
       update_estimate();
     }
   }
@@ -325,18 +334,37 @@ class CachedBake {
       now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
+      const std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
       if (list.empty()) return {};
-      while (!list.empty() && !ended_early_) {
-        const std::uint32_t samples = direct_.per_half[list.front()];
-        const auto rest = std::stable_partition(list.begin(), list.end(),
-                                                [&](std::uint32_t i) { return direct_.per_half[i] == samples; });
-        const std::vector<std::uint32_t> same(list.begin(), rest);
-        list.erase(list.begin(), rest);
-        ORIEL_TRY_VOID(refine(
-            [&] { return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_); }));
-      }
+      ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
+        return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_);
+      }));
     }
+  }
+
+  // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
+  Status gather_nearer() {
+    const float before = around_.near();
+    around_.set_near(kNearer * before);
+    HalfSums anew = gathered_;
+    std::vector<std::uint32_t> list;
+    for (const std::uint32_t i : order_) {
+      if (keeps(i)) continue;
+      list.push_back(i);
+      for (int h = 0; h < kHalves; ++h) anew.sum[h][i] = anew.slope[h][i] = Vec3(0);
+      anew.samples[i] = 0;
+      if (options_.directional) anew.moments[i] = Vec4(0);
+    }
+    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+      return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
+    }));
+    if (ended_early_) {
+      around_.set_near(before);
+      return {};
+    }
+    gathered_ = std::move(anew);
+    update_estimate();
+    return {};
   }
 
   void store(Radiosity& result) {
@@ -388,7 +416,7 @@ class CachedBake {
 
 Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                    const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
-                   Radiosity& result, const NextError& next) {
+                   Radiosity& result, const NextRefinement& next) {
   ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays));
   CachedBake bake(t, atlas, texel_map, options, context, rays, texels);
   return bake.run(result, next);
