@@ -115,8 +115,7 @@ Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span
     return luminance(Vec3(incident_power(transport.accel.scene(), atlas, texel_map, radiosity)));
   };
   const double before = power();
-  const double at_most =
-error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
+  const double at_most = error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
   radiosity.report.seams = stitch(seams, texel_map, at_most, radiosity.pages);
   if (before > 0) radiosity.report.seams.energy_change = power() / before - 1;
   return {};
@@ -249,7 +248,7 @@ class Finisher {
 
  private:
   static constexpr double kTolerated = 1.1;
-  static constexpr double kUnexplained = 0.3;   // of the squared error asked for: more is a matter of what is looked up,
+  static constexpr double kUnexplained = 0.3;  // of the squared error asked for: more is a matter of what is looked up,
   static constexpr double kNearerLeaves = 0.5;  // of which so much is left where less is
   static constexpr double kSharpest = 0.5;      // of the error asked for: less noise would cost more than it brings
 
@@ -263,7 +262,8 @@ class Finisher {
 
 }  // namespace
 
-double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page, std::size_t i) {
+double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page,
+                  std::size_t i) {
   return double{covered_share(texel_map[page], i)} * radiosity.visible[page][i];
 }
 

@@ -7,6 +7,7 @@
 #include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
+#include "bake/radiosity/cached/worst.h"
 #include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
@@ -111,24 +112,18 @@ class CachedBake {
   void take_known() {
     if (!reuse_) return;
     reuse_->compare(texels_, order_, irradiance_, options_.reuse_error);
-    const DirectSums& direct = reuse_->known().direct;
-    const HalfSums& gathered = reuse_->known().gathered;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       const std::uint32_t k = reuse_->before(i);
-      if (known_direct_[i] || reuse_->keeps(i)) {
-        direct_.value[i] = direct.value[k], direct_.variance[i] = direct.variance[k];
-        direct_.sampled[i] = direct.sampled[k], direct_.uneven[i] = direct.uneven[k];
-        direct_.per_half[i] = direct.per_half[k];
-        if (!direct.moments.empty()) direct_.moments[i] = direct.moments[k];
-      }
-      if (!reuse_->keeps(i)) continue;
-      for (int h = 0; h < kHalves; ++h)
-        gathered_.sum[h][i] = gathered.sum[h][k], gathered_.slope[h][i] = gathered.slope[h][k];
-      gathered_.samples[i] = gathered.samples[k];
-      if (!gathered.moments.empty()) gathered_.moments[i] = gathered.moments[k];
+      if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
+      if (reuse_->keeps(i)) gathered_.take(i, reuse_->known().gathered, k);
     }
   }
   bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
+  std::vector<std::uint32_t> not_kept() const {
+    std::vector<std::uint32_t> list = order_;
+    if (reuse_) std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
+    return list;
+  }
 
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
@@ -232,31 +227,12 @@ class CachedBake {
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
 
-  // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first. Those
-  // twice as good as asked are left alone: they cannot make up for a few that stay bad.
   std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
                                    const std::vector<std::uint32_t>& samples) {
-    std::vector<float> typical(relative_);
-    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
-    typical = typical_errors(graph_, std::move(typical), context_);
-    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
-    std::vector<std::uint32_t> by_error;
-    for (const std::uint32_t i : order_)
-      if (typical[i] > goal / 4 && samples[i] < most && !keeps(i)) by_error.push_back(i);
-    std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double ea = typical[a] / samples[a] * texels_.seen(a), eb = typical[b] / samples[b] * texels_.seen(b);
-      return ea != eb ? ea > eb : a < b;
-    });
-    double left = (now - goal) * baked_;
-    std::size_t taken = 0;
-    for (; taken < by_error.size() && left > 0; ++taken)
-      left -= gain * typical[by_error[taken]] * texels_.seen(by_error[taken]);
-    by_error.resize(taken);
-    std::sort(by_error.begin(), by_error.end());
-    std::vector<std::uint32_t> in_order;
-    for (const std::uint32_t i : order_)
-      if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
-    return in_order;
+    std::vector<std::uint32_t> open = not_kept();
+    std::erase_if(open, [&](std::uint32_t i) { return samples[i] >= most; });
+    return worst_texels(texels_, graph_, open, relative_, samples,
+                        {.goal = goal, .excess = (now - goal) * baked_, .gain = gain}, context_);
   }
 
   // The mean of relative2() over what is seen of the texels that are baked: what others keep is not theirs to make up
@@ -278,8 +254,7 @@ class CachedBake {
 
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
-    std::vector<std::uint32_t> list;
-    std::copy_if(order_.begin(), order_.end(), std::back_inserter(list), [&](std::uint32_t i) { return !keeps(i); });
+    std::vector<std::uint32_t> list = not_kept();
     ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, per_half, cached_, context_, gathered_, rays_));
     std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half)
@@ -347,14 +322,8 @@ class CachedBake {
     const float before = around_.near();
     around_.set_near(kNearer * before);
     HalfSums anew = gathered_;
-    std::vector<std::uint32_t> list;
-    for (const std::uint32_t i : order_) {
-      if (keeps(i)) continue;
-      list.push_back(i);
-      for (int h = 0; h < kHalves; ++h) anew.sum[h][i] = anew.slope[h][i] = Vec3(0);
-      anew.samples[i] = 0;
-      if (options_.directional) anew.moments[i] = Vec4(0);
-    }
+    const std::vector<std::uint32_t> list = not_kept();
+    for (const std::uint32_t i : list) anew.forget(i);
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
     }));

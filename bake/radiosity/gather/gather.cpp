@@ -57,8 +57,8 @@ class GroupGather {
     Vec4 moments{0};
   };
 
-  // Points that are kept serve again until each of them had a few rays; then each few rays have a new one, for no number
-  // of rays makes up for points too few.
+  // Points that are kept serve again until each of them had a few rays; then each few rays have a new one, for no
+  // number of rays makes up for points too few.
   void fetch_sites(int half, std::uint32_t k, bool all) {
     for (Member& m : members_) {
       const std::uint32_t kept = texels_.kept_sites(m.texel, half);
