@@ -196,6 +196,12 @@ DVec2 sample_fragment(const Triangle2& texels, const DVec2& cell, bool whole, co
 
 }  // namespace
 
+float covered_share(const TexelMapPage& page, std::size_t i) {
+  float sum = 0;
+  for (std::uint32_t f = page.first[i]; f < page.first[i + 1]; ++f) sum += page.fragments[f].area;
+  return std::min(sum, 1.0f);
+}
+
 std::array<DVec2, 3> texel_triangle(const Atlas& atlas, std::uint32_t triangle) {
   const AtlasPage& page = atlas.pages[static_cast<std::size_t>(atlas.page[triangle])];
   const DVec2 size(page.width, page.height);

@@ -22,6 +22,9 @@ struct TexelMapPage {
 // Conservative: a texel is covered when any part of a triangle's image, however small, lies in its square.
 Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context);
 
+// The share of texel i that has a surface: (0,1].
+float covered_share(const TexelMapPage& page, std::size_t i);
+
 // A triangle's corners in texels of its page (which it must have).
 std::array<DVec2, 3> texel_triangle(const Atlas& atlas, std::uint32_t triangle);
 

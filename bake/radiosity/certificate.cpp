@@ -36,27 +36,35 @@ std::uint32_t reversed(std::uint32_t bits) {
   return out;
 }
 
-// The valid texels by surface; of these `count` at equal steps, in an order whose every beginning is spread evenly.
+// What is seen of the valid texels, by surface; of it `count` places at equal steps, in an order whose every beginning
+// is spread evenly. No texel is chosen twice.
 std::vector<HeldOut> choose(const Scene& scene, std::span<const TexelMapPage> map, const Radiosity& radiosity,
                             std::size_t count, std::uint64_t seed) {
   struct Place {
     std::uint32_t surface, page, index;
+    double seen;  // and after accumulating, with all before it
   };
   std::vector<Place> places;
   for (std::uint32_t p = 0; p < map.size(); ++p)
     for (std::uint32_t i = 0; i < map[p].texel.size(); ++i)
       if (radiosity.pages[p].state[map[p].texel[i]] == TexelState::kValid)
-        places.push_back({scene.triangle_surface[map[p].fragments[map[p].first[i]].triangle], p, i});
+        places.push_back({scene.triangle_surface[map[p].fragments[map[p].first[i]].triangle], p, i,
+                          seen_share(map, radiosity, p, i)});
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.surface < b.surface; });
-  count = std::min(count, places.size());
+  double seen = 0;
+  for (Place& place : places) place.seen = seen += place.seen;
+  if (!(seen > 0)) return {};
+  count = std::clamp<std::size_t>(static_cast<std::size_t>(seen), 1, count);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) { return reversed(a) < reversed(b); });
   const double offset = static_cast<double>(mix64(seed) >> 11u) * 0x1p-53;
   std::vector<HeldOut> chosen;
   for (const std::uint32_t k : order) {
-    const double at = (k + offset) / static_cast<double>(count) * static_cast<double>(places.size());
-    const Place& place = places[std::min(static_cast<std::size_t>(at), places.size() - 1)];
+    const double at = (k + offset) / static_cast<double>(count) * seen;
+    const auto found = std::upper_bound(places.begin(), places.end(), at,
+                                        [](double value, const Place& place) { return value < place.seen; });
+    const Place& place = found == places.end() ? places.back() : *found;
     chosen.push_back(
         {place.page, place.index, DVec3(radiosity.pages[place.page].irradiance[map[place.page].texel[place.index]])});
   }

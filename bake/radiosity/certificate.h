@@ -16,11 +16,11 @@ inline constexpr std::size_t kEstimates = 3;
 // estimate is the divisor once. lux.
 double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& estimates, const DVec3& floor2);
 
-// Held-out texels, spread evenly over the surfaces (systematic sampling of the texels by surface), are estimated anew
-// by paths with random numbers of their own, thrice each (squared_error). Noisy texels get more
-// paths, as a few paths of their own foretell. More texels are asked until the squared error is known to a fifth of
-// what was asked for, or `rays_at_most` are traced; at least 64 are. Nothing depends on threads or the clock. Stage
-// name "certificate"; error kStopped.
+// Held-out texels, spread evenly over what is seen of surfaces (systematic sampling by surface; seen_share()), are
+// estimated anew by paths with random numbers of their own, thrice each (squared_error). Noisy texels get more paths,
+// as a few paths of their own foretell. More texels are asked until the squared error is known to a fifth of what was
+// asked for, or `rays_at_most` are traced; at least 64 are. Nothing depends on threads or the clock. Stage name
+// "certificate"; error kStopped.
 Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                             const Radiosity& radiosity, double asked, std::uint64_t rays_at_most, Context& context);
 

@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
 constexpr std::size_t kRaysAPath = 10;     // about
-constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by,
-constexpr double kStitchLeast = 0.03;      // or this: steps at seams show more than that
+constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
 
 struct Run {
@@ -58,26 +57,30 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
   return sum;
 }
 
-// Root mean square, over texels and channels, of standard error over irradiance, with a floor of 1 % of the mean. The
-// irradiance is the true one's mean square: of a dark texel that is not known at all the error is its light, not more.
+// Root mean square, over what is seen of texels and over channels, of standard error over irradiance, with a floor of
+// 1 % of the mean. The irradiance is the true one's mean square: of a dark texel that is not known at all the error is
+// its light, not more.
 double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
   DVec3 mean(0);
-  double count = 0, squares = 0;
+  double count = 0, seen = 0, squares = 0;
   const auto each_valid = [&](const auto& visit) {
     for (std::size_t p = 0; p < texel_map.size(); ++p)
-      for (const std::uint32_t t : texel_map[p].texel)
+      for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
+        const std::uint32_t t = texel_map[p].texel[i];
         if (radiosity.pages[p].state[t] == TexelState::kValid)
-          visit(radiosity.pages[p].irradiance[t], radiosity.pages[p].standard_error[t]);
+          visit(seen_share(texel_map, radiosity, p, i), radiosity.pages[p].irradiance[t],
+                radiosity.pages[p].standard_error[t]);
+      }
   };
-  each_valid([&](const Vec3& e, const Vec3&) { mean += DVec3(e), ++count; });
-  each_valid([&](const Vec3& e, const Vec3& error) {
+  each_valid([&](double share, const Vec3& e, const Vec3&) { mean += DVec3(e), ++count, seen += share; });
+  each_valid([&](double share, const Vec3& e, const Vec3& error) {
     for (int c = 0; c < 3; ++c) {
       const double floor = 0.01 * mean[c] / count, square = double{error[c]} * error[c];
       const double denominator = double{e[c]} * e[c] + square + floor * floor;
-      if (denominator > 0) squares += square / denominator;
+      if (denominator > 0) squares += share * square / denominator;
     }
   });
-  return count > 0 ? std::sqrt(squares / (3 * count)) : 0;
+  return seen > 0 ? std::sqrt(squares / (3 * seen)) : 0;
 }
 
 void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
@@ -112,8 +115,7 @@ Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span
     return luminance(Vec3(incident_power(transport.accel.scene(), atlas, texel_map, radiosity)));
   };
   const double before = power();
-  const double at_most =
-      error > 0 ? std::max(kStitchShare * error, kStitchLeast) : std::numeric_limits<double>::infinity();
+  const double at_most = error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
   radiosity.report.seams = stitch(seams, texel_map, at_most, radiosity.pages);
   if (before > 0) radiosity.report.seams.energy_change = power() / before - 1;
   return {};
@@ -220,31 +222,35 @@ class Finisher {
     return {};
   }
 
-  // The error to refine to, where held-out texels tell of a larger one than was asked for; else 0.
-  Result<double> finish_and_verify(Radiosity& result) {
+  // How to refine, where held-out texels tell of a larger error than was asked for.
+  Result<Refinement> finish_and_verify(Radiosity& result) {
     ORIEL_TRY_VOID(finish(result));
     RadiosityReport& report = result.report;
-    if (options_.verify <= 0) return 0;
+    if (options_.verify <= 0) return {};
     const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
     ORIEL_TRY(report.certificate, certify(transport_, atlas_, map_, result, options_.error, at_most, context_));
     rays_ += report.certificate.rays;
     const double asked = options_.error;
     const Certificate& c = report.certificate;
     const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
-    if (!missed || report.ended_early || report.refinements == kRefinements) return 0;
-    if (options_.enough && options_.enough()) return 0;
-    // What the noise that is stated does not explain stays, however many rays are traced.
-    const double stays = std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2);
-    const double goal2 = asked * asked - std::max(stays, 0.0);
-    if (goal2 < std::pow(kSharpest * asked, 2)) return 0;
+    if (!missed || report.ended_early || report.refinements == kRefinements) return {};
+    if (options_.enough && options_.enough()) return {};
+    // What the noise that is stated does not explain stays, however many rays are traced, unless less is looked up.
+    const double stays = std::max(std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2), 0.0);
+    Refinement how;
+    how.nearer = report.refinements == 0 && stays > kUnexplained * asked * asked;
+    const double least = std::pow(kSharpest * asked, 2);
+    how.error = std::sqrt(std::max(asked * asked - (how.nearer ? kNearerLeaves : 1) * stays, least));
     ++report.refinements;
     result.pages = empty_pages(map_, options_.directional);
-    return std::sqrt(goal2);
+    return how;
   }
 
  private:
   static constexpr double kTolerated = 1.1;
-  static constexpr double kSharpest = 0.25;  // of the error asked for: less noise would cost more than it brings
+  static constexpr double kUnexplained = 0.3;  // of the squared error asked for: more is a matter of what is looked up,
+  static constexpr double kNearerLeaves = 0.5;  // of which so much is left where less is
+  static constexpr double kSharpest = 0.5;      // of the error asked for: less noise would cost more than it brings
 
   const Transport& transport_;
   const Atlas& atlas_;
@@ -255,6 +261,11 @@ class Finisher {
 };
 
 }  // namespace
+
+double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page,
+                  std::size_t i) {
+  return double{covered_share(texel_map[page], i)} * radiosity.visible[page][i];
+}
 
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
@@ -268,7 +279,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     ORIEL_TRY_VOID(bake_dark(transport, atlas, texel_map, context, rays, result));
     ORIEL_TRY_VOID(finisher.finish(result));
   } else if (options.estimator == Estimator::kCached) {
-    const NextError next = [&] { return finisher.finish_and_verify(result); };
+    const NextRefinement next = [&] { return finisher.finish_and_verify(result); };
     ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result, next));
   } else {
     ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,

@@ -58,6 +58,7 @@ struct SeamReport {
   double mean_step_before = 0, max_step_before = 0;
   double mean_step = 0, max_step = 0;  // after
   double energy_change = 0;            // of the power on all surfaces, relative
+  double moved = 0;                    // by how much, rms over all surfaces, relative to the light of each texel
 };
 
 // What unbiased paths from held-out texels say of a bake.
@@ -66,7 +67,7 @@ struct Certificate {
   std::uint64_t paths = 0;               // from all of them
   double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
   double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
-  double relative_error = 0;             // rms over those texels and channels, free of the paths' own noise
+  double relative_error = 0;             // rms over what is seen of texels, free of the paths' own noise
   double error_low = 0, error_high = 0;  // the rms of all texels lies between with 95 % certainty
   std::uint64_t rays = 0;
 };
@@ -86,8 +87,8 @@ struct RadiosityReport {
   std::size_t buried = 0;
   Vec3 mean{0};               // lux, over valid texels
   Vec3 max{0};                // lux
-  double relative_error = 0;  // rms of standard error, over texels and channels, relative to the true light (as the
-                              // estimate and its error tell it) and 1 % of the mean
+  double relative_error = 0;  // rms of standard error, over what is seen of texels (seen_share) and channels, relative
+                              // to the true light (as the estimate and its error tell it) and 1 % of the mean
   int sweeps = 0;             // cached: bounces computed in the coarse lightmap
   bool ended_early = false;   // by `enough`: the error asked for does not hold
   int refinements = 0;        // cached: after held-out texels told of a larger error than was asked for
@@ -104,6 +105,10 @@ struct Radiosity {
   std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };
+
+// The share of covered texel i of a page that has a surface which is not hidden: [0,1]. Errors weigh texels by it, for
+// nobody sees the rest.
+double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page, std::size_t i);
 
 // Texels hold the light of the front sides; split_sides() gives lit backs texels of their own.
 //

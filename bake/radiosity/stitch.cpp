@@ -67,7 +67,7 @@ class Stitcher {
  public:
   Stitcher(std::span<const TexelMapPage> texel_map, std::vector<LightmapPage>& pages) : pages_(pages) {
     double sum = 0;
-    std::size_t& count = valid_;
+    std::size_t count = 0;
     for (std::size_t p = 0; p < pages.size(); ++p) {
       unknown_.emplace_back(pages[p].state.size(), kNone);
       covered_.emplace_back(pages[p].state.size(), 0.0f);
@@ -75,8 +75,7 @@ class Stitcher {
       for (std::size_t i = 0; i < map.texel.size(); ++i) {
         if (pages[p].state[map.texel[i]] != TexelState::kValid) continue;
         sum += luminance(pages[p].irradiance[map.texel[i]]), ++count;
-        for (std::uint32_t f = map.first[i]; f < map.first[i + 1]; ++f)
-          covered_[p][map.texel[i]] += map.fragments[f].area;
+        area_ += covered_[p][map.texel[i]] = covered_share(map, i);
       }
     }
     dark_ = count > 0 ? kDark * sum / static_cast<double>(count) : 0;
@@ -109,7 +108,7 @@ class Stitcher {
     }
   }
 
-  // Texels move by no more than at_most, relative, root mean square over all texels. False where there is nothing to
+  // Texels move by no more than at_most, relative, root mean square over all surfaces. False where there is nothing to
   // solve, or rounding left no solution.
   bool solve(double at_most) {
     if (rows_.empty()) return false;
@@ -120,12 +119,19 @@ class Stitcher {
     if (!solve_within_limits()) return false;
     // The least squares with less freedom for all: what is mended at a small price stays mended.
     for (int round = 0; round < kRestraints; ++round) {
-      const double moved = root_mean_square();
-      if (moved <= at_most) break;
-      freedom_ *= std::clamp(kRestraint * at_most / moved, kStrongest, kRestraint);
+      const double by = moved();
+      if (by <= at_most) break;
+      freedom_ *= std::clamp(kRestraint * at_most / by, kStrongest, kRestraint);
       if (!solve_within_limits()) return false;
     }
     return true;
+  }
+
+  // By how much texels were moved, relative, root mean square over all surfaces.
+  double moved() {
+    double sum = 0;
+    for (const Texel& t : texels_) sum += covered_[t.page][t.texel] * square(t);
+    return area_ > 0 ? std::sqrt(sum / area_) : 0;
   }
 
  private:
@@ -199,12 +205,6 @@ class Stitcher {
     }
     return sum;
   }
-  double root_mean_square() {
-    double sum = 0;
-    for (const Texel& t : texels_)
-      if (covered_[t.page][t.texel] > 0) sum += square(t);  // others lie beside charts
-    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(valid_, 1)));
-  }
 
   // Relative changes of the texels; no rows where there is no solution.
   Columns least_squares() const {
@@ -258,7 +258,7 @@ class Stitcher {
     const LightmapPage& page = pages_[t.page];
     const double own = luminance(page.standard_error[t.texel]);
     const double noise = std::max(own, noise_around(t) * (brightness(DVec3(t.baked)) + dark_)) / t.scale();
-    const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
+    const double free = kFree * (1 - double{covered_[t.page][t.texel]});
     return std::sqrt(noise * noise + std::pow((kLeast + free) * (brightness(DVec3(t.baked)) + dark_) / t.scale(), 2));
   }
 
@@ -266,7 +266,7 @@ class Stitcher {
   float largest_change(const Texel& t, int channel) const {
     const LightmapPage& page = pages_[t.page];
     const double own = page.irradiance[t.texel][channel], error = page.standard_error[t.texel][channel];
-    const double free = kFree * (1 - std::min(1.0, double{covered_[t.page][t.texel]}));
+    const double free = kFree * (1 - double{covered_[t.page][t.texel]});
     const double pooled = std::min(kSlack * noise_around(t) * own, kPooled * own);
     return static_cast<float>(std::max(kOwn * error, pooled) + (kSlack * kLeast + 2 * free) * own);
   }
@@ -287,7 +287,7 @@ class Stitcher {
   std::vector<LightmapPage>& pages_;
   double dark_ = 0;
   double freedom_ = 1;                               // of error_of()
-  std::size_t valid_ = 0;                            // texels of all pages
+  double area_ = 0;                                  // sum of covered_
   std::vector<std::vector<std::uint32_t>> unknown_;  // by page and texel
   std::vector<std::vector<float>> covered_;          // share of the texel that has a baked surface
   std::vector<Texel> texels_;
@@ -306,6 +306,7 @@ SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, d
   report.mean_step = report.mean_step_before, report.max_step = report.max_step_before;
   if (!stitcher.solve(at_most)) return report;
   report.pairs = seams.pairs;
+  report.moved = stitcher.moved();
   stitcher.measure(report.mean_step, report.max_step);
   return report;
 }

@@ -28,7 +28,8 @@ Json seams_json(const SeamReport& r) {
           {"max_step_before", r.max_step_before},
           {"mean_step", r.mean_step},
           {"max_step", r.max_step},
-          {"energy_change", r.energy_change}};
+          {"energy_change", r.energy_change},
+          {"moved", r.moved}};
 }
 
 Json atlas_json(const Atlas& atlas) {

@@ -7,6 +7,7 @@
 #include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
+#include "bake/radiosity/cached/worst.h"
 #include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
@@ -25,6 +26,7 @@ constexpr double kDirectShare = 0.3;                    // of the squared error 
 constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
 constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
 constexpr std::size_t kMaxLinks = 64u << 20;            // between patches: 1 GiB
+constexpr float kNearer = 4;                            // times as far (Refinement::nearer)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedBake {
@@ -44,7 +46,7 @@ class CachedBake {
         target_(options.error),
         relative_(texels.count()) {}
 
-  Status run(Radiosity& result, const NextError& next) {
+  Status run(Radiosity& result, const NextRefinement& next) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
     recall();
     ORIEL_TRY_VOID(first_direct());
@@ -69,9 +71,10 @@ class CachedBake {
       ORIEL_TRY_VOID(gather_to_target());
       ORIEL_TRY_VOID(refine_direct());
       store(result);
-      ORIEL_TRY(const double error, next());
-      if (error <= 0) break;
-      target_ = error;
+      ORIEL_TRY(const Refinement more, next());
+      if (more.error <= 0) break;
+      target_ = more.error;
+      if (more.nearer) ORIEL_TRY_VOID(gather_nearer());
     }
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (ended_early_ || result.report.reuse.kept > 0) return {};
@@ -109,24 +112,18 @@ class CachedBake {
   void take_known() {
     if (!reuse_) return;
     reuse_->compare(texels_, order_, irradiance_, options_.reuse_error);
-    const DirectSums& direct = reuse_->known().direct;
-    const HalfSums& gathered = reuse_->known().gathered;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       const std::uint32_t k = reuse_->before(i);
-      if (known_direct_[i] || reuse_->keeps(i)) {
-        direct_.value[i] = direct.value[k], direct_.variance[i] = direct.variance[k];
-        direct_.sampled[i] = direct.sampled[k], direct_.uneven[i] = direct.uneven[k];
-        direct_.per_half[i] = direct.per_half[k];
-        if (!direct.moments.empty()) direct_.moments[i] = direct.moments[k];
-      }
-      if (!reuse_->keeps(i)) continue;
-      for (int h = 0; h < kHalves; ++h)
-        gathered_.sum[h][i] = gathered.sum[h][k], gathered_.slope[h][i] = gathered.slope[h][k];
-      gathered_.samples[i] = gathered.samples[k];
-      if (!gathered.moments.empty()) gathered_.moments[i] = gathered.moments[k];
+      if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
+      if (reuse_->keeps(i)) gathered_.take(i, reuse_->known().gathered, k);
     }
   }
   bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
+  std::vector<std::uint32_t> not_kept() const {
+    std::vector<std::uint32_t> list = order_;
+    if (reuse_) std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
+    return list;
+  }
 
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
@@ -192,6 +189,20 @@ class CachedBake {
     return {};
   }
 
+  // The refinement of a list's texels, those that have the same number of samples at a time.
+  template <class Work>
+  Status by_samples(std::vector<std::uint32_t> list, const std::vector<std::uint32_t>& samples, const Work& work) {
+    while (!list.empty() && !ended_early_) {
+      const std::uint32_t own = samples[list.front()];
+      const auto rest =
+          std::stable_partition(list.begin(), list.end(), [&](std::uint32_t i) { return samples[i] == own; });
+      const std::vector<std::uint32_t> same(list.begin(), rest);
+      list.erase(list.begin(), rest);
+      ORIEL_TRY_VOID(refine([&] { return work(same, own); }));
+    }
+    return {};
+  }
+
   // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
   double relative2(std::size_t i, const Vec3& variance) const {
     double sum = 0;
@@ -206,50 +217,33 @@ class CachedBake {
   void update_estimate() {
     estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
     DVec3 sum(0);
-    count_ = baked_ = 0;
+    count_ = 0, baked_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
       sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
       ++count_;
-      baked_ += !keeps(i);
+      if (!keeps(i)) baked_ += texels_.seen(i);
     }
     mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
   }
 
-  // Texels whose refinement takes the mean squared error from `now` to `goal` at the least cost: the worst first. Those
-  // twice as good as asked are left alone: they cannot make up for a few that stay bad.
   std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
                                    const std::vector<std::uint32_t>& samples) {
-    std::vector<float> typical(relative_);
-    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
-    typical = typical_errors(graph_, std::move(typical), context_);
-    for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
-    std::vector<std::uint32_t> by_error;
-    for (const std::uint32_t i : order_)
-      if (typical[i] > goal / 4 && samples[i] < most && !keeps(i)) by_error.push_back(i);
-    std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double ea = typical[a] / samples[a], eb = typical[b] / samples[b];
-      return ea != eb ? ea > eb : a < b;
-    });
-    double left = (now - goal) * static_cast<double>(baked_);
-    std::size_t taken = 0;
-    while (taken < by_error.size() && left > 0) left -= gain * typical[by_error[taken++]];
-    by_error.resize(taken);
-    std::sort(by_error.begin(), by_error.end());
-    std::vector<std::uint32_t> in_order;
-    for (const std::uint32_t i : order_)
-      if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
-    return in_order;
+    std::vector<std::uint32_t> open = not_kept();
+    std::erase_if(open, [&](std::uint32_t i) { return samples[i] >= most; });
+    return worst_texels(texels_, graph_, open, relative_, samples,
+                        {.goal = goal, .excess = (now - goal) * baked_, .gain = gain}, context_);
   }
 
-  // The mean of relative2() over the texels that are baked: what others keep is not theirs to make up for.
+  // The mean of relative2() over what is seen of the texels that are baked: what others keep is not theirs to make up
+  // for.
   double mean_squares(const std::vector<Vec3>& variance) {
     double sum = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
-      sum += keeps(i) ? 0 : relative_[i];
+      sum += keeps(i) ? 0 : relative_[i] * texels_.seen(i);
     }
-    return baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
+    return baked_ > 0 ? sum / baked_ : 0;
   }
 
   bool is_dark(std::size_t i) const {
@@ -260,8 +254,7 @@ class CachedBake {
 
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
-    std::vector<std::uint32_t> list;
-    std::copy_if(order_.begin(), order_.end(), std::back_inserter(list), [&](std::uint32_t i) { return !keeps(i); });
+    std::vector<std::uint32_t> list = not_kept();
     ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, per_half, cached_, context_, gathered_, rays_));
     std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half)
@@ -281,8 +274,9 @@ class CachedBake {
   // goal: the others cannot make up for it and are refined to the goal among themselves.
   double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
     double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples[i] >= most && !keeps(i) ? relative_[i] : 0;
-    const double mean = baked_ > 0 ? sum / static_cast<double>(baked_) : 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (samples[i] >= most && !keeps(i)) sum += relative_[i] * texels_.seen(i);
+    const double mean = baked_ > 0 ? sum / baked_ : 0;
     return mean > goal ? mean : 0;
   }
 
@@ -296,19 +290,12 @@ class CachedBake {
       now -= out_of_reach(goal, most, gathered_.samples);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      // Each texel doubles its own count: those of one count are gathered together.
-      std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
+      const std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
       if (list.empty()) return {};
-      while (!list.empty() && !ended_early_) {
-        const std::uint32_t samples = gathered_.samples[list.front()];
-        const auto rest = std::stable_partition(list.begin(), list.end(),
-                                                [&](std::uint32_t i) { return gathered_.samples[i] == samples; });
-        const std::vector<std::uint32_t> same(list.begin(), rest);
-        list.erase(list.begin(), rest);
+      ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
         const std::uint32_t per_half = std::min(most, 2 * std::max(1u, samples));
-        ORIEL_TRY_VOID(refine(
-            [&] { return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_); }));
-      }
+        return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
+      }));
       update_estimate();
     }
   }
@@ -322,18 +309,31 @@ class CachedBake {
       now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
+      const std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
       if (list.empty()) return {};
-      while (!list.empty() && !ended_early_) {
-        const std::uint32_t samples = direct_.per_half[list.front()];
-        const auto rest = std::stable_partition(list.begin(), list.end(),
-                                                [&](std::uint32_t i) { return direct_.per_half[i] == samples; });
-        const std::vector<std::uint32_t> same(list.begin(), rest);
-        list.erase(list.begin(), rest);
-        ORIEL_TRY_VOID(refine(
-            [&] { return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_); }));
-      }
+      ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
+        return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_);
+      }));
     }
+  }
+
+  // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
+  Status gather_nearer() {
+    const float before = around_.near();
+    around_.set_near(kNearer * before);
+    HalfSums anew = gathered_;
+    const std::vector<std::uint32_t> list = not_kept();
+    for (const std::uint32_t i : list) anew.forget(i);
+    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+      return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
+    }));
+    if (ended_early_) {
+      around_.set_near(before);
+      return {};
+    }
+    gathered_ = std::move(anew);
+    update_estimate();
+    return {};
   }
 
   void store(Radiosity& result) {
@@ -377,7 +377,7 @@ class CachedBake {
   std::vector<float> relative_;  // by texel: squared relative error of the part being refined
   DVec3 mean_{0};                // lux, over texels that see light
   std::size_t count_ = 0;        // of them
-  std::size_t baked_ = 0;        // of these, those that do not keep their light
+  double baked_ = 0;             // what is seen of those that do not keep their light, in texels
   bool ended_early_ = false;
 };
 
@@ -385,7 +385,7 @@ class CachedBake {
 
 Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                    const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
-                   Radiosity& result, const NextError& next) {
+                   Radiosity& result, const NextRefinement& next) {
   ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays));
   CachedBake bake(t, atlas, texel_map, options, context, rays, texels);
   return bake.run(result, next);

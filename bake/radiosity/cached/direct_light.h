@@ -21,6 +21,12 @@ struct DirectSums {
         uneven(texels),
         per_half(texels),
         moments(directional ? texels : 0) {}
+
+  void take(std::size_t i, const DirectSums& from, std::size_t k) {
+    value[i] = from.value[k], variance[i] = from.variance[k], sampled[i] = from.sampled[k], uneven[i] = from.uneven[k];
+    if (!from.moments.empty()) moments[i] = from.moments[k];
+    per_half[i] = from.per_half[k];
+  }
 };
 
 class DirectLight {

@@ -90,7 +90,8 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
   for (std::size_t i = 0; i < texels.count(); ++i)
     if (texels.visible[i] > 0) mean += DVec3(coarse[i]), ++visible;
   if (visible > 0) mean *= kDarkest / static_cast<double>(visible);
-  double all = 0;
+  double all = 0, seen = 0;
+  for (std::size_t i = 0; i < texels.count(); ++i) seen += texels.seen(i);
   report_ = {};
   report_.asked = error;
   for (std::size_t first = 0; first < order.size(); first += kTile) {
@@ -99,11 +100,12 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
     bool known = true;
     for (const std::uint32_t i : tile) {
       if (texels.visible[i] == 0) continue;
-      ++count;
+      count += texels.seen(i);
       if (!(known = known && number_[i] != kNoTexel)) break;
       const DVec3 now(coarse[i]), d = now - DVec3(known_.coarse[number_[i]]);
       for (int c = 0; c < 3; ++c)
-        if (const double square = now[c] * now[c] + mean[c] * mean[c]; square > 0) relative += d[c] * d[c] / square / 3;
+        if (const double square = now[c] * now[c] + mean[c] * mean[c]; square > 0)
+          relative += texels.seen(i) * d[c] * d[c] / square / 3;
     }
     ++report_.tiles;
     if (!known || relative > error * error * count) continue;
@@ -112,10 +114,10 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
     for (const std::uint32_t i : tile) {
       if (texels.visible[i] == 0) continue;
       kept_[i] = true;
-      change_[i] = static_cast<float>(std::sqrt(relative / count));
+      change_[i] = static_cast<float>(std::sqrt(relative / std::max(count, 1e-30)));
     }
   }
-  report_.error = visible > 0 ? std::sqrt(all / static_cast<double>(visible)) : 0;
+  report_.error = seen > 0 ? std::sqrt(all / seen) : 0;
 }
 
 }  // namespace oriel

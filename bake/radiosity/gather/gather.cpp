@@ -57,15 +57,17 @@ class GroupGather {
     Vec4 moments{0};
   };
 
+  // Points that are kept serve again until each of them had a few rays; then each few rays have a new one, for no
+  // number of rays makes up for points too few.
   void fetch_sites(int half, std::uint32_t k, bool all) {
     for (Member& m : members_) {
-      const bool many = texels_.has_many[m.texel];
-      if (many ? m.done >= k + kKeptSites : !all) continue;
       const std::uint32_t kept = texels_.kept_sites(m.texel, half);
-      if (many && k >= kept) {  // new points cost more than rays
+      const std::uint32_t serve = texels_.has_many[m.texel] ? kept : kRaysAPoint;
+      if (m.done >= k + kKeptSites) continue;
+      if (k >= serve) {
         if (k % kRaysAPoint == 0 || m.done > k - k % kRaysAPoint)
-          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + k / kRaysAPoint, rays_)));
-      } else {
+          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + (k - serve) / kRaysAPoint, rays_)));
+      } else if (all || texels_.has_many[m.texel] || m.done + kKeptSites > k) {
         for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
       }
     }
@@ -134,7 +136,7 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half);
+    key(light, part(g), per_half, around.near());
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {

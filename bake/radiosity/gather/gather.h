@@ -21,6 +21,16 @@ struct HalfSums {
     for (auto& s : sum) s.resize(texels);
     for (auto& s : slope) s.resize(texels);
   }
+  void forget(std::size_t i) {
+    for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
+    if (!moments.empty()) moments[i] = Vec4(0);
+    samples[i] = 0;
+  }
+  void take(std::size_t i, const HalfSums& from, std::size_t k) {
+    for (int h = 0; h < kHalves; ++h) sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k];
+    if (!from.moments.empty()) moments[i] = from.moments[k];
+    samples[i] = from.samples[k];
+  }
   Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
 };

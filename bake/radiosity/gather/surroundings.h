@@ -10,8 +10,8 @@ struct GatherRay {
   float incidence = 0;       // of its direction: π times its density
   std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
   std::uint32_t sample = 0;
-  // Texels met from nearer than their side, and those that something stands or hangs close to, are not asked: a path
-  // goes on from the point met.
+  // Texels met from nearer than Surroundings::near() of their sides, and those that something stands or hangs close to,
+  // are not asked: a path goes on from the point met.
   bool near = false;
 };
 
@@ -44,13 +44,18 @@ class Surroundings {
   // Whether answers depend on GatherRay::incidence.
   bool weighs() const { return !closed_form_ || t_.lights.samples_sky(); }
   bool closed_form() const { return closed_form_; }
+
+  // In sides of the texel met. The further paths go on, the less does it matter what texels cannot tell, and the more
+  // rays and noise there are.
+  float near() const { return near_; }
+  void set_near(float sides) { near_ = sides; }
   const Transport& transport() const { return t_; }
 
  private:
   // Whether the mean over a texel says too little about the point that was met: it is close by, or the texel reaches
   // under or into something and is lit elsewhere.
   bool is_near(const GatherRay& about, float distance, std::uint32_t texel) const {
-    return about.near && texel != kNoTexel && (texels_.has_many[texel] || distance < side_[texel]);
+    return about.near && texel != kNoTexel && (texels_.has_many[texel] || distance < near_ * side_[texel]);
   }
 
   // At a surface that is more than a matt wall, or that is near.
@@ -64,6 +69,7 @@ class Surroundings {
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
+  float near_ = 1;
   std::vector<Kind> kinds_;  // by triangle
   std::vector<float> side_;  // by texel, m
 };

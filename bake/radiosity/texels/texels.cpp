@@ -181,6 +181,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
       texels.pages[p].number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
       texels.page.push_back(p);
       texels.index.push_back(i);
+      texels.covered.push_back(covered_share(map, i));
       texels.x.push_back(map.texel[i] % map.width);
       texels.y.push_back(map.texel[i] / map.width);
       texels.chart.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);

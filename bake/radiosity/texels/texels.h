@@ -42,10 +42,12 @@ struct Texels {
   std::unordered_map<std::uint32_t, std::array<std::vector<TexelSite>, kHalves>> many_sites;
   std::vector<char> has_many;  // whether it is in many_sites
   std::vector<float> visible;  // share of the texel that is not inside other geometry; 0: no site
+  std::vector<float> covered;  // share of the texel that has a surface
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
 
   std::size_t count() const { return page.size(); }
+  float seen(std::size_t i) const { return covered[i] * visible[i]; }  // seen_share()
 
   std::uint32_t kept_sites(std::uint32_t i, int half) const {
     return has_many[i] ? static_cast<std::uint32_t>(many_sites.at(i)[half].size()) : kSitesPerHalf;

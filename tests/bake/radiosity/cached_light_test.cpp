@@ -3,37 +3,26 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/bake/support/scene_parts.h"
+#include "bake/radiosity/gather/surroundings.h"
+#include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
 namespace {
 
+Scene plain_floor() {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {0, 0, 2}, {2, 0, 0});
+  return parts.finish();
+}
+
 // A floor of 2 m × 2 m in texels of 10 cm, with the light that falls on it.
-struct Floor {
-  Scene scene;
-  Context context;
-  Atlas atlas;
-  std::vector<TexelMapPage> map;
-  std::optional<Accel> accel;
-  std::optional<LightSet> lights;
-  Texels texels;
+struct Floor : Listed {
   TexelGraph graph;
   std::vector<Vec3> irradiance;
 
-  explicit Floor(const std::function<Vec3(const Vec3&)>& light) {
-    SceneParts parts;
-    parts.quad("floor", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {0, 0, 2}, {2, 0, 0});
-    scene = parts.finish();
-    AtlasOptions options;
-    options.texel_m = 0.1f;
-    atlas = *build_atlas(scene, options, context);
-    map = *build_texel_map(atlas, context);
-    accel.emplace(*Accel::build(scene));
-    lights.emplace(scene);
+  explicit Floor(const std::function<Vec3(const Vec3&)>& light) : Listed(plain_floor(), 0.1f) {
     std::atomic<std::uint64_t> rays{0};
-    const Transport transport{*accel, *lights, {}};
-    texels = *list_texels(transport, atlas, map, context, rays);
-    graph = *find_neighbours(transport, texels, context, rays);
+    graph = *find_neighbours(transport(), texels, context, rays);
     for (std::size_t i = 0; i < texels.count(); ++i) {
       Vec3 centre(0);
       for (const TexelSite& site : texels.site[i]) centre += site.origin / static_cast<float>(kSites);
@@ -63,6 +52,25 @@ TEST(CachedLight, AStepBringsNoLightBelowZero) {
       EXPECT_LE(found.g, 2 * 500 / kPi + 1e-3f);
       EXPECT_EQ(found.g == 0, floor.irradiance[i].g == 0);
     }
+}
+
+// A ray that meets a floor of 10 cm texels from 25 cm above: far from two texels, near to four, and then followed to
+// where it sees the sky.
+TEST(Surroundings, NearIsFollowedSoManySides) {
+  Listed listed(plain_floor(), 0.1f);
+  listed.scene.sky = Vec3(2);
+  listed.accel.emplace(*Accel::build(listed.scene));
+  const Transport transport = listed.transport();
+  Surroundings around(transport, listed.texels, true, 1);
+  const std::array ray{Ray{{1.02f, 0.25f, 1.03f}, {0, -1, 0}}};
+  const std::array about{GatherRay{.incidence = 1, .near = true}};
+  for (const float sides : {2.0f, 4.0f}) {
+    around.set_near(sides);
+    Answers answers;
+    around.answer(ray, about, answers);
+    EXPECT_EQ(answers.texel[0] == kNoTexel, sides > 2.5f) << sides;
+    EXPECT_FLOAT_EQ(answers.light[0].g, sides > 2.5f ? 2 * 0.5f : 0) << "the sky on an albedo of a half";
+  }
 }
 
 }  // namespace

@@ -51,6 +51,27 @@ TEST(HeldOut, TellTheErrorThatIsThere) {
                                     << b.radiosity.report.relative_error;
 }
 
+// Every texel of which less than half has a surface is made twice too bright.
+TEST(HeldOut, WeighTexelsByWhatIsSeenOfThem) {
+  Baked b = room(0.02);
+  constexpr double kOff = 1;
+  double slivers = 0, seen = 0;
+  for (std::size_t p = 0; p < b.texel_map.size(); ++p)
+    for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
+      const double share = seen_share(b.texel_map, b.radiosity, p, i);
+      seen += share;
+      if (share > 0.5) continue;
+      slivers += share;
+      b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]] *= static_cast<float>(1 + kOff);
+    }
+  ASSERT_GT(slivers, 0);
+  const double expected = kOff / (1 + kOff) * std::sqrt(slivers / seen);  // relative to the brighter of the two
+  const Certificate c = certificate_of(b, expected, 4 * kManyRays);
+  EXPECT_GE(c.error_high, expected);
+  EXPECT_LE(c.error_low, std::hypot(expected, 0.025));
+  EXPECT_LT(c.error_high - c.error_low, expected) << "known well enough to say";
+}
+
 TEST(HeldOut, FewRaysGiveAWiderInterval) {
   Baked b = room(0.05);
   spoil(b, 0.1f);

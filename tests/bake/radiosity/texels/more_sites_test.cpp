@@ -3,62 +3,41 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
-#include "tests/bake/support/scene_parts.h"
+#include "bake/radiosity/gather/gather.h"
+#include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
 namespace {
 
-// A floor of one texel of 1 m, of which all but the strip x > 0.8 m lies under a block that stands in it.
-struct Strip {
-  Scene scene;
-  Context context;
-  Atlas atlas;
-  std::vector<TexelMapPage> map;
-  std::optional<Accel> accel;
-  std::optional<LightSet> lights;
-  Texels texels;
-  std::uint32_t floor = kNoTexel;
-
-  Strip() {
-    SceneParts parts;
-    parts.quad("floor", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-    parts.box("block", parts.diffuse(Vec3(0.5f)), {-1, -1, -1}, {0.8f, 1, 2});
-    scene = parts.finish();
-    AtlasOptions options;
-    options.texel_m = 1;
-    atlas = *build_atlas(scene, options, context);
-    map = *build_texel_map(atlas, context);
-    accel.emplace(*Accel::build(scene));
-    lights.emplace(scene);
-    std::atomic<std::uint64_t> rays{0};
-    texels = *list_texels(transport(), atlas, map, context, rays);
-    for (std::uint32_t i = 0; i < texels.count(); ++i)
-      if (scene.triangle_surface[map[texels.page[i]].fragments[map[texels.page[i]].first[texels.index[i]]].triangle] ==
-          0)
-        floor = i;
-  }
-  Transport transport() const { return {*accel, *lights, {}}; }
-};
+// A floor of one texel, of which all but the strip x > 0.8 m lies under a block that stands in it.
+Scene strip() {
+  SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+  parts.box("block", parts.diffuse(Vec3(0.5f)), {-1, -1, -1}, {0.8f, 1, 2});
+  return parts.finish();
+}
 
 TEST(MoreSites, LieInThePartThatSeesLight) {
-  const Strip strip;
-  ASSERT_NE(strip.floor, kNoTexel);
-  ASSERT_NEAR(strip.texels.visible[strip.floor], 0.2, 0.08);
-  const Transport transport = strip.transport();
-  const MoreSites sites(transport, strip.atlas, strip.map, strip.texels, strip.context.seed);
+  const Listed listed(strip(), 1);
+  ASSERT_FALSE(listed.floor.empty());
+  const std::uint32_t floor = listed.floor.back();
+  ASSERT_NEAR(listed.texels.visible[floor], 0.2, 0.08);
+  const Transport transport = listed.transport();
+  const MoreSites sites = listed.sites(transport);
   constexpr std::uint32_t kPoints = 512;
   for (int half = 0; half < kHalves; ++half) {
-    const std::uint32_t kept = strip.texels.kept_sites(strip.floor, half);
+    const std::uint32_t kept = listed.texels.kept_sites(floor, half);
     ASSERT_LT(kept, kPoints / 4);
     std::set<std::pair<float, float>> points;
     double x = 0, z = 0;
     std::uint64_t rays = 0;
     for (std::uint32_t k = 0; k < kPoints; ++k) {
-      const TexelSite site = sites.at(strip.floor, half, k, rays);
+      const TexelSite site = sites.at(floor, half, k, rays);
       if (k < kept) {
-        EXPECT_EQ(site.origin, strip.texels.site_for(strip.floor, half, k).origin);
+        EXPECT_EQ(site.origin, listed.texels.site_for(floor, half, k).origin);
       }
       EXPECT_GT(site.origin.x, 0.8f);
       points.emplace(site.origin.x, site.origin.z);
@@ -69,6 +48,72 @@ TEST(MoreSites, LieInThePartThatSeesLight) {
     EXPECT_NEAR(z, 0.5, 4 * 1.0 / std::sqrt(12.0 * kPoints));
     EXPECT_GT(rays, kPoints - kept);
   }
+}
+
+constexpr double kHeight = 1.05, kHole = 0.15;  // m; of the hole half its side
+
+// A floor of 1 m, 1.05 m under a black ceiling with a hole of 0.3 m through which a sky of 1 cd/m² shines: light that
+// varies over a texel of which nothing is near.
+Scene under_a_hole() {
+  constexpr float kWide = 2, kTop = kHeight + 1e-4f, kLow = kHeight, kSmall = kHole;
+  SceneParts parts;
+  const auto black = parts.diffuse(Vec3(0));
+  parts.quad("floor", black, {-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1});
+  parts.box("ceiling", black, {-kWide, kLow, -kWide}, {kWide, kTop, -kSmall});
+  parts.box("ceiling", black, {-kWide, kLow, kSmall}, {kWide, kTop, kWide});
+  parts.box("ceiling", black, {-kWide, kLow, -kSmall}, {-kSmall, kTop, kSmall});
+  parts.box("ceiling", black, {kSmall, kLow, -kSmall}, {kWide, kTop, kSmall});
+  parts.box("wall", black, {-kWide - 1, -1, -kWide - 1}, {-kWide, kTop, kWide + 1});
+  parts.box("wall", black, {kWide, -1, -kWide - 1}, {kWide + 1, kTop, kWide + 1});
+  parts.box("wall", black, {-kWide, -1, -kWide - 1}, {kWide, kTop, -kWide});
+  parts.box("wall", black, {-kWide, -1, kWide}, {kWide, kTop, kWide + 1});
+  Scene scene = parts.finish();
+  scene.sky = Vec3(1);
+  return scene;
+}
+
+// ∫ cos⁴ / h² over the hole, mean over the floor; lux.
+double under_the_hole() {
+  constexpr int kSteps = 32;
+  double sum = 0;
+  const auto at = [](int n, double half) { return half * ((2 * n + 1.0) / kSteps - 1); };
+  for (int a = 0; a < kSteps; ++a)
+    for (int b = 0; b < kSteps; ++b)
+      for (int c = 0; c < kSteps; ++c)
+        for (int d = 0; d < kSteps; ++d) {
+          const double x = at(a, 0.5) - at(b, kHole), z = at(c, 0.5) - at(d, kHole);
+          sum += kHeight * kHeight / std::pow(x * x + z * z + kHeight * kHeight, 2);
+        }
+  return 4 * kHole * kHole * sum / std::pow(kSteps, 4);
+}
+
+TEST(MoreSites, AreDrawnWhereRaysAreMany) {
+  constexpr std::uint32_t kRays = 1u << 18u;
+  const double expected = under_the_hole();
+  double squares = 0;
+  constexpr std::uint64_t kSeeds = 8;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    Listed listed(under_a_hole(), 1, seed);
+    const Transport transport = listed.transport();
+    const Surroundings around(transport, listed.texels, true, seed);
+    const std::size_t n = listed.texels.count();
+    const std::vector<Vec3> dark(n);
+    const CachedLight cached{dark, std::vector<CachedTexel>(n)};
+    HalfSums sums(n, false);
+    std::atomic<std::uint64_t> rays{0};
+    ASSERT_TRUE(gather(listed.texels, listed.sites(transport), around, listed.floor, kRays, cached, listed.context,
+                       sums, rays));
+    double light = 0, area = 0;
+    for (const std::uint32_t i : listed.floor) {
+      ASSERT_FALSE(listed.texels.has_many[i]);
+      light += double{listed.texels.area_m2[i]} * sums.mean(i).g, area += listed.texels.area_m2[i];
+    }
+    const double off = light / area / expected - 1;
+    squares += off * off / kSeeds;
+  }
+  // A hit is worth π lux, so that the rays' own noise is
+  const double noise = std::sqrt(kPi / (expected * kHalves * kRays));
+  EXPECT_LT(std::sqrt(squares), 2 * noise);
 }
 
 }  // namespace

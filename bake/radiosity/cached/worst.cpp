@@ -1,0 +1,39 @@
+#include "bake/radiosity/cached/worst.h"
+
+#include <algorithm>
+
+#include "bake/radiosity/cached/filter.h"
+
+namespace oriel {
+
+std::vector<std::uint32_t> worst_texels(const Texels& texels, const TexelGraph& graph,
+                                        std::span<const std::uint32_t> open, const std::vector<float>& squares,
+                                        const std::vector<std::uint32_t>& samples, const WorstOptions& options,
+                                        Context& context) {
+  std::vector<float> typical(squares);
+  for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
+  typical = typical_errors(graph, std::move(typical), context);
+  for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
+  std::vector<std::uint32_t> by_error;
+  for (const std::uint32_t i : open)
+    if (typical[i] > options.goal / 4) by_error.push_back(i);
+  const auto gain_a_ray = [&](std::uint32_t i) {
+    return double{typical[i]} * texels.seen(i) / std::max(1u, samples[i]);
+  };
+  std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double ga = gain_a_ray(a), gb = gain_a_ray(b);
+    return ga != gb ? ga > gb : a < b;
+  });
+  double left = options.excess;
+  std::size_t taken = 0;
+  for (; taken < by_error.size() && left > 0; ++taken)
+    left -= options.gain * typical[by_error[taken]] * texels.seen(by_error[taken]);
+  by_error.resize(taken);
+  std::sort(by_error.begin(), by_error.end());
+  std::vector<std::uint32_t> in_order;
+  for (const std::uint32_t i : open)
+    if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
+  return in_order;
+}
+
+}  // namespace oriel
