@@ -25,6 +25,7 @@ struct Page {
       texels.page.push_back(0), texels.x.push_back(x), texels.y.push_back(y), texels.chart.push_back(0);
     }
     texels.visible.assign(n, 1);
+    texels.covered.assign(n, 1);
     order.resize(n);
     std::iota(order.begin(), order.end(), 0u);
     known.page = texels.page, known.x = texels.x, known.y = texels.y, known.chart = texels.chart;
