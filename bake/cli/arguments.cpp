@@ -69,7 +69,7 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->check(CLI::IsMember({"cached", "reference"}))
       ->capture_default_str();
   auto* error = app.add_option("--error", texts.error,
-                               "The error asked for: root mean square over texels and channels, relative, dark texels "
+                               "The error asked for: root mean square over what is seen of texels, relative, dark ones "
                                "by 1 % of the mean. Work stops there")
                     ->check(checked(parse_fraction, "SHARE"))
                     ->capture_default_str();

@@ -235,12 +235,17 @@ class Finisher {
     const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
     if (!missed || report.ended_early || report.refinements == kRefinements) return {};
     if (options_.enough && options_.enough()) return {};
-    // What the noise that is stated does not explain stays, however many rays are traced, unless less is looked up.
+    // What the noise that is stated does not explain stays, however many rays are traced, unless less is looked up: but
+    // for what stitching moves, which neither mends, and looked-up bounces, of which `bounces` says how many there are.
     const double stays = std::max(std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2), 0.0);
+    const double looked_up = stays - std::pow(report.seams.moved, 2);
     Refinement how;
-    how.nearer = report.refinements == 0 && stays > kUnexplained * asked * asked;
-    const double least = std::pow(kSharpest * asked, 2);
-    how.error = std::sqrt(std::max(asked * asked - (how.nearer ? kNearerLeaves : 1) * stays, least));
+    how.nearer = report.refinements == 0 && options_.bounces == 0 && looked_up > kUnexplained * asked * asked;
+    const double goal2 = asked * asked - (how.nearer ? kNearerLeaves : 1) * stays;
+    if (!how.nearer && goal2 <= 0) return {};
+    how.error = std::max(std::sqrt(std::max(goal2, 0.0)), kSharpest * asked);
+    if (!how.nearer && how.error >= target_) return {};
+    target_ = how.error;
     ++report.refinements;
     result.pages = empty_pages(map_, options_.directional);
     return how;
@@ -258,6 +263,7 @@ class Finisher {
   const RadiosityOptions& options_;
   Context& context_;
   std::atomic<std::uint64_t>& rays_;
+  double target_ = std::numeric_limits<double>::infinity();  // of the last refinement
 };
 
 }  // namespace

@@ -38,8 +38,8 @@ struct RadiosityOptions {
   // limit, say). Context::finishable is set while it is asked.
   std::function<bool()> enough = {};
   // cached: so many rays, as a share of the bake's, measure the error of held-out texels by unbiased paths (at least
-  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise can mend it,
-  // at most kRefinements times.
+  // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise, or looking
+  // up less (cached/cached.h), can mend it, at most kRefinements times.
   double verify = 0.1;
   // cached: tiles of texels whose light an edit of the scene changes by no more than this, relative, keep that of the
   // last bake with these options that reused none (Context::units knows it); 0: all are baked.
@@ -68,7 +68,7 @@ struct Certificate {
   double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
   double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
   double relative_error = 0;             // rms over what is seen of texels, free of the paths' own noise
-  double error_low = 0, error_high = 0;  // the rms of all texels lies between with 95 % certainty
+  double error_low = 0, error_high = 0;  // the rms of all that is seen lies between with 95 % certainty
   std::uint64_t rays = 0;
 };
 
@@ -76,7 +76,7 @@ struct Certificate {
 struct ReuseReport {
   double asked = 0;                 // 0: all was baked
   std::size_t tiles = 0, kept = 0;  // of about 64 texels each
-  double error = 0;                 // that this brings: rms over all texels, relative; relative_error has it in it
+  double error = 0;                 // that this brings: rms over what is seen, relative; relative_error has it in it
 };
 
 struct RadiosityReport {

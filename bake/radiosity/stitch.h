@@ -13,7 +13,7 @@ namespace oriel {
 // around it; what of it has no surface is free, being an extrapolation. No channel of a texel moves by more than its
 // standard error or a third of its light (what is more), and of its light 3 % and up to two fifths for what has no
 // surface. All together they move by no more than at_most, relative to their light (and 1 % of the mean), root mean
-// square over all texels: charts of a texel or two cannot meet all the light along their outline, and what is mended
+// square over all surfaces: charts of a texel or two cannot meet all the light along their outline, and what is mended
 // there is an error elsewhere. The result is finite and not negative; empty texels are neither read nor changed.
 // `pages` are filled and dilated. SeamReport::energy_change is the caller's.
 SeamReport stitch(const Seams& seams, std::span<const TexelMapPage> texel_map, double at_most,

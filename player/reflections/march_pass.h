@@ -20,8 +20,9 @@ class MarchPass {
   static Result<MarchPass> create(gpu::Dialect dialect);
 
   // Clears the image and draws what it takes to show the reflector, whose front faces the eye: of a mirror (no kernel)
-  // the pixels that show it, for a kernel also what lies around, on its plane beyond its edges. Where the kernel blurs
-  // as wide as pixels of rect.coarse they are that large, and interpolated. What no map sees keeps a = 0.
+  // the pixels that show it, for a kernel also what lies around, on its plane beyond its edges. Where half the
+  // kernel covers two pixels of rect.marched or more they are that large, and interpolated. What no map sees keeps a =
+  // 0.
   void draw(GpuScene& scene, const GpuReflector& reflector, const GpuKernel* kernel, const View& view,
             const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown, const FrameOptions& options,
             FrameStats& stats) const;

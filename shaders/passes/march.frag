@@ -67,13 +67,13 @@ void main() {
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, place, direction);
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
-    if (hit.trust >= kLeastTrust) {
+    if (hit.trust > kLeastTrust) {
       float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
       float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
       float pixels = map_pixels(hit, map, s_distance);
       vec4 light = vec4(u_measure ? vec3(1.0 / pixels) : light_of_hit(hit, map, pixels), inverse);
       // Maps that do not agree about the distance do not mix: the weightier ones win.
-      float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust * hit.trust;
+      float weight = max(u_eyes[i].w, kLeastWeight) * hit.trust * hit.trust * smoothstep(kLeastTrust, 1.5 * kLeastTrust, hit.trust);
       if (total > 0.0) {
         float mean = sum.a / total;
         float agreement = exp2(-pow(abs(inverse - mean) / (kSameDepth * max(inverse, mean)), 2.0));

@@ -66,7 +66,7 @@ class GroupGather {
       if (m.done >= k + kKeptSites) continue;
       if (k >= serve) {
         if (k % kRaysAPoint == 0 || m.done > k - k % kRaysAPoint)
-          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + (k - serve) / kRaysAPoint, rays_)));
+          m.site.fill(GatherSite(sites_.at(m.texel, half, kept + k / kRaysAPoint - serve / kRaysAPoint, rays_)));
       } else if (all || texels_.has_many[m.texel] || m.done + kKeptSites > k) {
         for (std::uint32_t i = 0; i < kKeptSites; ++i) m.site[i] = GatherSite(texels_.site_for(m.texel, half, k + i));
       }

@@ -32,7 +32,6 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
   for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {
     const SurfacePoint point =
         texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
-    if (texels_.visible[i] == 1 && !divided) return site_of(point);
     const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
     const std::uint64_t seed =
         seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);

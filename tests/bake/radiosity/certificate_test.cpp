@@ -72,6 +72,21 @@ TEST(HeldOut, WeighTexelsByWhatIsSeenOfThem) {
   EXPECT_LT(c.error_high - c.error_low, expected) << "known well enough to say";
 }
 
+// Furniture of the size of its texels: what rays look up is not what is there, and more rays would not mend that.
+TEST(HeldOut, TellOfLookUpsThatAreThenFollowed) {
+  constexpr double kAsked = 0.015;
+  const auto bake_room = [](double verify, int threads) {
+    return test::bake(test::room(test::Feature::kMatt), 0.5f,
+                      {.estimator = Estimator::kCached, .samples = 4096, .error = kAsked, .verify = verify}, threads);
+  };
+  const Baked once = bake_room(0, 0), refined = bake_room(2, 1), same = bake_room(2, 2);
+  const Certificate before = certificate_of(once, kAsked, kManyRays), &after = refined.radiosity.report.certificate;
+  EXPECT_EQ(refined.radiosity.report.refinements, 1);
+  EXPECT_LT(after.relative_error, before.relative_error);
+  EXPECT_LE(after.error_low, kAsked);
+  EXPECT_EQ(refined.radiosity.pages[0].irradiance, same.radiosity.pages[0].irradiance);
+}
+
 TEST(HeldOut, FewRaysGiveAWiderInterval) {
   Baked b = room(0.05);
   spoil(b, 0.1f);

@@ -1,0 +1,50 @@
+// Which texels are refined.
+#include "bake/radiosity/cached/worst.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace oriel {
+namespace {
+
+// Texels without neighbours, all seen and equally bad, with 4 samples each.
+struct Alike {
+  Texels texels;
+  TexelGraph graph;
+  std::vector<std::uint32_t> order;
+  std::vector<float> squares;
+  std::vector<std::uint32_t> samples;
+  Context context;
+
+  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), samples(n, 4) {
+    std::iota(order.begin(), order.end(), 0u);
+    texels.visible.assign(n, 1), texels.covered.assign(n, 1);
+    graph.neighbour.resize(n), graph.count.assign(n, 0);
+  }
+  std::vector<std::uint32_t> worst(const WorstOptions& options) {
+    return worst_texels(texels, graph, order, squares, samples, options, context);
+  }
+};
+
+TEST(WorstTexels, AreThoseThatGainMostForTheirRays) {
+  Alike a(4);
+  a.texels.covered[0] = 0.2f;  // a sliver
+  a.samples[1] = 64;           // dear
+  a.squares[2] = 0.02f;        // better
+  // What refining one whole texel takes away is 0.02, of the sliver 0.004.
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.015}), (std::vector<std::uint32_t>{3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.025}), (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.032}), (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 1}), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+TEST(WorstTexels, AreNotThoseThatAreTwiceAsGoodAsAsked) {
+  Alike a(3);
+  a.squares[1] = 0.04f / 4.1f;
+  EXPECT_EQ(a.worst({.goal = 0.04, .excess = 1}), (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_TRUE(a.worst({.goal = 0.2, .excess = 1}).empty());
+}
+
+}  // namespace
+}  // namespace oriel
