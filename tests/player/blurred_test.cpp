@@ -1,5 +1,6 @@
 // M as coarse as its blur allows: where it may be, and where it must not; and M beyond a reflector's edges, which blur
 // alone looks at.
+#include "formats/camera/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
@@ -28,11 +29,7 @@ Pack blurring_pack(float half_extent, const std::vector<Vec3>& eyes,
 }
 
 Camera camera_at(const Vec3& eye, const Vec3& target) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  camera.vertical_fov_rad = 1.2f;
-  return camera;
+  return look_at(eye, target, 1.2f);
 }
 
 constexpr int kWidth = 480, kHeight = 360;

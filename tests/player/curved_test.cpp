@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 
+#include "formats/camera/camera.h"
 #include "formats/core/half.h"
 #include "formats/core/octahedral.h"
 #include "player/maps/surround_march.h"
@@ -98,11 +99,7 @@ Pack ball_pack(const Ball& ball, const SurroundMap& map, int around = 192, int a
 }
 
 Camera looking_at(const Vec3& eye, const Vec3& target) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  camera.vertical_fov_rad = 0.7f;
-  return camera;
+  return look_at(eye, target, 0.7f);
 }
 
 // The ray through a pixel's centre, and where it meets the ball; false where it does not.

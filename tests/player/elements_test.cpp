@@ -1,5 +1,6 @@
 // Reflector elements and their radiance maps on the device: several elements, many maps, maps of few pixels, coarse
 // levels.
+#include "formats/camera/camera.h"
 #include "formats/core/half.h"
 #include "player/maps/relief.h"
 #include "tests/player/frame_fixture.h"
@@ -26,11 +27,7 @@ Pack mirror_pack(const std::vector<Vec3>& eyes, std::uint32_t size) {
 }
 
 Camera camera_at(const Vec3& eye) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(-eye);
-  camera.vertical_fov_rad = 1.2f;
-  return camera;
+  return look_at(eye, Vec3(0), 1.2f);
 }
 
 class Elements : public FrameTest {

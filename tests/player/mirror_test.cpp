@@ -1,4 +1,5 @@
 // Reflections against closed-form geometry: a mirror at z = 0 before a wall at z = 3 with a red square on it.
+#include "formats/camera/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
@@ -34,11 +35,7 @@ Pack mirror_pack(const std::function<Seen(const Vec2&, const Vec3&)>& seen = wal
 }
 
 Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  camera.vertical_fov_rad = 1.4f;
-  return camera;
+  return look_at(eye, target, 1.4f);
 }
 
 // What a pixel of the mirror shows, and whether the answer is at least `margin` metres from the square's edge.

@@ -1,5 +1,6 @@
 // What reflectors show besides their maps: mirrored geometry and emitters in closed form; and what is left at the
 // extremes.
+#include "formats/camera/camera.h"
 #include "formats/lobes/lobe_light.h"
 #include "player/passes/geometry_pass.h"
 #include "tests/player/frame_fixture.h"
@@ -11,11 +12,7 @@ using namespace testing;
 const Vec3 kGrey(10, 10, 10);
 
 Camera camera_at(const Vec3& eye, const Vec3& target = Vec3(0)) {
-  Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  camera.vertical_fov_rad = 1.2f;
-  return camera;
+  return look_at(eye, target, 1.2f);
 }
 
 // The mirror of add_mirror, all of it kGrey at z = 3, and materials 1 … 3 that shine red, green, blue.
