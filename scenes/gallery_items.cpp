@@ -17,13 +17,6 @@ Mesh empty_mesh(std::string name, std::uint32_t material) {
 
 }  // namespace
 
-std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color) {
-  Material material;
-  material.name = std::move(name);
-  material.base_color = color;
-  return add_material(scene, std::move(material));
-}
-
 void add_columns(Scene& scene, std::uint32_t stone) {
   const std::uint32_t marble = add_diffuse(scene, "marble", Vec3(0.72f, 0.70f, 0.66f));
   Mesh shaft = empty_mesh("column shaft", marble);

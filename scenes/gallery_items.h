@@ -7,9 +7,6 @@
 
 namespace oriel::sample {
 
-// A purely diffuse material; its index.
-std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color);
-
 // Four in room A, two in room C.
 void add_columns(Scene& scene, std::uint32_t stone);
 void add_pictures(Scene& scene, std::uint32_t frame);

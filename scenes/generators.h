@@ -1,6 +1,8 @@
 // The sample scenes.
 #pragma once
 
+#include <array>
+
 #include "formats/core/result.h"
 #include "scenes/kit/scene_builder.h"
 
@@ -21,16 +23,38 @@ Scene make_gallery(const GalleryOptions& options = {});
 // A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
 Scene make_studio();
 
+// A furnished room, 6 m a side and 2.7 m high, diffuse, twelve thousand triangles. Closed, it has a ceiling panel
+// and no camera; a room in a landscape has a window instead, and a camera.
+struct RoomOptions {
+  bool closed = true;
+  bool door = false;         // of a room in a landscape: one to walk out by, a step above the ground
+  bool surroundings = true;  // of a room in a landscape: its ground and sky
+};
+// The ground is a square of kGroundSide, the sky a dome of kDomeRadius around the room that emits kSkyLuminance evenly.
+inline constexpr float kGroundSide = 1000, kDomeRadius = 1000;  // metres
+inline constexpr float kSkyLuminance = 3000;                    // cd/m²
+inline constexpr float kGroundReflectance = 0.2f;
+Scene make_room(const RoomOptions& options = {});
+
+// A closed room of 8 m by 4 m, 2.7 m high, of what stands little proud of what is behind it: along one wall four
+// sections with a panel on the wall, a board hung before it (half of how far it stands out is a gap) and a skirting,
+// 1, 5, 10 and 20 mm proud; pictures in frames, a carpet, a cornice, a cupboard on a plinth. A camera for each kind of
+// edge. Diffuse; its light is a wide window and a ceiling panel, so that no hard shadow falls along an edge.
+Scene make_panels();
+inline constexpr std::array<int, 4> kProud_mm{1, 5, 10, 20};
+
 struct HouseOptions {
   std::uint64_t triangles = 100'000;
   int reflectors = 5;
+  double lawn_m2 = 0;  // a square of grass around and under the house
 };
 inline constexpr int kMaxHouseReflectors = 36;
 
 // A closed house of two storeys with six rooms each, stairs, windows and furniture whose tessellation makes the number
 // of triangles (within 10 %), and `reflectors` planar reflectors: mirrors, polished floors and table tops in turn; a
-// 600-frame walk. Errors: kUsage for triangles below what the house needs at least or above 20 million, or reflectors
-// out of [0, kMaxHouseReflectors].
+// 600-frame walk. Errors: kUsage for triangles below what the house needs at least or above 20 million, reflectors
+// out of [0, kMaxHouseReflectors], or a lawn (other than 0) out of [kLeastLawn, kMostLawn] square metres.
+inline constexpr double kLeastLawn = 1e3, kMostLawn = 1e8;
 Result<Scene> make_house(const HouseOptions& options);
 // How many triangles make_house would make.
 Result<std::uint64_t> count_house(const HouseOptions& options);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "scenes/gallery_items.h"
 #include "scenes/generators.h"
 #include "scenes/house_furniture.h"
 #include "scenes/kit/shapes.h"
@@ -304,14 +303,24 @@ void add_cameras(Scene& scene) {
   scene.paths.push_back(walk_along("walk", waypoints, options));
 }
 
-Scene house_without_furniture(Palette& palette, int reflectors) {
+// Half the slab's height below the ground floor: it goes on under the house, as plain ground planes do.
+void add_lawn(Scene& scene, double area_m2) {
+  const auto side = static_cast<float>(std::sqrt(area_m2));
+  const Vec3 middle(kRoomsX * (kRoomX + kWall) / 2, -kSlab / 2, kRoomsZ * (kRoomZ + kWall) / 2);
+  Mesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f)), {}, {}, {}, {}};
+  add_quad(lawn, middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side));
+  place(scene, std::move(lawn));
+}
+
+Scene house_without_furniture(Palette& palette, const HouseOptions& options) {
   Scene scene;
   scene.name = "House";
   palette = make_palette(scene);
-  add_building(scene, palette, reflectors);
+  add_building(scene, palette, options.reflectors);
   add_windows_and_lights(scene, palette);
   add_stairs(scene, palette);
-  add_mirrors(scene, palette, reflectors);
+  add_mirrors(scene, palette, options.reflectors);
+  if (options.lawn_m2 > 0) add_lawn(scene, options.lawn_m2);
   return scene;
 }
 
@@ -349,8 +358,12 @@ Result<Sized> size_house(const HouseOptions& options) {
     return fail(ErrorCode::kUsage, "house", "found {} reflectors, expected 0 to {}", options.reflectors,
                 kMaxHouseReflectors);
   }
+  if (options.lawn_m2 != 0 && !(options.lawn_m2 >= kLeastLawn && options.lawn_m2 <= kMostLawn)) {
+    return fail(ErrorCode::kUsage, "house", "found a lawn of {} m², expected 0 or {} to {}", options.lawn_m2,
+                kLeastLawn, kMostLawn);
+  }
   Sized sized;
-  sized.scene = house_without_furniture(sized.palette, options.reflectors);
+  sized.scene = house_without_furniture(sized.palette, options);
   const std::uint64_t fixed = triangle_count(sized.scene), least = fixed + furniture_triangles(0);
   if (options.triangles < least || options.triangles > kMaxTriangles) {
     return fail(ErrorCode::kUsage, "house", "found {} triangles, expected {} to {}", options.triangles, least,

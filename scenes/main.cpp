@@ -1,6 +1,7 @@
 // oriel-scenes: writes the sample scenes as .glb files, and CIE standard skies as .exr images.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
@@ -13,12 +14,16 @@ namespace {
 struct Arguments {
   std::string scene;
   std::string output;
+  std::string unit = "m";
+  bool no_cameras = false, no_surroundings = false;
   oriel::sample::HouseOptions house;
   oriel::sample::GalleryOptions gallery;
-  bool has_house_options = false, has_gallery_options = false;
+  oriel::sample::RoomOptions room;
   oriel::sample::SkyOptions sky;
   std::string sky_output;
 };
+
+const std::map<std::string, double> kUnits_per_m{{"m", 1}, {"cm", 100}, {"mm", 1000}, {"km", 0.001}};
 
 int report(const oriel::Error& error) {
   fmt::print(stderr, "oriel-scenes: error: {}\n", error.text());
@@ -28,21 +33,22 @@ int report(const oriel::Error& error) {
 oriel::Result<oriel::sample::Scene> make_scene(const Arguments& arguments) {
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
+  if (arguments.scene == "panels") return oriel::sample::make_panels();
+  if (arguments.scene == "room") return oriel::sample::make_room();
+  if (arguments.scene == "dome")
+    return oriel::sample::make_room({false, arguments.room.door, !arguments.no_surroundings});
   if (arguments.scene == "studio") return oriel::sample::make_studio();
   return oriel::sample::make_house(arguments.house);
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.scene != "house" && arguments.has_house_options) {
-    return report({oriel::ErrorCode::kUsage, "found --triangles or --reflectors, expected them with house only",
-                   arguments.scene});
-  }
-  if (arguments.scene != "gallery" && arguments.has_gallery_options) {
-    return report(
-        {oriel::ErrorCode::kUsage, "found --floor-roughness, expected it with gallery only", arguments.scene});
-  }
-  const auto scene = make_scene(arguments);
+  auto scene = make_scene(arguments);
   if (!scene) return report(scene.error());
+  oriel::sample::scale_scene(*scene, kUnits_per_m.at(arguments.unit));
+  if (arguments.no_cameras) {
+    scene->cameras.clear();
+    scene->paths.clear();
+  }
   const auto bytes = oriel::sample::write_glb(*scene);
   if (!bytes) return report(bytes.error());
   if (const auto written = oriel::write_file_atomically(arguments.output, *bytes); !written)
@@ -81,6 +87,34 @@ CLI::App* add_sky(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
+// An option of one scene only.
+struct OwnOption {
+  const CLI::Option* option;
+  std::string scene;
+};
+
+std::vector<OwnOption> add_own_options(CLI::App& app, Arguments& arguments) {
+  return {{app.add_option("--triangles", arguments.house.triangles,
+                          "house: triangles to make, within 10 %, to see how tools scale")
+               ->capture_default_str(),
+           "house"},
+          {app.add_option("--reflectors", arguments.house.reflectors,
+                          "house: planar reflectors (mirrors, polished floors, table tops), 0 to 36")
+               ->capture_default_str(),
+           "house"},
+          {app.add_option("--lawn", arguments.house.lawn_m2, "house: square metres of lawn around it")
+               ->capture_default_str(),
+           "house"},
+          {app.add_option("--floor-roughness", arguments.gallery.floor_roughness,
+                          "gallery: of the polished tiles, whose lobe is as wide as its square")
+               ->check(CLI::Range(0.0f, 1.0f))
+               ->capture_default_str(),
+           "gallery"},
+          {app.add_flag("--door", arguments.room.door, "dome: a door beside the window, to walk out by"), "dome"},
+          {app.add_flag("--no-surroundings", arguments.no_surroundings, "dome: the room alone, without ground and sky"),
+           "dome"}};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -90,19 +124,16 @@ int main(int argc, char** argv) {
       "oriel-scenes"};
   Arguments arguments;
   app.add_option("scene", arguments.scene,
-                 "Which scene: the Cornell box, a museum of three rooms, a two-storey house, a room with curved metal")
-      ->check(CLI::IsMember({"cornell", "gallery", "house", "studio"}));
+                 "Which scene: the Cornell box, a room in a landscape under a sky dome, a museum of three rooms, a "
+                 "two-storey house, a wall of panels and other things that stand little proud, a closed room without "
+                 "a camera, a room with curved metal")
+      ->check(CLI::IsMember({"cornell", "dome", "gallery", "house", "panels", "room", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
-  const auto* triangles = app.add_option("--triangles", arguments.house.triangles,
-                                         "house: triangles to make, within 10 %, to see how tools scale")
-                              ->capture_default_str();
-  const auto* reflectors = app.add_option("--reflectors", arguments.house.reflectors,
-                                          "house: planar reflectors (mirrors, polished floors, table tops), 0 to 36")
-                               ->capture_default_str();
-  const auto* roughness = app.add_option("--floor-roughness", arguments.gallery.floor_roughness,
-                                         "gallery: of the polished tiles, whose lobe is as wide as its square")
-                              ->check(CLI::Range(0.0f, 1.0f))
-                              ->capture_default_str();
+  app.add_option("--unit", arguments.unit, "Of the file's numbers, which glTF says are metres: m, cm, mm, km")
+      ->check(CLI::IsMember(kUnits_per_m))
+      ->capture_default_str();
+  app.add_flag("--no-cameras", arguments.no_cameras, "Leave cameras and walks out");
+  const std::vector<OwnOption> own = add_own_options(app, arguments);
   const auto* sky = add_sky(app, arguments);
   try {
     app.parse(argc, argv);
@@ -112,8 +143,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(oriel::ErrorCode::kUsage);
   }
-  arguments.has_gallery_options = roughness->count() > 0;
-  arguments.has_house_options = triangles->count() > 0 || reflectors->count() > 0;
+  for (const OwnOption& option : own)
+    if (option.option->count() > 0 && !sky->parsed() && arguments.scene != option.scene)
+      return report({oriel::ErrorCode::kUsage,
+                     fmt::format("found {}, expected it with {} only", option.option->get_name(), option.scene),
+                     arguments.scene});
   try {
     return sky->parsed() ? run_sky(arguments) : run(arguments);
   } catch (const std::exception& error) {

@@ -22,6 +22,26 @@ void place(Scene& scene, std::uint32_t mesh, std::string name, const Vec3& posit
   scene.nodes.push_back({std::move(name), mesh, position, yaw_rad});
 }
 
+std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color) {
+  Material material;
+  material.name = std::move(name);
+  material.base_color = color;
+  return add_material(scene, std::move(material));
+}
+
+void scale_scene(Scene& scene, double factor) {
+  const auto scale = [factor](Vec3& p) { p = Vec3(factor * DVec3(p)); };
+  for (Mesh& mesh : scene.meshes)
+    for (Vec3& p : mesh.positions) scale(p);
+  for (Node& node : scene.nodes) scale(node.position);
+  for (Camera& camera : scene.cameras) {
+    scale(camera.eye);
+    scale(camera.target);
+  }
+  for (Path& path : scene.paths)
+    for (Vec3& eye : path.eyes) scale(eye);
+}
+
 std::uint64_t triangle_count(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Node& node : scene.nodes) count += scene.meshes[node.mesh].triangle_count();

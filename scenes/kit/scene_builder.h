@@ -77,6 +77,12 @@ void place(Scene& scene, Mesh mesh, const Vec3& position = Vec3(0), float yaw_ra
 // One more use of a mesh.
 void place(Scene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad = 0);
 
+// A purely diffuse material; its index.
+std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color);
+
+// Everything `factor` times as large about the origin, cameras and walks too. Radiance stays: light falls as before.
+void scale_scene(Scene& scene, double factor);
+
 // Triangles drawn: those of each node's mesh.
 std::uint64_t triangle_count(const Scene& scene);
 

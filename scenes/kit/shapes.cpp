@@ -74,6 +74,16 @@ void add_corners(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const 
   add_triangle(mesh, j, j + 1, j + 2);
 }
 
+void add_quad_around(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low, const Vec2& high) {
+  const auto at = [&](float s, float t) { return origin + s * u + t * v; };
+  const std::array<Vec3, 4> outer{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
+  const std::array<Vec3, 4> inner{at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    add_corners(mesh, outer[i], outer[next], inner[next], inner[i]);
+  }
+}
+
 void add_box(Mesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces) {
   const Vec3 size = upper - lower;
   const Vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);

@@ -24,6 +24,9 @@ enum BoxFace : unsigned {
 void add_quad(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
 // Four corners, counter-clockwise from the front; flat shaded, also where they are not quite in a plane.
 void add_corners(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+// The rectangle of add_quad around a hole from low to high, both shares of u and v in (0, 1); four faces without
+// T-junctions.
+void add_quad_around(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low, const Vec2& high);
 // Axis-aligned, lower < upper in each axis.
 void add_box(Mesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces = kAllFaces);
 // A box whose edges and corners are rounded by `radius` (clamped to half the smallest size): 12 n² triangles. n = 1

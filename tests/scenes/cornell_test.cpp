@@ -26,6 +26,16 @@ TEST(Cornell, HasThePublishedMeasurements) {
   EXPECT_NEAR(short_top, 0.160 * 0.167, 0.002);  // about 16.5 cm squared
 }
 
+TEST(Cornell, InMillimetresItHasThePublishedNumbers) {
+  Scene scene = make_cornell();
+  scale_scene(scene, 1000);
+  Vec3 high(0);
+  for (const Triangle& t : flatten(scene))
+    for (const Vec3& p : t.p) high = glm::max(high, p);
+  EXPECT_LT(glm::length(high - Vec3(556, 548.8f, 559.2f)), 1e-3f);
+  EXPECT_LT(glm::length(scene.cameras[0].eye - Vec3(278, 273, -800)), 1e-3f);
+}
+
 TEST(Cornell, IsSoundAndDiffuse) {
   const Scene scene = make_cornell();
   for (const Triangle& t : flatten(scene)) EXPECT_EQ(fault(t), "") << scene.nodes[t.node].name;

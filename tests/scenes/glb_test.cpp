@@ -111,6 +111,9 @@ TEST(Glb, AllScenesAreValidAndDeterministic) {
   expect_valid(one_quad());
   expect_valid(make_cornell());
   expect_valid(make_gallery());
+  expect_valid(make_panels());
+  expect_valid(make_room());
+  expect_valid(make_room({.closed = false, .door = true}));
   HouseOptions options;
   options.triangles = 20'000;
   const auto house = make_house(options);
@@ -121,6 +124,23 @@ TEST(Glb, AllScenesAreValidAndDeterministic) {
 TEST(Glb, GeneratorsAreDeterministic) {
   EXPECT_EQ(*write_glb(make_gallery()), *write_glb(make_gallery()));
   EXPECT_EQ(*write_glb(*make_house({})), *write_glb(*make_house({})));
+}
+
+TEST(Glb, AnotherUnitChangesNothingButSize) {
+  const Scene metres = make_gallery();
+  Scene scene = metres;
+  scale_scene(scene, 1000);
+  expect_valid(scene);
+  EXPECT_EQ(scene.meshes[0].positions[1], 1000.0f * metres.meshes[0].positions[1]);
+  EXPECT_EQ(scene.meshes[0].normals, metres.meshes[0].normals);
+  EXPECT_EQ(scene.nodes.back().position, 1000.0f * metres.nodes.back().position);
+  EXPECT_EQ(scene.cameras[0].eye, 1000.0f * metres.cameras[0].eye);
+  EXPECT_EQ(scene.cameras[0].target, 1000.0f * metres.cameras[0].target);
+  EXPECT_EQ(scene.cameras[0].vertical_fov_rad, metres.cameras[0].vertical_fov_rad);
+  EXPECT_EQ(scene.paths[0].eyes[7], 1000.0f * metres.paths[0].eyes[7]);
+  EXPECT_EQ(scene.paths[0].forwards, metres.paths[0].forwards);
+  for (std::size_t i = 0; i < metres.materials.size(); ++i)
+    EXPECT_EQ(scene.materials[i].emission, metres.materials[i].emission);
 }
 
 TEST(Glb, LargeMeshesHaveWideIndices) {
