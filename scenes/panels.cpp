@@ -6,8 +6,9 @@
 namespace oriel::sample {
 namespace {
 
-constexpr Vec3 kRoom{8, 2.7f, 4};           // from the origin
-constexpr float kSection = 2, kMargin = 0.1f;  // along the north wall (z = 0), and what each section leaves free at its ends
+constexpr Vec3 kRoom{8, 2.7f, 4};  // from the origin
+constexpr float kSection = 2,
+                kMargin = 0.1f;  // along the north wall (z = 0), and what each section leaves free at its ends
 constexpr float kSkirting = 0.1f, kCornice = 0.06f;
 
 struct Paints {
@@ -26,8 +27,9 @@ std::uint32_t add_glow(Scene& scene, std::string name, const Vec3& luminance) {
 }
 
 // A rectangle around a hole that glows.
-void place_around_light(Scene& scene, std::string name, std::uint32_t material, std::string light_name, std::uint32_t light,
-                        const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low, const Vec2& high) {
+void place_around_light(Scene& scene, std::string name, std::uint32_t material, std::string light_name,
+                        std::uint32_t light, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
+                        const Vec2& high) {
   Mesh mesh = empty(std::move(name), material), glow = empty(std::move(light_name), light);
   add_quad_around(mesh, origin, u, v, low, high);
   add_quad(glow, origin + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v);
@@ -46,8 +48,8 @@ void add_walls(Scene& scene, const Paints& paints) {
   wall("north wall", paints.wall, Vec3(0), x, y);
   wall("west wall", paints.wall, z, -z, y);
   wall("east wall", paints.wall, x, z, y);
-  place_around_light(scene, "south wall", paints.wall, "window", add_glow(scene, "daylight", Vec3(900, 960, 1000)), x + z,
-                     -x, y, Vec2(0.1f, 0.3f), Vec2(0.9f, 0.8f));
+  place_around_light(scene, "south wall", paints.wall, "window", add_glow(scene, "daylight", Vec3(900, 960, 1000)),
+                     x + z, -x, y, Vec2(0.1f, 0.3f), Vec2(0.9f, 0.8f));
   place_around_light(scene, "ceiling", paints.wall, "lamp", add_glow(scene, "lamp", Vec3(1500, 1400, 1250)), y, x, z,
                      Vec2(0.2f, 0.4f), Vec2(0.8f, 0.6f));
 }
@@ -57,15 +59,15 @@ void add_sections(Scene& scene, const Paints& paints) {
   for (std::size_t i = 0; i < kProud_mm.size(); ++i) {
     const float proud = 1e-3f * static_cast<float>(kProud_mm[i]), left = kSection * static_cast<float>(i) + kMargin,
                 right = left + kSection - 2 * kMargin;
-    const auto box = [&](const char* name, std::uint32_t material, const Vec3& low, const Vec3& high,
-                         unsigned faces) {
+    const auto box = [&](const char* name, std::uint32_t material, const Vec3& low, const Vec3& high, unsigned faces) {
       Mesh mesh = empty(fmt::format("{} {} mm", name, kProud_mm[i]), material);
       add_box(mesh, low, high, faces);
       place(scene, std::move(mesh));
     };
     box("skirting", paints.trim, Vec3(left, 0, 0), Vec3(right, kSkirting, proud), kLeft | kRight | kTop | kFront);
     box("board", paints.board, Vec3(left + 0.3f, 0.4f, proud / 2), Vec3(right - 0.3f, 0.85f, proud), kAllFaces);
-    box("panel", paints.wood, Vec3(left + 0.3f, 1.15f, 0), Vec3(right - 0.3f, 1.85f, proud), kAllFaces & ~unsigned{kBack});
+    box("panel", paints.wood, Vec3(left + 0.3f, 1.15f, 0), Vec3(right - 0.3f, 1.85f, proud),
+        kAllFaces & ~unsigned{kBack});
   }
 }
 
@@ -77,8 +79,10 @@ void add_things(Scene& scene, const Paints& paints) {
   Mesh carpet = empty("carpet", paints.carpet);
   add_box(carpet, Vec3(2.5f, 0, 1.2f), Vec3(5, 0.008f, 2.8f), kSides | kTop);
   place(scene, std::move(carpet));
-  for (const auto& [name, size, z] : {std::tuple{"picture 1", Vec2(0.9f, 0.6f), 1.3f}, {"picture 2", Vec2(0.5f, 0.7f), 2.7f}}) {
-    Mesh frame = empty(std::string(name) + " frame", paints.wood), canvas = empty(std::string(name) + " canvas", paints.canvas);
+  for (const auto& [name, size, z] :
+       {std::tuple{"picture 1", Vec2(0.9f, 0.6f), 1.3f}, {"picture 2", Vec2(0.5f, 0.7f), 2.7f}}) {
+    Mesh frame = empty(std::string(name) + " frame", paints.wood),
+         canvas = empty(std::string(name) + " canvas", paints.canvas);
     add_frame(frame, size.x, size.y, 0.05f, 0.025f, 0.01f);
     // Before the wall, and a little into the frame's inner sides.
     const Vec2 half = 0.5f * size + 0.004f;
@@ -100,8 +104,10 @@ void add_cameras(Scene& scene) {
   constexpr float kFov = 0.8f;
   for (std::size_t i = 0; i < kProud_mm.size(); ++i) {
     const float middle = kSection * (static_cast<float>(i) + 0.5f);
-    scene.cameras.push_back({fmt::format("panel {} mm", kProud_mm[i]), Vec3(middle + 0.3f, 1.6f, 1.7f), Vec3(middle, 1.1f, 0), kFov});
-    scene.cameras.push_back({fmt::format("skirting {} mm", kProud_mm[i]), Vec3(middle - 0.4f, 1.4f, 1.3f), Vec3(middle, 0.15f, 0), kFov});
+    scene.cameras.push_back(
+        {fmt::format("panel {} mm", kProud_mm[i]), Vec3(middle + 0.3f, 1.6f, 1.7f), Vec3(middle, 1.1f, 0), kFov});
+    scene.cameras.push_back(
+        {fmt::format("skirting {} mm", kProud_mm[i]), Vec3(middle - 0.4f, 1.4f, 1.3f), Vec3(middle, 0.15f, 0), kFov});
   }
   scene.cameras.push_back({"cornice", Vec3(3.5f, 1.6f, 1.6f), Vec3(4, 2.6f, 0), kFov});
   scene.cameras.push_back({"picture", Vec3(1.7f, 1.6f, 1.8f), Vec3(0, 1.5f, 1.9f), kFov});
@@ -114,13 +120,11 @@ void add_cameras(Scene& scene) {
 Scene make_panels() {
   Scene scene;
   scene.name = "Panels";
-  const Paints paints{add_diffuse(scene, "wall", Vec3(0.75f, 0.74f, 0.70f)),
-                      add_diffuse(scene, "wood", Vec3(0.45f, 0.30f, 0.18f)),
-                      add_diffuse(scene, "board", Vec3(0.35f, 0.45f, 0.42f)),
-                      add_diffuse(scene, "trim", Vec3(0.80f)),
-                      add_diffuse(scene, "floor", Vec3(0.40f, 0.33f, 0.26f)),
-                      add_diffuse(scene, "carpet", Vec3(0.50f, 0.22f, 0.18f)),
-                      add_diffuse(scene, "canvas", Vec3(0.55f, 0.57f, 0.48f))};
+  const Paints paints{
+      add_diffuse(scene, "wall", Vec3(0.75f, 0.74f, 0.70f)),  add_diffuse(scene, "wood", Vec3(0.45f, 0.30f, 0.18f)),
+      add_diffuse(scene, "board", Vec3(0.35f, 0.45f, 0.42f)), add_diffuse(scene, "trim", Vec3(0.80f)),
+      add_diffuse(scene, "floor", Vec3(0.40f, 0.33f, 0.26f)), add_diffuse(scene, "carpet", Vec3(0.50f, 0.22f, 0.18f)),
+      add_diffuse(scene, "canvas", Vec3(0.55f, 0.57f, 0.48f))};
   add_walls(scene, paints);
   add_sections(scene, paints);
   add_things(scene, paints);

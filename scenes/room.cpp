@@ -18,12 +18,15 @@ constexpr float kDoorZ0 = 3.2f, kDoorZ1 = 4.2f, kDoorY = 2.1f;
 enum Air { kInside, kOpening };
 
 void add_walls(Scene& scene, const RoomOptions& options) {
-  const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.78f)), oak = add_diffuse(scene, "oak", {0.42f, 0.28f, 0.16f}),
+  const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.78f)),
+                      oak = add_diffuse(scene, "oak", {0.42f, 0.28f, 0.16f}),
                       ochre = add_diffuse(scene, "ochre", {0.68f, 0.54f, 0.30f}),
                       render = add_diffuse(scene, "render", {0.62f, 0.58f, 0.52f});
-  std::vector<Block> blocks{{Vec3(-kWall, -kSlab, -kWall), kRoom + Vec3(kWall), true, 0}, {Vec3(0), kRoom, false, kInside}};
+  std::vector<Block> blocks{{Vec3(-kWall, -kSlab, -kWall), kRoom + Vec3(kWall), true, 0},
+                            {Vec3(0), kRoom, false, kInside}};
   if (!options.closed) {
-    blocks.push_back({Vec3(kWindowX0, kWindowY0, kRoom.z), Vec3(kWindowX1, kWindowY1, kRoom.z + kWall), false, kOpening});
+    blocks.push_back(
+        {Vec3(kWindowX0, kWindowY0, kRoom.z), Vec3(kWindowX1, kWindowY1, kRoom.z + kWall), false, kOpening});
     if (options.door)
       blocks.push_back({Vec3(kRoom.x, 0, kDoorZ0), Vec3(kRoom.x + kWall, kDoorY, kDoorZ1), false, kOpening});
   }
@@ -34,11 +37,11 @@ void add_walls(Scene& scene, const RoomOptions& options) {
     const char* place_of = patch.air_tag == kOutside ? "outside " : patch.air_tag == kOpening ? "opening " : "";
     Mesh mesh = std::move(patch.mesh);
     mesh.name = std::string(place_of) + kNames[static_cast<std::size_t>(patch.facing)];
-    mesh.material = patch.air_tag == kOutside         ? render
-                    : patch.air_tag == kOpening       ? white
-                    : patch.facing == Facing::kUp     ? oak
-                    : patch.facing == Facing::kRight  ? ochre
-                                                      : white;
+    mesh.material = patch.air_tag == kOutside        ? render
+                    : patch.air_tag == kOpening      ? white
+                    : patch.facing == Facing::kUp    ? oak
+                    : patch.facing == Facing::kRight ? ochre
+                                                     : white;
     place(scene, std::move(mesh));
   }
 }

@@ -10,6 +10,7 @@
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/prepare.h"
 #include "bake/run/stages/visibility.h"
+#include "bake/run/start.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -224,12 +225,13 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   }
   if (!options.with_material) leave_out_kernels(materials, result.omissions);
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
+  ORIEL_TRY(const Start start, choose_start(options, baked, context, pack));
   if (!pack.visible_sets.empty())
     pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
   pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
                          lights.power(), reflections, mover_reports, visibility,
-                         options.radiosity.estimator == Estimator::kCached, options.radiosity.error});
+                         options.radiosity.estimator == Estimator::kCached, options.radiosity.error, start});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   if (context.units) result.units = context.units->share();

@@ -199,6 +199,18 @@ Json visibility_json(const BakeFacts& f) {
           {"lines", f.visibility.lines}};
 }
 
+const char* text_of(Start start) {
+  switch (start) {
+    case Start::kOfScene:
+      return "of the scene";
+    case Start::kInside:
+      return "chosen, inside";
+    case Start::kOutside:
+      return "chosen, outside";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string plan_json(const BakeFacts& f) {
@@ -250,6 +262,7 @@ std::string plan_json(const BakeFacts& f) {
       {"visible_sets", visibility_json(f)},
       {"movers", movers_json(f.movers)},
       {"light_field", light_field_json(f.pack.light_field)},
+      {"start", text_of(f.start)},
       {"omitted", f.omissions},
   };
   return text_of(json);

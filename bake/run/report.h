@@ -6,6 +6,7 @@
 #include "bake/run/stages/movers.h"
 #include "bake/run/stages/reflections.h"
 #include "bake/run/stages/visibility.h"
+#include "bake/run/start.h"
 
 namespace oriel {
 
@@ -24,6 +25,7 @@ struct BakeFacts {
   const VisibilityReport& visibility;
   bool cached = true;  // the estimator
   double asked = 0;    // error of the lightmap; 0: none
+  Start start = Start::kOfScene;
 };
 
 std::string plan_json(const BakeFacts& facts);

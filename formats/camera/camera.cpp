@@ -18,6 +18,15 @@ Camera look_at(const Vec3& eye, const Vec3& target, float vertical_fov_rad) {
   return camera;
 }
 
+Camera overview(const Vec3& lower, const Vec3& upper, float turn_rad, bool from_above) {
+  constexpr float kFovRad = kPi / 3;
+  const Vec3 size = upper - lower, centre = lower + 0.5f * size;
+  const float distance = 0.55f * glm::length(size) / std::sin(0.5f * kFovRad),
+              turn = turn_rad + std::atan2(0.5f, 0.85f);
+  const Vec3 towards_eye = -forward_from(turn, from_above ? -0.43f : 0.43f);
+  return look_at(centre + distance * towards_eye, centre, kFovRad);
+}
+
 float yaw_of(const Camera& camera) {
   const Vec3 forward = normalize_or(camera.forward, Vec3(0, 0, -1));
   const bool vertical = std::abs(forward.y) > kVertical;

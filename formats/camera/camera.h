@@ -10,6 +10,11 @@ namespace oriel {
 // A camera from eye to target, upright; along ±y it has -z (or +z) at the top. The two points differ.
 Camera look_at(const Vec3& eye, const Vec3& target, float vertical_fov_rad);
 
+// From outside, a little above (or below), with all of the bounds in a picture 60° high: one-sided walls are not seen
+// from behind, so that rooms open. turn_rad: how far the eye is turned around them, counter-clockwise from above; at 0
+// it stands towards +z and, less, +x.
+Camera overview(const Vec3& lower, const Vec3& upper, float turn_rad, bool from_above = true);
+
 // Heading: 0 looks along -z, π/2 along -x (counter-clockwise from above). Of a vertical camera, the heading of its up
 // vector's side. Pitch: [-π/2, π/2], positive upwards.
 float yaw_of(const Camera& camera);

@@ -93,11 +93,7 @@ Result<Camera> parse_camera(std::string_view text, const CameraChoices& choices)
 Camera initial_camera(const CameraChoices& choices, const Vec3& lower, const Vec3& upper) {
   if (!choices.cameras.empty()) return choices.cameras.front();
   if (!choices.paths.empty()) return camera_on_path(choices.paths.front(), 0);
-  const Vec3 size = upper - lower, centre = lower + 0.5f * size;
-  // From outside, a little above, with the whole scene in view: one-sided walls are not seen from behind, so that rooms
-  // open.
-  const float distance = 0.55f * glm::length(size) / std::sin(0.5f * kDefaultFovRad);
-  return look_at(centre + distance * glm::normalize(Vec3(0.5f, 0.45f, 0.85f)), centre, kDefaultFovRad);
+  return overview(lower, upper, 0);
 }
 
 }  // namespace oriel

@@ -24,8 +24,8 @@ struct CameraChoices {
 // Errors: kUsage, with the names there are.
 Result<Camera> parse_camera(std::string_view text, const CameraChoices& choices);
 
-// The camera to start with: the first camera, else the start of the first path, else one from within the bounds (pack
-// space) along their longest side.
+// The camera to start with: the first camera, else the start of the first path, else overview() of the bounds (pack
+// space). A baked pack has a camera: where its scene had none the baker chose one (bake/walk/first_look.h).
 Camera initial_camera(const CameraChoices& choices, const Vec3& lower, const Vec3& upper);
 
 }  // namespace oriel

@@ -1,0 +1,24 @@
+#include "bake/run/start.h"
+
+#include "bake/walk/first_look.h"
+
+namespace oriel {
+
+Result<Start> choose_start(const BakeOptions& options, const BakedScene& baked, Context& context, Pack& pack) {
+  if (!pack.cameras.empty() || !pack.paths.empty()) return Start::kOfScene;
+  std::vector<WalkGrid> floors = pack.walk_grids;
+  if (floors.empty()) {
+    EyeOptions walk;  // people walk whatever eyes reflections are planned for
+    walk.walk = options.eyes.walk;
+    ORIEL_TRY(EyeRegion region, find_eye_region(baked.accel, walk, context));
+    floors = std::move(region.grids);
+  }
+  const SurfaceLight light = [&](const Hit& hit, const Vec3& towards_eye) {
+    return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye});
+  };
+  ORIEL_TRY(FirstLook first, find_first_look(baked.accel, floors, light, context));
+  pack.cameras.push_back(std::move(first.camera));
+  return first.inside ? Start::kInside : Start::kOutside;
+}
+
+}  // namespace oriel

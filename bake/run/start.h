@@ -1,0 +1,16 @@
+// The camera that a pack starts with.
+#pragma once
+
+#include "bake/run/options.h"
+#include "bake/run/stages/baked_light.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+enum class Start : std::uint8_t { kOfScene, kInside, kOutside };
+
+// Where the scene has no camera and no walk, adds one to the pack, whose walk grids are there: "start"
+// (bake/walk/first_look.h). Says which it is. Error kStopped.
+Result<Start> choose_start(const BakeOptions& options, const BakedScene& baked, Context& context, Pack& pack);
+
+}  // namespace oriel
