@@ -82,7 +82,7 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
   double texel_m = options.texel_m;
   // Charts depend on the texel a little (which flat regions are worth one); three quarters full is a fair guess.
   if (one_page && area > 0) texel_m = std::sqrt(area / 0.75) / options.resolution;
-  const Deadline deadline(options.time_limit_s);
+  const AtlasTimeLimit deadline(options.time_limit_s);
   const ChartOptions chart_options{texel_m,
                                    glm::radians(static_cast<double>(options.flat_angle_deg)),
                                    glm::radians(static_cast<double>(options.curved_angle_deg)),

@@ -33,7 +33,7 @@ Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, 
     PlannedViewOptions fewer = in.options.planned;
     fewer.samples = std::max(1u, fewer.samples / divisor);
     fewer.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
-    const Surroundings surroundings(*in.prepared.accel, found, in.options.sight);
+    const ReflectedSurroundings surroundings(*in.prepared.accel, found, in.options.sight);
     ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, in.reflections.eyes, fewer, context, small.reflectors));
     small.maps = std::move(plan.maps);
   }
@@ -78,7 +78,7 @@ Result<double> stored_bytes(const CensusInput& in, const BakedScene& coarse, Ref
 }
 
 // Parts of one map, captured and stored.
-Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, const Surroundings& surroundings,
+Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, const ReflectedSurroundings& surroundings,
                            const RadianceMap& whole, std::uint32_t paths, Context& context) {
   std::vector<RadianceMap> strips = strips_of(whole);
   std::atomic<std::uint64_t> rays{0};
@@ -117,7 +117,7 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
   const double more = fewer.pixels > 0 ? std::max(1.0, 2 - fewest.pixels / fewer.pixels) : 1;
   Component c{.name = "radiance"};
   c.seconds = planned ? kFewer * fewer.seconds : fewer.seconds;
-  const Surroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
+  const ReflectedSurroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
   double surround = 0;
   for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
   const std::uint32_t paths = lobe_paths(more * fewer.pixels + surround);

@@ -23,7 +23,7 @@ bool has_image(const SceneMaterial& material) {
 
 }  // namespace
 
-SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
+SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction) {
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
@@ -73,17 +73,17 @@ bool same_surface(const SeenAt& a, const SeenAt& b) {
 
 }  // namespace
 
-MapRay map_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at) {
+CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at) {
   const Vec3 q(map_point(map, at), 0);
   const Mat3 to_pack(reflector.pack_from_reflector);
   return {pack_from_reflector(reflector, q), glm::normalize(to_pack * glm::normalize(q - map.eye))};
 }
 
-MapPixel capture_pixel(const Surroundings& surroundings, const OutgoingRadiance& outgoing, const RadianceMap& map,
-                       std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
+MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                       const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
   const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
   const auto look = [&](const Vec2& place) {
-    const MapRay ray = map_ray(reflector, map, place);
+    const CaptureRay ray = capture_ray(reflector, map, place);
     SeenAt seen{see(surroundings, outgoing, map.reflector, ray.from, ray.direction)};
     seen.at = ray.from + seen.light.sight.offset;
     rays += seen.light.rays;
@@ -103,7 +103,7 @@ MapPixel capture_pixel(const Surroundings& surroundings, const OutgoingRadiance&
   return {light / count, has_depth ? disparity_of(map, height) : 0, static_cast<std::uint8_t>(sight.state)};
 }
 
-std::vector<MapBand> make_bands(const Surroundings& surroundings, std::vector<RadianceMap>& maps) {
+std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps) {
   std::vector<MapBand> bands;
   for (std::uint32_t i = 0; i < maps.size(); ++i) {
     RadianceMap& map = maps[i];
@@ -119,7 +119,7 @@ std::vector<MapBand> make_bands(const Surroundings& surroundings, std::vector<Ra
   return bands;
 }
 
-UnitLoop capture_loop(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                       const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
   UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysABand};
   loop.inputs = [&](std::size_t i, Archive& key) {
@@ -147,7 +147,7 @@ UnitLoop capture_loop(const Surroundings& surroundings, const OutgoingRadiance& 
   return loop;
 }
 
-Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
+Status capture_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
   const std::vector<MapBand> bands = make_bands(surroundings, maps);
   return parallel_units(context, capture_loop(surroundings, outgoing, bands, maps), rays);

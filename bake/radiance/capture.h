@@ -14,15 +14,15 @@ using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 // The light without what is negative or not finite.
 Vec3 usable_light(const Vec3& c);
 
-// What a ray from a reflector's plane sees (Surroundings::look), with its light: finite, not negative, 0 where nothing
-// usable is seen. The reflector's emitters shine by way of other mirrors only.
+// What a ray from a reflector's plane sees (ReflectedSurroundings::look), with its light: finite, not negative, 0 where
+// nothing usable is seen. The reflector's emitters shine by way of other mirrors only.
 struct SeenLight {
   Sight sight;
   Vec3 radiance{0};       // cd/m²
   bool textured = false;  // part of it comes from a surface whose colour or lobe an image tells
   std::uint64_t rays = 0;
 };
-SeenLight see(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
+SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
               const Vec3& from, const Vec3& direction);
 
 // A pixel of a radiance map, as its members have it.
@@ -32,33 +32,33 @@ struct MapPixel {
   std::uint8_t valid = 0;
 };
 // The ray of a map's pixel (x, y), counted in pixels: from the plane, scene space.
-struct MapRay {
+struct CaptureRay {
   Vec3 from{0}, direction{0};
 };
-MapRay map_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
+CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
 // What capture_maps() has for a pixel. Adds to `rays`.
-MapPixel capture_pixel(const Surroundings& surroundings, const OutgoingRadiance& outgoing, const RadianceMap& map,
-                       std::uint32_t x, std::uint32_t y, std::uint64_t& rays);
+MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                       const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays);
 
 // Some rows of a map: a unit of work.
 struct MapBand {
   std::uint32_t map = 0, first_row = 0, rows = 0;
 };
 // The maps in bands, with room for their pixels.
-std::vector<MapBand> make_bands(const Surroundings& surroundings, std::vector<RadianceMap>& maps);
+std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps);
 // Captures those bands. All must outlive it.
-UnitLoop capture_loop(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                       const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
 
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth is that of the ray through
 // a pixel's centre; where that meets a texture, light is the mean over it and the rays through four more places of the
 // pixel that meet the same surface, so that fine textures do not alias and colour and depth still belong together. Both
-// as Surroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance, and
-// mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps its
-// depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
+// as ReflectedSurroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance,
+// and mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps
+// its depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
 // lists emitters show those by way of other mirrors only. Adds to `rays` (may be null). The same bytes for any number
 // of threads. Error kStopped.
-Status capture_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
+Status capture_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
                     std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays = nullptr);
 
 }  // namespace oriel

@@ -25,19 +25,20 @@ bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t t
   return listed(triangle) || (!scene.twin.empty() && listed(scene.twin[triangle]));
 }
 
-Surroundings::Surroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options)
+ReflectedSurroundings::ReflectedSurroundings(const Accel& accel, std::span<const FoundReflector> reflectors,
+                                             const SightOptions& options)
     : accel_(accel), reflectors_(reflectors), options_(options), reflector_of_(accel.scene().triangles.size()) {
   for (std::uint32_t r = 0; r < reflectors.size(); ++r)
     for (const std::uint32_t t : reflectors[r].triangles) reflector_of_[t] = r + 1;
 }
 
-const FoundReflector* Surroundings::reflector_at(std::uint32_t triangle) const {
+const FoundReflector* ReflectedSurroundings::reflector_at(std::uint32_t triangle) const {
   return reflector_of_[triangle] > 0 ? &reflectors_[reflector_of_[triangle] - 1] : nullptr;
 }
 
-class Surroundings::Walk {
+class ReflectedSurroundings::Walk {
  public:
-  Walk(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
+  Walk(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
        const Visit& visit)
       : in_(surroundings),
         scene_(surroundings.accel_.scene()),
@@ -155,7 +156,7 @@ class Surroundings::Walk {
     ++mirrors_passed_;
   }
 
-  const Surroundings& in_;
+  const ReflectedSurroundings& in_;
   const Scene& scene_;
   const Visit& visit_;
   const FoundReflector* left_;  // the reflector that the ray left last
@@ -171,7 +172,8 @@ class Surroundings::Walk {
   Sight sight_;
 };
 
-Sight Surroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit) const {
+Sight ReflectedSurroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction,
+                                  const Visit& visit) const {
   return Walk(*this, reflector, from, direction, visit).run();
 }
 

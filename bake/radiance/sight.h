@@ -46,10 +46,10 @@ struct Sight {
   std::uint32_t rays = 0;
 };
 
-class Surroundings {
+class ReflectedSurroundings {
  public:
   // Both must outlive it.
-  Surroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options);
+  ReflectedSurroundings(const Accel& accel, std::span<const FoundReflector> reflectors, const SightOptions& options);
 
   // Of a surface on the way; returns whether to go on behind the surface that the depth is of, for its reflection's
   // light alone.

@@ -41,7 +41,7 @@ Json sections_json(const PackIndex& index) {
 }
 
 Json mesh_json(const Mesh& mesh) {
-  const Bounds bounds = bounds_of(mesh);
+  const MeshBounds bounds = bounds_of(mesh);
   Json parts = Json::array();
   for (const auto& part : mesh.parts)
     parts.push_back({{"name", part.name},
@@ -274,7 +274,7 @@ void print_movers(const Pack& pack) {
 }
 
 void print_text(const std::filesystem::path& path, const PackIndex& index, const Pack& pack) {
-  const Bounds bounds = bounds_of(pack.mesh);
+  const MeshBounds bounds = bounds_of(pack.mesh);
   const Vec3 size = bounds.upper - bounds.lower;
   fmt::print("{}: {} bytes, format version {}\n", path.string(), index.file_bytes, index.version);
   fmt::print("mesh: {} triangles, {} vertices, {} parts, {:.4g} x {:.4g} x {:.4g} m around ({:.6g}, {:.6g}, {:.6g})\n",

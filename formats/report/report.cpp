@@ -31,7 +31,7 @@ details {{ margin: .6rem 0 }} summary {{ cursor: pointer }}
 )";
 
 std::string facts_html(const Pack& pack, const PackIndex& index) {
-  const Bounds bounds = bounds_of(pack.mesh);
+  const MeshBounds bounds = bounds_of(pack.mesh);
   const Vec3 size = bounds.upper - bounds.lower;
   return fmt::format(
       "<p>{} triangles in {} parts, {:.4g} × {:.4g} × {:.4g} m; {} materials, {} textures; {} lightmap pages; {} "

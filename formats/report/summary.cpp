@@ -57,9 +57,9 @@ RadianceMapSummary summarise(const SurroundMap& map) {
   return summarise_radiance(map);
 }
 
-Bounds bounds_of(const Mesh& mesh) {
+MeshBounds bounds_of(const Mesh& mesh) {
   if (mesh.positions.empty()) return {};
-  Bounds bounds{mesh.positions[0], mesh.positions[0]};
+  MeshBounds bounds{mesh.positions[0], mesh.positions[0]};
   for (const Vec3& p : mesh.positions) {
     bounds.lower = glm::min(bounds.lower, p);
     bounds.upper = glm::max(bounds.upper, p);

@@ -25,9 +25,9 @@ RadianceMapSummary summarise(const RadianceMap& map);
 RadianceMapSummary summarise(const SurroundMap& map);
 
 // Pack space, metres; zeros for a mesh without vertices.
-struct Bounds {
+struct MeshBounds {
   Vec3 lower{0}, upper{0};
 };
-Bounds bounds_of(const Mesh& mesh);
+MeshBounds bounds_of(const Mesh& mesh);
 
 }  // namespace oriel

@@ -292,7 +292,7 @@ const gpu::Texture& SceneImages::normal(std::uint32_t index) const {
   return normals_[index] ? normals_[index] : flat_;
 }
 
-const LightmapTexture& SceneImages::light(std::uint32_t index) const {
+const LoadedLightmap& SceneImages::light(std::uint32_t index) const {
   return lights_[index].texture ? lights_[index] : some_light_;
 }
 

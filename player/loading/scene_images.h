@@ -14,7 +14,7 @@
 namespace oriel {
 
 // Half floats of irradiance / scale (image_data.h). Without light: scale 0.
-struct LightmapTexture {
+struct LoadedLightmap {
   gpu::Texture texture;
   float scale = 0;
   gpu::Texture direction;  // of a directional lightmap, else empty
@@ -70,7 +70,7 @@ class SceneImages {
   // What stands for it where it is not there: grey, flat, the mean light of the others.
   const gpu::Texture& color(std::uint32_t index) const;
   const gpu::Texture& normal(std::uint32_t index) const;
-  const LightmapTexture& light(std::uint32_t index) const;
+  const LoadedLightmap& light(std::uint32_t index) const;
   const ReflectorMaps& maps(std::uint32_t reflector) const { return maps_[reflector]; }  // that has() says are there
   const SurroundTextures& surround(std::uint32_t index) const { return surrounds_[index]; }
   // As points; null where there is no room for it. Uploaded when first asked for and kept.
@@ -133,7 +133,7 @@ class SceneImages {
   std::uint64_t bytes_in_flight_ = 0, map_bytes_ = 0;
   std::vector<Upload> uploads_;
   std::vector<gpu::Texture> colors_, normals_;
-  std::vector<LightmapTexture> lights_;
+  std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
   std::map<std::uint32_t, gpu::Texture> points_;
@@ -143,7 +143,7 @@ class SceneImages {
   Mailbox<std::pair<std::uint32_t, Result<LightmapPage>>> made_pages_;
   std::vector<Error> page_errors_;  // not told yet
   gpu::Texture grey_, flat_;
-  LightmapTexture some_light_;
+  LoadedLightmap some_light_;
   double lux_sum_ = 0;
   std::size_t lux_count_ = 0;
   std::vector<std::pair<std::uint32_t, Texture>> texels_;

@@ -18,7 +18,7 @@ std::string file_name(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
 
-void draw_flip(const Comparison& comparison) {
+void draw_flip(const ComparisonView& comparison) {
   if (!comparison.flip) return draw_line("flip", "FLIP is found once nothing moves", 1, 0.5f);
   draw_line("flip", fmt::format("FLIP: mean {:.3f}, at most {:.2f}", comparison.flip->x, comparison.flip->y), 1, 0.5f);
   ImDrawList* list = ImGui::GetForegroundDrawList();
@@ -37,7 +37,7 @@ void draw_flip(const Comparison& comparison) {
 
 }  // namespace
 
-void draw_comparison(Comparison& comparison) {
+void draw_comparison(ComparisonView& comparison) {
   for (const auto& [name, beside] : kWays) {
     if (beside != kWays[0].second) ImGui::SameLine();
     if (ImGui::RadioButton(name, comparison.beside == beside)) comparison.beside = beside;
@@ -45,7 +45,7 @@ void draw_comparison(Comparison& comparison) {
   if (comparison.beside == Beside::kSplit) ImGui::SliderFloat("divider", &comparison.divider, 0, 1, "%.2f");
 }
 
-void draw_names(const Comparison& comparison) {
+void draw_names(const ComparisonView& comparison) {
   const std::string second =
       file_name(comparison.second) + (comparison.elsewhere ? ", which was taken from elsewhere" : "");
   const ImVec2 size = ImGui::GetIO().DisplaySize;

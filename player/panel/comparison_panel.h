@@ -6,9 +6,9 @@
 namespace oriel {
 
 // The panel's choices. Changes the comparison as the user does.
-void draw_comparison(Comparison& comparison);
+void draw_comparison(ComparisonView& comparison);
 
 // Over the frame: whose it is, the divider, what FLIP's colours mean.
-void draw_names(const Comparison& comparison);
+void draw_names(const ComparisonView& comparison);
 
 }  // namespace oriel

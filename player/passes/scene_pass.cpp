@@ -27,7 +27,7 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
 void set_material(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
                   std::int32_t lightmap_page) {
   set_surface(program, scene, material, !scene.pack().mesh.normal_uvs.empty());
-  const LightmapTexture& lightmap = scene.lightmap(lightmap_page);
+  const LoadedLightmap& lightmap = scene.lightmap(lightmap_page);
   lightmap.texture.bind(kLightmapUnit);
   program.set("u_lightmap_scale", lightmap.scale);
   const bool directional = static_cast<bool>(lightmap.direction);

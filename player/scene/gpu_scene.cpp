@@ -229,7 +229,7 @@ const gpu::Texture& GpuScene::normal_map(std::int32_t index) const {
   return index < 0 ? flat_ : images_->normal(static_cast<std::uint32_t>(index));
 }
 
-const LightmapTexture& GpuScene::lightmap(std::int32_t index) const {
+const LoadedLightmap& GpuScene::lightmap(std::int32_t index) const {
   return index < 0 ? no_lightmap_ : images_->light(static_cast<std::uint32_t>(index));
 }
 

@@ -102,7 +102,7 @@ class GpuScene {
   // Of Pack::normal_textures; one that tilts nothing where index is -1.
   const gpu::Texture& normal_map(std::int32_t index) const;
   // Scale 0 where index is -1.
-  const LightmapTexture& lightmap(std::int32_t index) const;
+  const LoadedLightmap& lightmap(std::int32_t index) const;
   const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);
@@ -154,7 +154,7 @@ class GpuScene {
   std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
   std::vector<gpu::Texture> sphere_maps_;
   gpu::Texture white_, flat_, reflectance_tables_;
-  LightmapTexture no_lightmap_;
+  LoadedLightmap no_lightmap_;
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace>, GpuKernel> kernels_;
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };

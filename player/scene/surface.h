@@ -9,7 +9,7 @@
 namespace oriel {
 
 // Texture units of shaders/passes/surface.glsl and its users.
-enum Unit {
+enum TextureUnit {
   kBaseUnit = 0,
   kLightmapUnit = 1,
   kReflectanceUnit = 2,

@@ -5,7 +5,7 @@
 
 namespace oriel {
 
-bool drag_divider(const Vec2& pointer, bool clicked, bool holding, float reach, Comparison& comparison) {
+bool drag_divider(const Vec2& pointer, bool clicked, bool holding, float reach, ComparisonView& comparison) {
   const bool taken = clicked && comparison.on() && comparison.beside == Beside::kSplit &&
                      std::fabs(pointer.x - comparison.divider) <= reach;
   comparison.dragged = taken || (comparison.dragged && holding);

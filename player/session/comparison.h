@@ -11,7 +11,7 @@ namespace oriel {
 // Both, parted by a divider; one of them; or FLIP by pixel.
 enum class Beside { kSplit, kFirst, kSecond, kDifference };
 
-struct Comparison {
+struct ComparisonView {
   std::string first, second;  // their names; without a second one there is nothing to compare
   Beside beside = Beside::kSplit;
   float divider = 0.5f;  // share of the window's width that shows the first
@@ -25,6 +25,6 @@ struct Comparison {
 
 // The divider follows the left button where that went down on it. True where the click was its. pointer: [0,1]² of the
 // window; reach: how near is on it, a share of the width.
-bool drag_divider(const Vec2& pointer, bool clicked, bool holding, float reach, Comparison& comparison);
+bool drag_divider(const Vec2& pointer, bool clicked, bool holding, float reach, ComparisonView& comparison);
 
 }  // namespace oriel

@@ -39,7 +39,7 @@ struct Session {
   bool panel = false, key_sheet = false;
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged
-  Comparison comparison;
+  ComparisonView comparison;
 };
 
 struct Command {

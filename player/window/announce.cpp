@@ -10,7 +10,7 @@ std::string announce_camera(std::size_t camera, const Pack& pack) {
   return fmt::format("camera {}: {}", camera + 1, pack.cameras[camera].name);
 }
 
-std::string announce_beside(const Comparison& comparison) {
+std::string announce_beside(const ComparisonView& comparison) {
   if (!comparison.on()) return "nothing to compare: open two packs, or a pack and a picture";
   switch (comparison.beside) {
     case Beside::kSplit:

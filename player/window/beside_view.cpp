@@ -67,7 +67,7 @@ Status BesideView::draw_difference(Renderer& first, std::uint64_t image_bytes, c
 }
 
 void BesideView::display(const Renderer& first, const Session& session) const {
-  const Comparison& c = session.comparison;
+  const ComparisonView& c = session.comparison;
   const bool alone = c.beside == Beside::kSecond || (c.beside == Beside::kDifference && shows_flip_);
   if (alone) return other_->display(session.shown_ev100, session.curve);
   if (c.beside != Beside::kSplit) return first.display(session.shown_ev100, session.curve);
@@ -83,7 +83,7 @@ void BesideView::display(const Renderer& first, const Session& session) const {
 
 Status BesideView::write(Renderer& first, const Session& session, const std::string& path, const PictureNotes& notes,
                          std::uint32_t n) {
-  const Comparison& c = session.comparison;
+  const ComparisonView& c = session.comparison;
   const bool whole = c.beside == Beside::kFirst || (c.beside == Beside::kDifference && !shows_flip_);
   if (whole) return write_picture(first, path, notes, n);
   return write_beside(first, *other_, c.beside == Beside::kSplit ? c.divider : 0.0f, path, notes, n);

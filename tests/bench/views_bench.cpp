@@ -36,7 +36,7 @@ std::vector<RadianceMap> uniform_maps(const std::vector<RadianceMap>& planned, s
   return out;
 }
 
-Status print_reflector(const Surroundings& surroundings, std::uint32_t r, const std::vector<RadianceMap>& maps,
+Status print_reflector(const ReflectedSurroundings& surroundings, std::uint32_t r, const std::vector<RadianceMap>& maps,
                        std::span<const Vec3> eyes, const Settings& settings, Context& context) {
   const FoundReflector& found = surroundings.reflectors()[r];
   ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, settings.samples, context.seed + 1, context));
@@ -69,7 +69,7 @@ Status run_scene(const std::string& path, const Settings& settings) {
   FoundReflectors found = find_reflectors(accel, materials);
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, training, 32, context, found));
   std::vector<FoundReflector> reflectors = found.reflectors;
-  const Surroundings surroundings(accel, found.reflectors, {});
+  const ReflectedSurroundings surroundings(accel, found.reflectors, {});
   ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, training, settings.plan, context, reflectors));
   const double planned_s = seconds();
   const auto white = [](const SeenSurface&) { return Vec3(1); };

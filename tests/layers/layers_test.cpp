@@ -1,6 +1,7 @@
 // The architecture as a test: who may include whom, which program links what, and how large a file may grow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -169,6 +171,26 @@ std::string objection(const std::string& folder, const std::string& include) {
   return kArrows.at(folder).contains(target) ? "" : "against the arrows";
 }
 
+// Types that a source declares with a body, as namespace::Name; those of anonymous namespaces and inside classes are
+// its own affair.
+std::vector<std::string> declared_types(std::istream& in) {
+  static const std::regex opens(R"(^namespace\s*([\w:]*)\s*\{)"), closes(R"(^\}\s*// namespace.*)"),
+      type(R"(^(?:template\s*<.*>\s*)?(?:class|struct|union|enum(?:\s+class)?)\s+(\w+)(?!\w|::|<)([^;{]*)(\{.*)?$)");
+  std::vector<std::string> names, spaces;
+  std::smatch match;
+  for (std::string line; std::getline(in, line);) {
+    if (std::regex_search(line, match, opens)) spaces.push_back(match[1]);
+    if (std::regex_match(line, closes) && !spaces.empty()) spaces.pop_back();
+    if (!std::regex_match(line, match, type)) continue;
+    if (std::count(spaces.begin(), spaces.end(), "") > 0) continue;
+    std::ostringstream name;
+    for (const std::string& space : spaces) name << space << "::";
+    name << match[1];
+    names.push_back(name.str());
+  }
+  return names;
+}
+
 template <class Visit>
 void each_source(const Visit& visit) {
   for (const auto& [folder, allowed] : kArrows) {
@@ -199,6 +221,52 @@ TEST(Layers, IncludesFollowTheArrows) {
       }
   });
   EXPECT_GT(seen, 200);
+}
+
+TEST(Layers, TheCheckerSeesTypes) {
+  std::istringstream in(R"(
+class Forward;
+namespace oriel {
+struct One {
+  struct Inner { int i; };
+};
+enum class Two : int { kA };
+enum Three { kB };
+template <class T>
+struct Four {
+};
+template <>
+struct Four<int> {};
+class Five final
+    : public One {
+};
+class One::Inner {};
+namespace {
+class Own {};
+}  // namespace
+class Six {};
+}  // namespace oriel
+namespace oriel::gpu {
+struct One {};
+}  // namespace oriel::gpu)");
+  EXPECT_EQ(declared_types(in), (std::vector<std::string>{"oriel::One", "oriel::Two", "oriel::Three", "oriel::Four",
+                                                          "oriel::Five", "oriel::Six", "oriel::gpu::One"}));
+}
+
+// Two types of one name that meet in one program are undefined behaviour, which no compiler tells: the linker keeps
+// one's inline functions for both.
+TEST(Layers, TypeNamesAreDeclaredOnce) {
+  std::map<std::string, std::set<fs::path>> places;
+  each_source([&](const std::string&, const fs::path& path) {
+    std::ifstream in(path);
+    for (const std::string& name : declared_types(in)) places[name].insert(path.lexically_relative(kRoot));
+  });
+  EXPECT_GT(places.size(), 500u);
+  for (const auto& [name, paths] : places) {
+    std::string list;
+    for (const fs::path& path : paths) list.append(" ").append(path.string());
+    EXPECT_EQ(paths.size(), 1u) << name << ":" << list;
+  }
 }
 
 TEST(Layers, FilesAndFoldersStaySmall) {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "bake/atlas/chart/deadline.h"
 #include "bake/atlas/chart/flatten.h"
+#include "bake/atlas/chart/time_limit.h"
 #include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
 
@@ -27,7 +27,7 @@ struct ChartOptions {
   double stretch = 1;                   // largest L2 stretch of a chart
   double merged_area_m2 = 0;            // charts are not merged into larger ones
   double large_m2 = 0;                  // curved charts of more area are cut where they leave much of their box empty
-  const Deadline* deadline = nullptr;
+  const AtlasTimeLimit* deadline = nullptr;
 };
 
 // A triangle of the scene.

@@ -42,7 +42,7 @@ bool is_inside(const Element& window, const ReflectedSample& s) {
 
 class Planner {
  public:
-  Planner(const Surroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
+  Planner(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
           Context& context)
       : surroundings_(surroundings), eyes_(eyes), options_(options), context_(context) {
     if (options.map_resolution > 0) options_.choice.resolutions = {options.map_resolution};
@@ -133,7 +133,7 @@ class Planner {
     return element;
   }
 
-  const Surroundings& surroundings_;
+  const ReflectedSurroundings& surroundings_;
   std::span<const Vec3> eyes_;
   PlannedViewOptions options_;
   Context& context_;
@@ -242,7 +242,7 @@ void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector
 Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
                             FoundReflectors& found) {
   const std::vector<FoundReflector> all = std::move(found.reflectors);
-  const Surroundings surroundings(accel, all, {});
+  const ReflectedSurroundings surroundings(accel, all, {});
   std::vector<std::pair<double, std::uint32_t>> seen;
   for (std::uint32_t r = 0; r < all.size(); ++r) {
     double angle = 0;
@@ -266,7 +266,7 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   return {};
 }
 
-Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span<const Vec3> eyes,
+Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes,
                                      const PlannedViewOptions& options, Context& context,
                                      std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known,
                                      std::vector<KnownPlan>* now) {

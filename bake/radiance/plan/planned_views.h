@@ -31,7 +31,7 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
 // `known`: plans of an earlier bake with these options; those of reflectors that are still there are kept where they
 // show no less (0.2 % unseen or 1 % unsharp more is no less). `now` (may be null): the plans to be known next time,
 // before memory limits them. Error kStopped.
-Result<ViewPlan> plan_views_for_eyes(const Surroundings& surroundings, std::span<const Vec3> eyes,
+Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes,
                                      const PlannedViewOptions& options, Context& context,
                                      std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known = {},
                                      std::vector<KnownPlan>* now = nullptr);

@@ -25,7 +25,7 @@ bool same_element(const RadianceMap& a, const RadianceMap& b) {
   return a.lower == b.lower && a.upper == b.upper;
 }
 
-bool sees(const Surroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
+bool sees(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
   return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
 }
 
@@ -43,7 +43,7 @@ const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const 
 
 class ResidualCapture {
  public:
-  ResidualCapture(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+  ResidualCapture(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                   std::span<const RadianceMap> others, RadianceMap& map, std::atomic<std::uint64_t>* rays)
       : surroundings_(surroundings),
         reflector_(surroundings.reflectors()[map.reflector].reflector),
@@ -114,7 +114,7 @@ class ResidualCapture {
   }
 
  private:
-  const Surroundings& surroundings_;
+  const ReflectedSurroundings& surroundings_;
   const Reflector& reflector_;
   const OutgoingRadiance& outgoing_;
   std::span<const RadianceMap> others_;
@@ -132,7 +132,7 @@ std::uint32_t fitting_resolution(const Element& element, std::uint32_t wanted, s
 
 class ResidualMaker {
  public:
-  ResidualMaker(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
+  ResidualMaker(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
                 const ResidualOptions& options, Context& context, std::atomic<std::uint64_t>* rays)
       : surroundings_(surroundings),
         outgoing_(outgoing),
@@ -191,7 +191,7 @@ class ResidualMaker {
     return missing;
   }
 
-  const Surroundings& surroundings_;
+  const ReflectedSurroundings& surroundings_;
   const OutgoingRadiance& outgoing_;
   std::span<const Vec3> eyes_;
   const ResidualOptions& options_;
@@ -217,7 +217,7 @@ struct Residual {
 };
 
 // Of one reflector, as a unit of work.
-Result<Residual> residual_of(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+Result<Residual> residual_of(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                              std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
                              std::uint32_t reflector, std::span<const RadianceMap> maps, std::uint64_t bytes) {
   Residual made;
@@ -243,9 +243,9 @@ Result<Residual> residual_of(const Surroundings& surroundings, const OutgoingRad
 
 }  // namespace
 
-Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
-                     const ResidualOptions& options, Context& context, std::vector<FoundReflector>& reflectors,
-                     ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
+Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
   std::uint64_t used = 0;
   std::uint32_t reduced = 0;
   for (const RadianceMap& map : plan.maps) used += map_bytes(map.width, map.height);

@@ -20,8 +20,9 @@ struct ResidualOptions {
 // put behind that element's other maps, and the reflectors' maps are numbered anew. Where memory_bytes does not
 // suffice, those of the least important reflectors are made smaller or left out, as plan.omitted says. Adds to `rays`
 // (may be null). The same for any number of threads. Error kStopped.
-Status add_residuals(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
-                     const ResidualOptions& options, Context& context, std::vector<FoundReflector>& reflectors,
-                     ViewPlan& plan, std::atomic<std::uint64_t>* rays = nullptr);
+Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan,
+                     std::atomic<std::uint64_t>* rays = nullptr);
 
 }  // namespace oriel

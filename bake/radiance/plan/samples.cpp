@@ -23,7 +23,8 @@ bool depth_is_enough(const SeenSurface&) {
   return false;
 }
 
-Sight look_along(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& on_plane, const Vec3& along) {
+Sight look_along(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& on_plane,
+                 const Vec3& along) {
   const Reflector& r = surroundings.reflectors()[reflector].reflector;
   const Vec3 direction = glm::normalize(Mat3(r.pack_from_reflector) * along);
   return surroundings.look(reflector, pack_from_reflector(r, on_plane), direction, depth_is_enough);
@@ -73,8 +74,8 @@ bool shows_sky(const Scene& scene) {
 
 // What the eye (scene space) sees at a point of the reflector; none where it does not see the point or nothing in it.
 // The weight is the solid angle for an area of one square metre.
-std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& eye,
-                                       const Vec3& point) {
+std::optional<ReflectedSample> reflect(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                                       const Vec3& eye, const Vec3& point) {
   const Accel& accel = surroundings.accel();
   const FoundReflector& found = surroundings.reflectors()[reflector];
   const Reflector& r = found.reflector;
@@ -107,7 +108,7 @@ std::optional<ReflectedSample> reflect(const Surroundings& surroundings, std::ui
   return s;
 }
 
-Result<std::vector<ReflectedSample>> draw_samples(const Surroundings& surroundings, std::uint32_t reflector,
+Result<std::vector<ReflectedSample>> draw_samples(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
                                                   std::span<const Vec3> eyes, std::uint32_t count, std::uint64_t seed,
                                                   Context& context) {
   const SurfacePoints points(surroundings.accel().scene(), surroundings.reflectors()[reflector]);
@@ -134,9 +135,9 @@ Result<std::vector<ReflectedSample>> draw_samples(const Surroundings& surroundin
 
 }  // namespace
 
-Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
-                                                        std::span<const Vec3> eyes, std::uint32_t count,
-                                                        std::uint64_t seed, Context& context) {
+Result<std::vector<ReflectedSample>> sample_reflections(const ReflectedSurroundings& surroundings,
+                                                        std::uint32_t reflector, std::span<const Vec3> eyes,
+                                                        std::uint32_t count, std::uint64_t seed, Context& context) {
   const FoundReflector& found = surroundings.reflectors()[reflector];
   std::vector<ReflectedSample> samples;
   ORIEL_TRY_VOID(one_unit(
@@ -154,7 +155,7 @@ Vec2 map_pixel(const RadianceMap& map, const ReflectedSample& s) {
   return map_pixel(map, s.image.w == 0 ? map.eye - kFar * map.eye.z * Vec3(s.image) : Vec3(s.image));
 }
 
-float needed_resolution(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,
+float needed_resolution(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,
                         const Element& window, const ReflectedSample& s) {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   const Vec3 way = Vec3(s.image) - s.image.w * viewpoint;  // towards the image; its length for the sky is 1
@@ -194,7 +195,7 @@ namespace {
 
 enum Shown : std::uint8_t { kNot, kInResidual, kSeen, kSharp };
 
-Shown shown_by(const Surroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
+Shown shown_by(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
   if (map.residual) return shows_in_residual(map, s) ? kInResidual : kNot;
   const float needed = needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s);
   if (!std::isfinite(needed)) return kNot;
@@ -203,7 +204,7 @@ Shown shown_by(const Surroundings& surroundings, const RadianceMap& map, const R
 
 }  // namespace
 
-ViewQuality judge_maps(const Surroundings& surroundings, std::span<const RadianceMap> maps,
+ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context) {
   std::vector<Shown> found(samples.size(), kNot);
   const Status status = parallel_for(context, "", samples.size(), [&](std::size_t i) {

@@ -29,13 +29,13 @@ inline void fields(Archive& archive, ReflectedSample& s) {
 // them, or fewer where eyes seldom see it, or none. What shows the back of a surface is left out. A black sky
 // counts, as it would be filled from the light beside it where no map tells, but none are given of a reflector that
 // shows nothing else. The same for the same seed.
-Result<std::vector<ReflectedSample>> sample_reflections(const Surroundings& surroundings, std::uint32_t reflector,
-                                                        std::span<const Vec3> eyes, std::uint32_t count,
-                                                        std::uint64_t seed, Context& context);
+Result<std::vector<ReflectedSample>> sample_reflections(const ReflectedSurroundings& surroundings,
+                                                        std::uint32_t reflector, std::span<const Vec3> eyes,
+                                                        std::uint32_t count, std::uint64_t seed, Context& context);
 
 // Pixels that the longer side of a map from `viewpoint` through `window` needs to show the sample sharp; infinite where
 // it does not see it.
-float needed_resolution(const Surroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,
+float needed_resolution(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& viewpoint,
                         const Element& window, const ReflectedSample& sample);
 
 // Where the map's eye has what the sample shows, as map_pixel() of a point; the sky's directions are the same from
@@ -48,7 +48,7 @@ struct ViewQuality {
   double residual = 0;         // seen in residual maps alone
 };
 // Residual maps are captured.
-ViewQuality judge_maps(const Surroundings& surroundings, std::span<const RadianceMap> maps,
+ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context);
 
 }  // namespace oriel

@@ -29,7 +29,7 @@ void fields(Archive& archive, BandCheck& c) {
 
 class Checker {
  public:
-  Checker(const Surroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Box> edited,
+  Checker(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Box> edited,
           std::uint64_t seed)
       : surroundings_(surroundings), outgoing_(outgoing), edited_(edited), seed_(seed) {}
 
@@ -56,7 +56,7 @@ class Checker {
     const Reflector& reflector = surroundings_.reflectors()[map.reflector].reflector;
     for (std::uint32_t y = band.first_row; y < band.first_row + band.rows && !edited_.empty(); ++y)
       for (std::uint32_t x = 0; x < map.width; ++x) {
-        const MapRay ray = map_ray(reflector, map, Vec2(x, y) + 0.5f);
+        const CaptureRay ray = capture_ray(reflector, map, Vec2(x, y) + 0.5f);
         const Vec4 end = unproject(map, Vec2(x, y) + 0.5f, map.disparity[std::size_t{y} * map.width + x]);
         const float distance =
             end.w > 0 ? kBehind * glm::length(Vec3(end) / end.w - Vec3(map_point(map, Vec2(x, y) + 0.5f), 0))
@@ -79,7 +79,7 @@ class Checker {
     return square;
   }
 
-  const Surroundings& surroundings_;
+  const ReflectedSurroundings& surroundings_;
   const OutgoingRadiance& outgoing_;
   std::span<const Box> edited_;
   std::uint64_t seed_;
@@ -87,7 +87,7 @@ class Checker {
 
 // The loop whose units the bake before named, where its reflectors had other numbers; kNoReflector: it had none.
 constexpr std::uint32_t kNoReflector = ~0u;
-std::vector<std::uint32_t> numbers_before(const Surroundings& surroundings, const KnownReflections& known) {
+std::vector<std::uint32_t> numbers_before(const ReflectedSurroundings& surroundings, const KnownReflections& known) {
   std::vector<std::uint32_t> before;
   for (const FoundReflector& found : surroundings.reflectors()) {
     const Hash128 identity = identity_of(surroundings.accel().scene(), found);
@@ -124,7 +124,7 @@ std::vector<Vec3> darkest_of(std::span<const RadianceMap> maps, std::span<const 
 
 }  // namespace
 
-Status capture_edited_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+Status capture_edited_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                            const KnownReflections& known, std::span<const Box> edited, double error, Context& context,
                            std::vector<RadianceMap>& maps, MapReuse& reuse, std::atomic<std::uint64_t>* rays) {
   const std::vector<MapBand> all = make_bands(surroundings, maps);

@@ -18,7 +18,7 @@ struct MapReuse {
 // captured anew, differs by no more than `error`, root mean square, relative to the light there and 1 % of the map's
 // mean; a pixel that ends elsewhere counts as wholly different. What is behind further mirrors or lobes is told by
 // those pixels alone. The same for any number of threads. Error kStopped.
-Status capture_edited_maps(const Surroundings& surroundings, const OutgoingRadiance& outgoing,
+Status capture_edited_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                            const KnownReflections& known, std::span<const Box> edited, double error, Context& context,
                            std::vector<RadianceMap>& maps, MapReuse& reuse, std::atomic<std::uint64_t>* rays);
 

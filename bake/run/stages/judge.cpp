@@ -34,7 +34,7 @@ std::optional<Vec3> colour_at(const RadianceMap& map, const ReflectedSample& s) 
 }
 
 // What the maps show of a sample: that which is sharpest there first, residual maps last.
-std::optional<Vec3> shown(const Surroundings& surroundings, std::span<const RadianceMap> maps,
+std::optional<Vec3> shown(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                           const ReflectedSample& s) {
   std::optional<Vec3> best;
   float sharpest = std::numeric_limits<float>::infinity();
@@ -56,7 +56,7 @@ struct Judged {
 
 }  // namespace
 
-Result<ReflectedError> judge_light(const Surroundings& surroundings, std::uint32_t reflector,
+Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
                                    std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
                                    const OutgoingRadiance& outgoing, Context& context,
                                    std::atomic<std::uint64_t>& rays) {

@@ -18,7 +18,7 @@ struct ReflectedError {
 // Compares the maps of one reflector (captured; of Reflector::first_map on) with light traced for the samples (of
 // sample_reflections), bilinear in the map that shows each sharpest. Adds to `rays`. The same for any number of
 // threads. Error kStopped.
-Result<ReflectedError> judge_light(const Surroundings& surroundings, std::uint32_t reflector,
+Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
                                    std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
                                    const OutgoingRadiance& outgoing, Context& context,
                                    std::atomic<std::uint64_t>& rays);

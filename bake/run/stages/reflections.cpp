@@ -72,8 +72,8 @@ Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Conte
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
   planned.plans.clear();
   const auto known = planned.known ? std::span<const KnownPlan>(planned.known->plans) : std::span<const KnownPlan>();
-  return plan_views_for_eyes(Surroundings(accel, as_found, options.sight), planned.all.eyes, options.planned, context,
-                             reflectors, known, &planned.plans);
+  return plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), planned.all.eyes, options.planned,
+                             context, reflectors, known, &planned.plans);
 }
 
 // Where in the store the last bake with these options of a scene with as many triangles left what it knew.
@@ -99,8 +99,8 @@ std::vector<ScenePart> parts_of(const Scene& scene) {
 }
 
 // The maps' pixels, those of the bake before where that is allowed; leaves what the next one may ask for.
-Status capture_or_keep(const BakeOptions& options, const Surroundings& surroundings, const OutgoingRadiance& outgoing,
-                       PlannedReflections& planned, Context& context, MapReuse& reuse,
+Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& surroundings,
+                       const OutgoingRadiance& outgoing, PlannedReflections& planned, Context& context, MapReuse& reuse,
                        std::atomic<std::uint64_t>& rays) {
   const Scene& scene = surroundings.accel().scene();
   if (!context.units) return capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays);
@@ -128,7 +128,7 @@ Status capture_or_keep(const BakeOptions& options, const Surroundings& surroundi
   return {};
 }
 
-Status judge(const Surroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
+Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
              const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
              ReflectionReport& report) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
@@ -271,7 +271,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
   };
-  const Surroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
+  const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
   const Deadline clock(0);
   UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
   const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
@@ -323,7 +323,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   if (options.with_material)
     ORIEL_TRY_VOID(
         leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
-  const Surroundings surroundings(accel, reflectors, options.sight);
+  const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));

@@ -77,11 +77,12 @@ TEST(Capture, StopsWhenAskedAndCountsItsRays) {
   ViewPlan plan = plan_views(room.scene, reflectors, small_maps());
   Context context;
   std::atomic<std::uint64_t> rays{0};
-  ASSERT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps, &rays));
+  ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps, &rays));
   EXPECT_GE(rays.load(), 16u * 32 * 24);
   EXPECT_LE(rays.load(), 16u * 32 * 24 + 10);
   context.stop = true;
-  const Status stopped = capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps);
+  const Status stopped =
+      capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
@@ -112,7 +113,7 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   ViewPlan plan = plan_views(scene, reflectors, views);
   EXPECT_EQ(plan.maps.size(), 1u);
   Context context;
-  EXPECT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), outgoing, context, plan.maps));
+  EXPECT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), outgoing, context, plan.maps));
   return plan.maps[0];
 }
 
@@ -278,7 +279,7 @@ TEST(Orders, AMirrorInAMirrorShowsItsImageWhereItIs) {
   options.views_per_element = 8;
   ViewPlan plan = plan_views(room.scene, reflectors, options);
   Context context;
-  ASSERT_TRUE(capture_maps(Surroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps));
+  ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps));
   std::size_t mirrored_pixels = 0, wrong = 0;
   double worst = 0;
   for (const RadianceMap& map : plan.maps) {
@@ -326,7 +327,7 @@ TEST(Orders, EndAtTheOrderThatIsAskedFor) {
   const auto reflectors = find_reflectors(*accel, std::vector{ReflectorMaterial{0, Vec3(1), 1}}, found).reflectors;
   ASSERT_EQ(reflectors.size(), 2u);
   for (const std::uint32_t orders : {1u, 2u, 5u, 16u}) {
-    const Surroundings surroundings(*accel, reflectors, {.orders = orders});
+    const ReflectedSurroundings surroundings(*accel, reflectors, {.orders = orders});
     std::uint32_t surfaces = 0, mirrors = 0;
     const Sight sight =
         surroundings.look(0, pack_from_reflector(reflectors[0].reflector, Vec3(0)),

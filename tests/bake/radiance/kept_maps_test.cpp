@@ -89,7 +89,7 @@ class KeptMaps : public testing::Test {
     Context context;
     context.units = with_store ? &store_ : nullptr;
     const StageInputs inputs(context, std::string("light"), f.box, ++bakes_);
-    const Surroundings surroundings(*accel, out.reflectors, {});
+    const ReflectedSurroundings surroundings(*accel, out.reflectors, {});
     const std::vector<ScenePart> parts = {f.part()};
     out.known = {parts, {}, {identity_of(f.room.scene, out.reflectors[0])}, context.inputs, {}};
     std::atomic<std::uint64_t> rays{0};
@@ -207,7 +207,8 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
     Context context;
     context.units = &store;
     const StageInputs inputs(context, room.scene.positions);
-    auto made = plan_views_for_eyes(Surroundings(*accel, as_found, {}), eyes, {}, context, reflectors, known, now);
+    auto made =
+        plan_views_for_eyes(ReflectedSurroundings(*accel, as_found, {}), eyes, {}, context, reflectors, known, now);
     EXPECT_TRUE(made);
     return made ? *made : ViewPlan();
   };

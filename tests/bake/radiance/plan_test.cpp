@@ -71,7 +71,7 @@ Planned plan_in(const Accel& accel, const MirrorRoom& room, std::span<const Vec3
   const auto as_found = out.reflectors;
   Context context;
   context.threads = threads;
-  auto plan = plan_views_for_eyes(Surroundings(accel, as_found, {}), eyes, options, context, out.reflectors);
+  auto plan = plan_views_for_eyes(ReflectedSurroundings(accel, as_found, {}), eyes, options, context, out.reflectors);
   EXPECT_TRUE(plan);
   if (plan) out.plan = std::move(*plan);
   return out;
@@ -90,7 +90,7 @@ std::vector<Vec3> eyes_in_room(std::uint32_t count, std::uint32_t from = 0) {
 ViewQuality judge(const Accel& accel, const Planned& planned, std::span<const RadianceMap> maps,
                   std::span<const Vec3> eyes) {
   Context context;
-  const Surroundings surroundings(accel, planned.reflectors, {});
+  const ReflectedSurroundings surroundings(accel, planned.reflectors, {});
   const auto samples = sample_reflections(surroundings, 0, eyes, 2048, 77, context);
   EXPECT_TRUE(samples);
   EXPECT_EQ(samples->size(), 2048u);
@@ -104,7 +104,7 @@ TEST(Needs, AreThoseOfSimilarTriangles) {
   const auto accel = Accel::build(room.scene);
   ASSERT_TRUE(accel);
   const auto reflectors = find_reflectors(*accel, room.materials()).reflectors;
-  const Surroundings surroundings(*accel, reflectors, {});
+  const ReflectedSurroundings surroundings(*accel, reflectors, {});
   const float depth = 5 - test::kMirrorInset;  // from the mirror to the wall
   for (const float e : {0.5f, 2.0f}) {
     ReflectedSample s;
@@ -188,7 +188,7 @@ TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
   context.stop = true;
   auto reflectors = a.reflectors;
   const auto stopped =
-      plan_views_for_eyes(Surroundings(*accel, a.reflectors, {}), eyes_in_room(10), {}, context, reflectors);
+      plan_views_for_eyes(ReflectedSurroundings(*accel, a.reflectors, {}), eyes_in_room(10), {}, context, reflectors);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
@@ -245,7 +245,7 @@ TEST(Residuals, ShowWhatNoMapSees) {
     const auto eyes = eyes_in_room(1000);
     Planned planned = plan_in(*accel, room, eyes, options);
     const std::vector<FoundReflector> as_planned = planned.reflectors;
-    const Surroundings surroundings(*accel, as_planned, {});
+    const ReflectedSurroundings surroundings(*accel, as_planned, {});
     Context context;
     std::vector<RadianceMap>& maps = planned.plan.maps;
     ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, maps));
@@ -294,7 +294,7 @@ TEST(Residuals, StandBesideTheMapsOfTheirElement) {
   ViewPlan plan = plan_views(room.scene, reflectors, options);
   ASSERT_EQ(plan.maps.size(), 4u);
   const auto as_planned = reflectors;
-  const Surroundings surroundings(*accel, as_planned, {});
+  const ReflectedSurroundings surroundings(*accel, as_planned, {});
   Context context;
   ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, plan.maps));
   ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes_in_room(1000), {}, context, reflectors, plan));
@@ -320,7 +320,7 @@ TEST(Residuals, KeepTheMemory) {
   const ViewPlan plan = plan_views(room.scene, reflectors, views);
   ASSERT_EQ(plan.maps.size(), 1u);
   const auto as_planned = reflectors;
-  const Surroundings surroundings(*accel, as_planned, {});
+  const ReflectedSurroundings surroundings(*accel, as_planned, {});
   Context context;
   const std::uint64_t map = map_bytes(plan.maps[0].width, plan.maps[0].height);
   for (const std::uint64_t over : {std::uint64_t{0}, map / 4, map}) {
@@ -384,7 +384,7 @@ TEST(SeenReflectors, HolesAndSeparatePartsAreNotReflector) {
   EXPECT_NEAR(reflectors[0].reflector.area_m2, 13, 1e-4);
   Context context;
   const std::vector<Vec3> eyes{{0, 0, 2}, {1, 1, 3}};
-  const auto samples = sample_reflections(Surroundings(*accel, reflectors, {}), 0, eyes, 1000, 1, context);
+  const auto samples = sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, eyes, 1000, 1, context);
   ASSERT_TRUE(samples);
   ASSERT_EQ(samples->size(), 1000u);
   for (const ReflectedSample& s : *samples) {

@@ -48,7 +48,8 @@ TEST(SkySamples, ABlackSkyCountsBesideSurfacesAlone) {
     const auto reflectors = mirror_of(*accel);
     ASSERT_EQ(reflectors.size(), 1u);
     Context context;
-    const auto samples = sample_reflections(Surroundings(*accel, reflectors, {}), 0, eyes_before(), 500, 1, context);
+    const auto samples =
+        sample_reflections(ReflectedSurroundings(*accel, reflectors, {}), 0, eyes_before(), 500, 1, context);
     ASSERT_TRUE(samples);
     const auto skies = std::count_if(samples->begin(), samples->end(), [](const auto& s) { return s.sky; });
     EXPECT_EQ(samples->empty(), !panel);
@@ -69,7 +70,7 @@ TEST(SkySamples, ResidualsHoldTheSkyBehindThings) {
     ViewPlan plan = plan_views(scene, reflectors, options);
     ASSERT_EQ(plan.maps.size(), 1u);
     const std::vector<FoundReflector> as_planned = reflectors;
-    const Surroundings surroundings(*accel, as_planned, {});
+    const ReflectedSurroundings surroundings(*accel, as_planned, {});
     const OutgoingRadiance outgoing = [](const SeenSurface&) { return Vec3(100); };
     Context context;
     ASSERT_TRUE(capture_maps(surroundings, outgoing, context, plan.maps));

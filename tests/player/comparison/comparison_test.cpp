@@ -68,7 +68,7 @@ TEST(Split, TakesEachSideFromItsOwn) {
 }
 
 TEST(Divider, IsDraggedFromWhereItIsTaken) {
-  Comparison c;
+  ComparisonView c;
   EXPECT_FALSE(drag_divider({0.5f, 0.5f}, true, true, 0.01f, c)) << "there is nothing to compare";
   c.second = "b.oriel";
   EXPECT_FALSE(drag_divider({0.6f, 0.5f}, true, true, 0.01f, c));

@@ -6,9 +6,9 @@
 
 namespace oriel {
 
-class Deadline {
+class AtlasTimeLimit {
  public:
-  explicit Deadline(double seconds)  // 0: never
+  explicit AtlasTimeLimit(double seconds)  // 0: never
       : limited_(seconds > 0),
         end_(Clock::now() +
              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limited_ ? seconds : 0))) {}
