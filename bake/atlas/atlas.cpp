@@ -73,7 +73,7 @@ Status check_options(const AtlasOptions& o) {
 }
 
 Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& surfaces, const AtlasOptions& options,
-                       Context& context, Atlas& atlas) {
+                       const TexelDemand& demand, Context& context, Atlas& atlas) {
   const bool one_page = options.resolution > 0 && options.source == AtlasOptions::Source::kAuto;
   double area = 0;
   for (const std::uint32_t s : surfaces)
@@ -89,7 +89,8 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
                                    static_cast<double>(options.max_stretch),
                                    kMergedShare * area,
                                    kLargeShare * area,
-                                   &deadline};
+                                   &deadline,
+                                   demand.empty() ? nullptr : &demand};
   std::vector<ChartSet> sets(surfaces.size());
   ORIEL_TRY_VOID(parallel_for(context, "atlas", surfaces.size(), [&](std::size_t i) {
     sets[i] = grow_charts(scene, scene.surfaces[surfaces[i]], chart_options, context);
@@ -107,12 +108,22 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
   layout.one_page = one_page;
   layout.texel_m = texel_m;
   layout.memory_bytes = options.memory_bytes;
+  layout.coarsen = options.coarsen;
+  if (!one_page && !demand.empty()) layout.demand = &demand;
   return lay_out(scene, sets, layout, context, atlas);
 }
 
 }  // namespace
 
-Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context) {
+bool takes_light(const SceneMaterial& material) {
+  if (material.unlit) return false;
+  const bool black = max_component(material.base_color) == 0 && material.metal == Metal::kNone && material.coat == 0;
+  const bool shines = max_component(material.emission) > 0 && material.emission_texture.image < 0;
+  return !(black && (shines || material.specular == 0 || max_component(material.specular_color) == 0));
+}
+
+Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context,
+                          const TexelDemand& demand) {
   ORIEL_TRY_VOID(check_options(options));
   Atlas atlas;
   atlas.texel_m = options.texel_m;
@@ -122,7 +133,7 @@ Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Conte
   std::vector<std::uint32_t> artist, automatic;
   for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
-    if (surface.triangle_count == 0 || scene.materials[surface.material].unlit) continue;
+    if (surface.triangle_count == 0 || !takes_light(scene.materials[surface.material])) continue;
     const bool own = options.source == AtlasOptions::Source::kUv1 && surface.has_uv1;
     (own ? artist : automatic).push_back(s);
   }
@@ -133,7 +144,7 @@ Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Conte
     atlas.pages.push_back({side, side, true});
     ORIEL_TRY_VOID(place_uv1(scene, artist, context, atlas));
   }
-  if (!automatic.empty()) ORIEL_TRY_VOID(place_automatic(scene, automatic, options, context, atlas));
+  if (!automatic.empty()) ORIEL_TRY_VOID(place_automatic(scene, automatic, options, demand, context, atlas));
   ORIEL_TRY_VOID(measure_coverage(context, atlas));
   return atlas;
 }

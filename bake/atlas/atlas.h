@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/atlas/texel_demand.h"
 #include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
 
@@ -13,7 +14,7 @@ namespace oriel {
 struct AtlasOptions {
   enum class Source { kAuto, kUv1 };
   Source source = Source::kAuto;
-  float texel_m = 0.1f;            // automatic charts: metres a texel
+  float texel_m = 0.1f;            // automatic charts: metres a texel; with a TexelDemand the finest
   int resolution = 0;              // > 0: automatic charts choose the texel size that fills one page of this side; with
                                    // kUv1 the side of page 0 (required there)
   int max_page = 2048;             // largest side of a page, texels
@@ -23,7 +24,9 @@ struct AtlasOptions {
   float max_stretch = 1.1f;        // L2 stretch of a curved chart, at most
   double time_limit_s = 0;         // then what is left gets quick, plain charts (a warning says so); 0: none. Where it
                                    // strikes, the atlas depends on the speed of the machine
-  std::uint64_t memory_bytes = 0;  // of the baked lightmap: an error where the texels need more; 0: no limit
+  std::uint64_t memory_bytes = 0;  // of baking the lightmap: an error where the texels need more; 0: no limit
+  bool coarsen = false;            // with a TexelDemand: where the texels need more, those of what is seen least become
+                                   // larger until they do not
 };
 
 struct AtlasPage {
@@ -40,22 +43,28 @@ struct AtlasReport {
   std::uint64_t page_texels = 0, covered_texels = 0;
   std::uint64_t overlapping_texels = 0;  // touched by triangles of two charts
   bool time_limit_struck = false;
+  double unseen_m2 = 0;  // with a TexelDemand: of charts that no eye sees
 };
 
 struct Atlas {
   std::vector<AtlasPage> pages;
-  std::vector<std::int32_t> page;       // by triangle; -1: none (unlit material, or emission only)
+  std::vector<std::int32_t> page;       // by triangle; -1: none (unlit material, or one that reflects nothing)
   std::vector<std::array<Vec2, 3>> uv;  // by triangle and corner, [0,1] over its page
   std::vector<std::uint32_t> chart;     // by triangle; ~0u: none
   std::uint32_t chart_count = 0;
   double covered_share = 0;  // covered texels over all texels, automatic pages
-  float texel_m = 0;         // the texel size used by automatic charts, metres
+  float texel_m = 0;         // the (finest) texel size used by automatic charts, metres
   AtlasReport report;
 };
+
+// Whether light that falls on a material can be seen: it is not unlit, and reflects some. A material that shines and
+// is black but for the gloss of all plastics, the dome that stands for a sky say, counts as one that does not.
+bool takes_light(const SceneMaterial& material);
 
 // Errors: kInvalid when artist coordinates overlap (names both meshes), leave [0,1], have no area, or when kUv1 is
 // asked for and no mesh has TEXCOORD_1; kRuntime when it would need more than 4096 pages or more memory than
 // the limit (says the texel size that fits).
-Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context);
+Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Context& context,
+                          const TexelDemand& demand = {});
 
 }  // namespace oriel

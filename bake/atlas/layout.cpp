@@ -1,6 +1,7 @@
 #include "bake/atlas/layout.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "bake/atlas/chart/surface_mesh.h"
 #include "bake/jobs/parallel.h"
@@ -16,6 +17,8 @@ constexpr double kLeastTexels = 0.25;  // a chart is drawn at least so long: thi
 // times finer for it: a moulding whose front and reveal shared a texel would show each side the light of the other.
 constexpr double kTurn = 30 * kPi / 180;
 constexpr double kFinest = 4;
+
+constexpr double kMargins = 1.3;  // covered texels, over the charts' area in texels: borders are covered in part
 
 // How a chart's axis is drawn: texel = metres * scale + offset, within a row of `size` texels.
 struct Axis {
@@ -113,7 +116,8 @@ class Layout {
   Layout(const Scene& scene, std::span<const ChartSet> sets, const LayoutOptions& options, Context& context)
       : options_(options), context_(context), inset_(options.side * 0x1p-24) {
     for (const ChartSet& set : sets)
-      for (const Chart& chart : set.charts) charts_.push_back({&set, &chart, turn_of(scene, set, chart)});
+      for (const Chart& chart : set.charts)
+        charts_.push_back({&set, &chart, turn_of(scene, set, chart), own_texel(set, chart)});
   }
 
   Status pack() { return options_.one_page ? pack_one_page() : pack_at(options_.texel_m); }
@@ -125,20 +129,35 @@ class Layout {
   struct Entry {
     const ChartSet* set;
     const Chart* chart;
-    DVec2 turn;  // turn_of
+    DVec2 turn;      // turn_of
+    ChartTexel own;  // that eyes want
   };
 
-  // The texel of a chart: the asked one, or as much coarser as the page needs.
-  double chart_texel(const Chart& chart, double texel_m) const {
-    return std::max(texel_m, chart.size.x / (options_.side - 2 * inset_));  // x is the longer side
+  static double area_of(const ChartSet& set, const Chart& chart) {
+    double sum = 0;
+    for (std::uint32_t i = chart.first; i < chart.first + chart.count; ++i) sum += std::abs(signed_area(set.points[i]));
+    return sum;
   }
-  Frame plain_frame(const Chart& chart, double texel_m) const {
-    const double texel = chart_texel(chart, texel_m);
-    return {fit_axis(chart.size.x, texel, inset_), fit_axis(chart.size.y, texel, inset_)};
+
+  ChartTexel own_texel(const ChartSet& set, const Chart& chart) const {
+    const double area = area_of(set, chart);
+    if (options_.demand == nullptr) return {.texel_m = options_.texel_m, .area_m2 = area};
+    return texel_for(*options_.demand, std::span(set.triangles).subspan(chart.first, chart.count), area,
+                     options_.texel_m);
+  }
+
+  // The texel of a chart: the asked one, or as much coarser as the page needs.
+  double chart_texel(const Entry& e, double texel_m) const {
+    const double own = options_.demand != nullptr ? std::max(texel_m, e.own.texel_m) : texel_m;
+    return std::max(own, e.chart->size.x / (options_.side - 2 * inset_));  // x is the longer side
+  }
+  Frame plain_frame(const Entry& e, double texel_m) const {
+    const double texel = chart_texel(e, texel_m);
+    return {fit_axis(e.chart->size.x, texel, inset_), fit_axis(e.chart->size.y, texel, inset_)};
   }
   // The same with the texels that the chart's turn asks for.
   Frame frame(const Entry& entry, double texel_m) const {
-    const double texel = chart_texel(*entry.chart, texel_m), side = options_.side - 2 * inset_;
+    const double texel = chart_texel(entry, texel_m), side = options_.side - 2 * inset_;
     const auto axis = [&](double metres, double turn) {
       const double texels = std::min(std::max(metres / texel, std::min(turn / kTurn, kFinest * metres / texel)), side);
       return fit_axis(metres, texels > 0 ? metres / texels : texel, inset_);
@@ -156,9 +175,19 @@ class Layout {
   }
   double surface_area() const {
     double sum = 0;
-    for (const Entry& e : charts_)
-      for (std::uint32_t i = 0; i < e.chart->count; ++i)
-        sum += std::abs(signed_area(e.set->points[e.chart->first + i]));
+    for (const Entry& e : charts_) sum += e.own.area_m2;
+    return sum;
+  }
+  // Texels that charts cover, at least: their area.
+  double least_texels(double texel_m) const {
+    double sum = 0;
+    for (const Entry& e : charts_) sum += e.own.area_m2 / (chart_texel(e, texel_m) * chart_texel(e, texel_m));
+    return sum;
+  }
+  void fit_memory();
+  double covered_texels() const {
+    double sum = 0;
+    for (const TexelMask& mask : masks_) sum += static_cast<double>(mask.count());
     return sum;
   }
   Status draw_masks(double texel_m) {
@@ -192,16 +221,29 @@ std::uint32_t round_up_4(std::uint32_t n) {
 }
 
 Status Layout::check_memory(double texel_m, double texels) const {
-  const double bytes = texels * kLightmapTexelBytes;
+  const double bytes = texels * kBakeTexelBytes;
   if (options_.memory_bytes == 0 || bytes <= static_cast<double>(options_.memory_bytes)) return {};
   constexpr double kMiB = 1048576;
   const double limit = static_cast<double>(options_.memory_bytes);
   double fits = texel_m;
-  for (int i = 0; i < 400 && box_area(fits) * 1.1 * kLightmapTexelBytes > limit; ++i) fits *= 1.1;
-  return fail(ErrorCode::kRuntime, "atlas",
-              "a texel of {:.4g} m makes a lightmap of about {:.0f} texels, {:.1f} MiB; found a limit of {:.1f} MiB, "
-              "expected at least that (a texel of {:.3g} m fits)",
-              texel_m, texels, bytes / kMiB, limit / kMiB, fits);
+  for (int i = 0; i < 400 && least_texels(fits) * kMargins * kBakeTexelBytes > limit; ++i) fits *= 1.1;
+  return fail(
+      ErrorCode::kRuntime, "atlas",
+      "a texel of {:.4g} m makes a lightmap of about {:.0f} texels, which take {:.1f} MiB to bake; found a limit "
+      "of {:.1f} MiB, expected at least that (--texel {:.3g}m fits)",
+      texel_m, texels, bytes / kMiB, limit / kMiB, fits);
+}
+
+void Layout::fit_memory() {
+  std::vector<ChartTexel*> own;
+  for (Entry& e : charts_) own.push_back(&e.own);
+  const double limit = static_cast<double>(options_.memory_bytes);
+  const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) * kBakeTexelBytes > limit; });
+  if (larger > 0)
+    context_.warning(
+        fmt::format("atlas: texels of {:.3g} m would take more memory to bake than the {:.0f} MiB there are for them "
+                    "(--memory-limit): {} of {} charts, those seen least, get larger ones",
+                    texel_m_, limit / 1048576, larger, charts_.size()));
 }
 
 Status Layout::pack_at(double texel_m) {
@@ -209,7 +251,8 @@ Status Layout::pack_at(double texel_m) {
   const std::uint32_t side = options_.side, padding = options_.padding;
   const double room = static_cast<double>(kMaxPages) * side * side;
   // Charts alone are at least their area: refused before their masks need memory, too.
-  ORIEL_TRY_VOID(check_memory(texel_m, surface_area() / (texel_m * texel_m)));
+  if (options_.coarsen && options_.demand != nullptr && options_.memory_bytes > 0) fit_memory();
+  ORIEL_TRY_VOID(check_memory(texel_m, least_texels(texel_m)));
   if (box_area(texel_m) <= 4 * room) {
     ORIEL_TRY_VOID(draw_masks(texel_m));
     placed_.resize(charts_.size());
@@ -223,12 +266,8 @@ Status Layout::pack_at(double texel_m) {
                 "a texel of {:.4g} m needs more than {} pages of {}x{} texels; a texel of {:.3g} m fits", texel_m,
                 kMaxPages, side, side, fits);
   }
-  double texels = 0;
-  for (PackedPage& page : pages_) {
-    page = {round_up_4(page.width), round_up_4(page.height)};
-    texels += static_cast<double>(page.width) * page.height;
-  }
-  return check_memory(texel_m, texels);
+  for (PackedPage& page : pages_) page = {round_up_4(page.width), round_up_4(page.height)};
+  return check_memory(texel_m, covered_texels());
 }
 
 Status Layout::pack_one_page() {
@@ -260,15 +299,15 @@ Status Layout::pack_one_page() {
     guess = std::min(std::sqrt(texel_m_ * too_fine), too_fine * 1.2);
   }
   pages_[0] = {side, side};
-  return check_memory(texel_m_, static_cast<double>(side) * side);
+  return check_memory(texel_m_, covered_texels());
 }
 
 void Layout::warn_coarsened() const {
   std::size_t count = 0;
   double worst = texel_m_;
   for (const Entry& e : charts_) {
-    const double texel = chart_texel(*e.chart, texel_m_);
-    if (texel <= texel_m_ * (1 + 1e-3)) continue;
+    const double texel = chart_texel(e, texel_m_);
+    if (texel <= std::max(texel_m_, e.own.texel_m) * (1 + 1e-3)) continue;
     ++count;
     worst = std::max(worst, texel);
   }
@@ -283,7 +322,7 @@ void Layout::write(Atlas& atlas) const {
   const auto first_page = static_cast<std::uint32_t>(atlas.pages.size());
   for (const PackedPage& page : pages_) atlas.pages.push_back({page.width, page.height, false});
   for (std::size_t c = 0; c < charts_.size(); ++c) {
-    const auto& [set, chart, turn] = charts_[c];
+    const auto& [set, chart] = std::tie(charts_[c].set, charts_[c].chart);
     const PackedChart& at = placed_[c];
     const Frame f = frame(charts_[c], texel_m_);
     const DVec2 page_size(pages_[at.page].width, pages_[at.page].height);
@@ -305,13 +344,16 @@ void Layout::write(Atlas& atlas) const {
 // texel.
 void Layout::measure(const Scene& scene, AtlasReport& report) const {
   StretchSum sum;
-  for (const auto& [set, chart, turn] : charts_) {
-    const Frame f = plain_frame(*chart, texel_m_);
+  for (const Entry& e : charts_) {
+    const auto& [set, chart] = std::tie(e.set, e.chart);
+    const Frame f = plain_frame(e, texel_m_);
     for (std::uint32_t i = chart->first; i < chart->first + chart->count; ++i) {
       const Triangle2& t = set->points[i];
       sum.add(triangle_corners(scene, set->triangles[i]), {f.to_texels(t[0]), f.to_texels(t[1]), f.to_texels(t[2])});
     }
   }
+  for (const Entry& e : charts_)
+    report.unseen_m2 += options_.demand != nullptr && e.own.pixels == 0 ? e.own.area_m2 : 0;
   report.l2_stretch = sum.l2();
   report.linf_stretch = sum.linf();
   report.angle_distortion = sum.angle();

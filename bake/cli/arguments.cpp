@@ -2,6 +2,7 @@
 
 #include "bake/cli/lux_arguments.h"
 #include "bake/cli/render_arguments.h"
+#include "bake/jobs/memory.h"
 #include "bake/run/version.h"
 #include "formats/core/text.h"
 
@@ -23,9 +24,9 @@ second interrupt (nothing half-written is left).)";
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
 
 struct Texts {
-  std::string texel = "10cm", memory = "128MiB", lightmap_memory, views = "planned:8", eyes = "walk", pvs = "auto",
-              directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%", verify = "10%", time,
-              reuse, transfer = "shadowed", probe = "1m";
+  std::string texel = "auto", unit = "auto", memory = "128MiB", memory_limit, views = "planned:8", eyes = "walk",
+              pvs = "auto", directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%",
+              verify = "10%", time, reuse, transfer = "shadowed", probe = "1m";
   std::uint32_t samples = 0;
   int resolution = 0;
   CLI::Option *texel_option = nullptr, *error_option = nullptr;
@@ -36,11 +37,13 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's TEXCOORD_1)")
       ->check(CLI::IsMember({"auto", "uv1"}))
       ->capture_default_str();
-  auto* texel = app.add_option("--texel", texts.texel,
-                               "Size of a lightmap texel on a surface. Smaller shows finer shadows; time and size grow "
-                               "with its inverse square")
-                    ->check(checked(parse_length, "LENGTH"))
-                    ->capture_default_str();
+  auto* texel =
+      app.add_option("--texel", texts.texel,
+                     "Finest size of a lightmap texel on a surface: a length, or auto, 2.4° from where people see "
+                     "what they see (about 10 cm in rooms). What is far or unseen gets larger ones. Smaller "
+                     "shows finer shadows; time and size grow with its inverse square")
+          ->check(checked(parse_texel, "auto|LENGTH"))
+          ->capture_default_str();
   app.add_option("--resolution", texts.resolution,
                  "Side of the lightmap page in texels: with --atlas uv1 the page the coordinates are meant for, with "
                  "auto the page that everything shall fit on")
@@ -50,10 +53,15 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "Largest side of an automatic page; GPUs guarantee 2048, nearly all have 16384")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
-  app.add_option("--lightmap-memory", texts.lightmap_memory,
-                 "Limit of what the lightmap may need while it is baked; a texel too fine for it is an error that says "
-                 "which one fits. Default: none")
+  app.add_option("--memory-limit", texts.memory_limit,
+                 "Memory that the bake may take. With --texel auto what is seen least gets larger texels to keep it; a "
+                 "length that does not fit is an error that says which one does. Default: half of what is free")
       ->check(checked(parse_bytes, "SIZE"));
+  app.add_option("--unit", texts.unit,
+                 "What a unit of the file is: auto (metres, as glTF has it, unless rooms are as high as towers or "
+                 "matchboxes), mm, cm, in, ft, m, km. Light on surfaces stays what it is")
+      ->check(checked(parse_unit, "UNIT"))
+      ->capture_default_str();
   app.add_option("--atlas-time-limit", bake.atlas.time_limit_s,
                  "Seconds after which what is left gets plain charts, quickly; the pack then depends on how fast the "
                  "machine is. 0: none")
@@ -184,7 +192,14 @@ Status resolve(const Texts& texts, Arguments& args) {
   ORIEL_TRY(bake.probes.spacing_m, parse_length(texts.probe));
   bake.transfer.shadowed = texts.transfer == "shadowed";
   if (!bake.transfer.shadowed) bake.transfer.bounces = 0;
-  ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
+  bake.choose_texel = texts.texel == "auto";
+  if (!bake.choose_texel) {
+    ORIEL_TRY(bake.atlas.texel_m, parse_length(texts.texel));
+  }
+  bake.guess_unit = texts.unit == "auto";
+  if (!bake.guess_unit) {
+    ORIEL_TRY(bake.import.unit_m, parse_unit(texts.unit));
+  }
   ORIEL_TRY(bake.views.memory_bytes, parse_bytes(texts.memory));
   bake.planned.memory_bytes = bake.views.memory_bytes;
   bake.planned.map_resolution = bake.views.map_resolution;
@@ -213,8 +228,11 @@ Status resolve(const Texts& texts, Arguments& args) {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
     bake.radiosity.samples = kMostSamples;
   }
-  if (!texts.lightmap_memory.empty()) {
-    ORIEL_TRY(bake.atlas.memory_bytes, parse_bytes(texts.lightmap_memory));
+  bake.memory_given = !texts.memory_limit.empty();
+  if (bake.memory_given) {
+    ORIEL_TRY(bake.memory_bytes, parse_bytes(texts.memory_limit));
+  } else {
+    bake.memory_bytes = free_memory() / 2;
   }
   bake.atlas.resolution = texts.resolution;
   bake.directional = texts.directional == "on"    ? Directional::kOn

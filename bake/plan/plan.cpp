@@ -10,14 +10,14 @@ namespace {
 Status lay_out(BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
                std::vector<Finding>& findings) {
   check_lightmap_uv(prepared.scene(), options.atlas, findings);
-  const Status laid = lay_out_lightmap(options.atlas, timed, context, prepared);
+  const Status laid = lay_out_lightmap(options, timed, context, prepared);
   if (laid || options.atlas.source != AtlasOptions::Source::kUv1 || laid.error().code != ErrorCode::kInvalid)
     return laid;
   findings.push_back({FindingKind::kLightmapUv, laid.error().where, laid.error().message,
                       "coordinates in [0, 1] on which every triangle owns its texels",
                       "unwrap it again without overlap, or bake with --atlas auto"});
   options.atlas.source = AtlasOptions::Source::kAuto;
-  return lay_out_lightmap(options.atlas, timed, context, prepared);
+  return lay_out_lightmap(options, timed, context, prepared);
 }
 
 // Warnings of import become findings; the context's own listener is put back at the end.
@@ -55,11 +55,12 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   plan.findings = findings_of_import(collector.warnings);
   const Scene& scene = prepared.scene();
   ORIEL_TRY_VOID(lay_out(options, timed, context, prepared, plan.findings));
+  if (options.choose_texel) options.atlas.texel_m = prepared.atlas.texel_m;
   const LightSet lights(scene);
   ORIEL_TRY(const MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   ORIEL_TRY(const FoundReflections reflections, timed("reflectors", [&](auto&) {
-              return find_reflections(options, *prepared.accel, materials.summaries, context);
+              return find_reflections(options, *prepared.accel, prepared.region, materials.summaries, context);
             }));
   const ViewShares views = look_around(*prepared.accel, reflections.eyes, context.seed);
   const CensusInput input{options, prepared, lights, materials, reflections, views.front};

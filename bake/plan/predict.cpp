@@ -63,7 +63,7 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   coarse.source = AtlasOptions::Source::kAuto;
   coarse.resolution = 0;
   coarse.texel_m = static_cast<float>(coarser) * in.prepared.atlas.texel_m;
-  ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context));
+  ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context, in.prepared.demand));
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
   const WallClock clock;
   ORIEL_TRY(pilot.radiosity, bake_radiosity({*in.prepared.accel, in.lights, path_options(in.options)}, pilot.atlas,

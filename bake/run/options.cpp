@@ -36,6 +36,19 @@ Result<float> parse_length(const std::string& text) {
   return static_cast<float>(metres);
 }
 
+Result<double> parse_unit(const std::string& text) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"auto", 1},    {"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254},
+                                                       {"ft", 0.3048}, {"m", 1},      {"km", 1000}};
+  for (const auto& [name, metres] : kUnits)
+    if (text == name) return metres;
+  return fail(ErrorCode::kUsage, "", "found '{}', expected auto, mm, cm, in, ft, m or km", text);
+}
+
+Result<float> parse_texel(const std::string& text) {
+  if (text == "auto") return 0.0f;
+  return parse_length(text);
+}
+
 Result<double> parse_duration(const std::string& text) {
   static constexpr Unit kUnits[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
   return parse_quantity(text, kUnits, "time", "30s, 10min or 2h");
@@ -138,11 +151,12 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"sun_angle_deg", o.import.sun_angle_deg ? nlohmann::ordered_json(*o.import.sun_angle_deg) : nullptr},
       {"ies", ies},
       {"atlas", o.atlas.source == AtlasOptions::Source::kUv1 ? "uv1" : "auto"},
-      {"texel_m", o.atlas.texel_m},
+      {"unit_m", o.guess_unit ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(o.import.unit_m)},
+      {"texel_m", o.choose_texel ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(o.atlas.texel_m)},
       {"resolution", o.atlas.resolution},
       {"max_page", o.atlas.max_page},
       {"padding", o.atlas.padding},
-      {"lightmap_memory", o.atlas.memory_bytes},
+      {"memory_limit", o.memory_given ? o.memory_bytes : 0},
       {"atlas_time_limit_s", o.atlas.time_limit_s},
       {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},

@@ -34,8 +34,12 @@ struct BakeOptions {
   std::filesystem::path scene;   // .glb or .gltf
   std::filesystem::path output;  // .oriel
   ImportOptions import;
+  bool guess_unit = true;  // where the scene's numbers cannot be metres (walk/scene_unit.h)
   AtlasOptions atlas;
-  RadiosityOptions radiosity;  // radiosity.directional follows from the next
+  std::uint64_t memory_bytes = 0;  // of the whole bake; 0: no limit
+  bool memory_given = false;       // by the user: else it is the machine's, and not recorded
+  bool choose_texel = false;       // from what people see and how far (view_demand.h), instead of atlas.texel_m
+  RadiosityOptions radiosity;      // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
   ViewScheme view_scheme = ViewScheme::kPlanned;
@@ -61,6 +65,10 @@ struct BakeOptions {
 // Bytes: parse_bytes of formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
+// "mm", "cm", "in", "ft", "m" or "km", as metres; "auto" as 1. Error kUsage.
+Result<double> parse_unit(const std::string& text);
+// As parse_length, or "auto" as 0.
+Result<float> parse_texel(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
 Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.

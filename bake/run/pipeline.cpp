@@ -138,7 +138,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   const Deadline deadline(options.time_s);
   Stopwatch timed(result.times);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  ORIEL_TRY_VOID(lay_out_lightmap(options.atlas, timed, context, prepared));
+  ORIEL_TRY_VOID(lay_out_lightmap(options, timed, context, prepared));
   result.omissions = prepared.omissions;
   const Scene& scene = prepared.scene();
   const Accel& accel = *prepared.accel;
@@ -156,7 +156,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   PlannedReflections planned;
   if (options.with_radiance) {
     ORIEL_TRY(planned, timed("views", [&](auto&) {
-                return plan_reflections(options, accel, lights, materials, kMostForViews * deadline.left(), context);
+                return plan_reflections(options, accel, lights, prepared.region, materials,
+                                        kMostForViews * deadline.left(), context);
               }));
   }
   AssembledMesh mesh = assemble_mesh(scene, atlas);

@@ -31,6 +31,22 @@ Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, in
   return roots;
 }
 
+// Puts all that is shown below a node that scales it, and returns that node.
+std::uint32_t scale_document(double unit_m, const std::vector<std::uint32_t>& roots, gltf::Document& document) {
+  const auto unit = static_cast<std::uint32_t>(document.nodes.size());
+  for (const std::uint32_t root : roots) document.nodes[root].parent = static_cast<std::int32_t>(unit);
+  gltf::NodeDesc node;
+  node.has_matrix = true;
+  for (int axis = 0; axis < 3; ++axis) node.matrix[axis][axis] = unit_m;
+  node.children = roots;
+  document.nodes.push_back(std::move(node));
+  for (Light& light : document.lights)
+    if (light.type != LightType::kDirectional)
+      light.intensity *= static_cast<float>(unit_m * unit_m), light.color *= static_cast<float>(unit_m * unit_m);
+  for (gltf::CameraDesc& camera : document.cameras) camera.half_height *= unit_m;
+  return unit;
+}
+
 // Loads the images that the placed surfaces' materials use, in the order of the document.
 class ImageLoader {
  public:
@@ -178,7 +194,8 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes,
             gltf::load_meshes(document, buffers, accessors, budget, context));
   ORIEL_TRY_VOID(accessors.check_unread());
-  ORIEL_TRY(const std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
+  ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
+  if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
   ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
   out.scene.materials = document.materials;
   ORIEL_TRY(const MoverNodes movers, find_movers(document, poses, options.movers, context));

@@ -17,6 +17,8 @@ struct ImportOptions {
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
   std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
+  double unit_m = 1;                   // metres that one unit of the file is. Light stays what it is on surfaces:
+                                       // point and spot lights shine with the square of it
   bool double_sided = false;           // every material reflects and emits on both sides, whatever the file says
   // Node (or light) name and IES file: the profile of its point or spot light.
   std::vector<std::pair<std::string, std::filesystem::path>> ies;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 
 #include "bake/trace/sampler.h"
+#include "bake/walk/scene_unit.h"
 
 namespace oriel {
 namespace {
@@ -17,15 +19,21 @@ constexpr float kBesideGiven = 0.2f;      // along each axis, metres: eyes held 
 
 using Region = std::vector<std::uint32_t>;  // places, ascending
 
-// Connected regions, in the order of their first places.
-std::vector<Region> connected_regions(const FloorPlan& plan) {
-  std::vector<std::vector<std::uint32_t>> links(plan.places.size());
+using Links = std::vector<std::vector<std::uint32_t>>;  // by place: those one step away
+
+Links both_ways(const FloorPlan& plan) {
+  Links links(plan.places.size());
   for (std::uint32_t i = 0; i < plan.places.size(); ++i)
     for (const std::int32_t next : plan.places[i].next)
       if (next >= 0) {
         links[i].push_back(static_cast<std::uint32_t>(next));
         links[static_cast<std::size_t>(next)].push_back(i);
       }
+  return links;
+}
+
+// Connected regions, in the order of their first places.
+std::vector<Region> connected_regions(const FloorPlan& plan, const Links& links) {
   std::vector<Region> regions;
   std::vector<char> seen(plan.places.size());
   for (std::uint32_t seed = 0; seed < plan.places.size(); ++seed) {
@@ -73,8 +81,8 @@ std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye)
 }
 
 // The regions that starts stand in; none: the one with the most covered places, then the most places.
-Region reachable(const FloorPlan& plan, std::span<const Vec3> starts) {
-  const std::vector<Region> regions = connected_regions(plan);
+Region reachable(const FloorPlan& plan, const Links& links, std::span<const Vec3> starts) {
+  const std::vector<Region> regions = connected_regions(plan, links);
   std::vector<std::size_t> region_of(plan.places.size());
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (const std::uint32_t place : regions[r]) region_of[place] = r;
@@ -95,6 +103,34 @@ Region reachable(const FloorPlan& plan, std::span<const Vec3> starts) {
   for (std::size_t r = 0; r < regions.size(); ++r)
     if (chosen[r]) all.insert(all.end(), regions[r].begin(), regions[r].end());
   return all;
+}
+
+// Of a region, what people walk on: all that has a roof, and of the open only what is near one or near a start. All of
+// it where it has neither, unless that is little: the top of a box is no floor.
+Region near_roofs(const FloorPlan& plan, const Links& links, const Region& region, std::span<const Vec3> starts,
+                  const WalkOptions& options) {
+  std::vector<float> left(plan.places.size(), -1);  // metres that may still be walked in the open
+  std::vector<std::uint32_t> front;
+  const auto begin = [&](std::uint32_t place, float metres) {
+    if (left[place] < 0) front.push_back(place);
+    left[place] = std::max(left[place], metres);
+  };
+  for (const std::uint32_t place : region)
+    if (plan.places[place].covered) begin(place, options.doorstep_m);
+  for (const Vec3& start : starts)
+    if (const auto place = place_under(plan, start); place && !plan.places[*place].covered)
+      begin(*place, options.outdoors_m);
+  const float area = static_cast<float>(region.size()) * plan.cell_m * plan.cell_m;
+  if (front.empty()) return area < options.least_open_m2 ? Region{} : region;
+  for (std::size_t at = 0; at < front.size(); ++at)  // a place is visited again where a longer walk reaches it
+    for (const std::uint32_t next : links[front[at]])
+      if (const float rest = left[front[at]] - plan.cell_m; rest >= 0 && rest > left[next]) {
+        left[next] = rest;
+        front.push_back(next);
+      }
+  Region kept = region;
+  std::erase_if(kept, [&](std::uint32_t place) { return left[place] < 0; });
+  return kept;
 }
 
 struct Standing {
@@ -197,8 +233,14 @@ Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options,
     return region;
   }
   region.points = viewpoints(scene);
-  ORIEL_TRY(const FloorPlan plan, find_floors(accel, region.points, options.walk, context));
-  region.grids = storeys(plan, reachable(plan, region.points), options.walk);
+  // Without a camera buildings tell where to search: beside a ground plane of kilometres columns would be too coarse.
+  const std::vector<Vec3> starts = region.points.empty() ? roofed_places(accel) : region.points;
+  ORIEL_TRY(const FloorPlan plan, find_floors(accel, starts, options.walk, context));
+  const Links links = both_ways(plan);
+  const Region reached = reachable(plan, links, region.points);
+  const Region kept = near_roofs(plan, links, reached, region.points, options.walk);
+  region.left_out_m2 = static_cast<float>(reached.size() - kept.size()) * plan.cell_m * plan.cell_m;
+  region.grids = storeys(plan, kept, options.walk);
   if (region.grids.empty())
     region.note = fmt::format(
         "eye region: found no floor with {:.2g} m of head room to stand on; radiance maps are planned for {}",
@@ -212,6 +254,27 @@ std::vector<Vec3> sample_eyes(const EyeRegion& region, std::uint32_t count, std:
 
 std::vector<Vec3> held_out_eyes(const EyeRegion& region, std::uint32_t count, std::uint64_t seed) {
   return draw_eyes(region, count, seed, kHeldOut);
+}
+
+std::vector<EyeBox> eye_boxes(const EyeRegion& region) {
+  std::vector<EyeBox> boxes;
+  for (const WalkGrid& grid : region.grids) {
+    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+    for (const float y : grid.floor_y)
+      if (!std::isnan(y)) low = std::min(low, y), high = std::max(high, y);
+    const Vec2 far = grid.lower + grid.cell_m * Vec2(grid.width, grid.height);
+    boxes.push_back({{grid.lower.x, low + grid.eye_height_m, grid.lower.y}, {far.x, high + grid.eye_height_m, far.y}});
+  }
+  for (const Vec3& eye : region.points) boxes.push_back({eye, eye});
+  if (boxes.empty()) boxes.push_back({region.lower, region.upper});
+  return boxes;
+}
+
+float distance_to(std::span<const EyeBox> boxes, const Vec3& point) {
+  float nearest = std::numeric_limits<float>::max();
+  for (const EyeBox& box : boxes)
+    nearest = std::min(nearest, glm::distance(point, glm::clamp(point, box.lower, box.upper)));
+  return nearest;
 }
 
 Result<std::vector<DVec3>> parse_eyes(std::string_view text, const std::string& name) {

@@ -30,7 +30,7 @@ class Searcher {
       if (!hit) break;
       const float y = point_on(scene_, hit.triangle, hit.barycentric).y;
       if (is_floor(hit) && ceiling - y >= options_.head_room_m && has_room({at.x, y, at.y}))
-        places.push_back({y, covered});
+        places.push_back({y, covered && ceiling - y <= options_.roof_m});
       ceiling = y;
       covered = true;
       ray.origin.y = std::min(y, ray.origin.y) - gap_;

@@ -18,11 +18,15 @@ struct WalkOptions {
   float radius_m = 0.25f;               // of a person
   float max_slope_deg = 45;             // of a floor
   float eye_height_m = 1.6f;
+  float roof_m = 30;        // higher up, nothing is a roof: a dome that stands for the sky, say
+  float doorstep_m = 5;     // how far from a roof people walk in the open, along the floor
+  float least_open_m2 = 4;  // smaller places without a roof or a camera are tops of things
+  float outdoors_m = 25;    // and how far from a camera or a path that stands there
 };
 
 struct Place {
   float y = 0;                               // of the floor, scene space
-  bool covered = false;                      // something is overhead
+  bool covered = false;                      // a roof is overhead, no higher than WalkOptions::roof_m
   std::array<std::int32_t, 2> next{-1, -1};  // the place one step on towards +x and +z, into FloorPlan::places
 };
 

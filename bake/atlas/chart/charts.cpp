@@ -336,12 +336,20 @@ std::vector<GrownChart> flatten_regions(const Scene& scene, std::uint32_t first,
   return charts;
 }
 
+// Cuts the surface where one ring ends and the next begins.
+void part_rings(const TexelDemand& demand, std::uint32_t first, std::vector<std::uint32_t>& across) {
+  for (std::uint32_t edge = 0; edge < across.size(); ++edge)
+    if (across[edge] != kNoEdge && demand.ring(first + edge / 3) != demand.ring(first + across[edge] / 3))
+      across[across[edge]] = kNoEdge, across[edge] = kNoEdge;
+}
+
 }  // namespace
 
 ChartSet grow_charts(const Scene& scene, const Surface& surface, const ChartOptions& options, Context& context) {
   if (surface.triangle_count == 0) return {};
   const std::uint32_t first = surface.first_triangle;
-  const std::vector<std::uint32_t> across = edges_across(build_surface_mesh(scene, surface));
+  std::vector<std::uint32_t> across = edges_across(build_surface_mesh(scene, surface));
+  if (options.demand != nullptr) part_rings(*options.demand, first, across);
   std::vector<FaceFrame> frames(surface.triangle_count);
   for (std::uint32_t i = 0; i < surface.triangle_count; ++i) {
     const TriangleFrame frame = triangle_frame(scene, first + i);

@@ -5,6 +5,7 @@
 
 #include "bake/atlas/chart/flatten.h"
 #include "bake/atlas/chart/time_limit.h"
+#include "bake/atlas/texel_demand.h"
 #include "bake/jobs/context.h"
 #include "bake/scene/scene.h"
 
@@ -28,6 +29,7 @@ struct ChartOptions {
   double merged_area_m2 = 0;            // charts are not merged into larger ones
   double large_m2 = 0;                  // curved charts of more area are cut where they leave much of their box empty
   const AtlasTimeLimit* deadline = nullptr;
+  const TexelDemand* demand = nullptr;  // no chart spans two of its rings; null: there are none
 };
 
 // A triangle of the scene.

@@ -1,19 +1,76 @@
 #include "bake/run/stages/prepare.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "bake/run/stages/inputs.h"
+#include "bake/walk/scene_unit.h"
 
 namespace oriel {
 namespace {
 
-// Splits the scene's double-sided surfaces by the light on their sides, and fills `prepared.accel`.
+Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {
+              return Accel::build(prepared.scene(), {options.reproducible, thread_count(context)});
+            }));
+  return {};
+}
+
+// Imports the scene, takes its movers and builds the accelerator.
+Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed, Context& context,
+                    PreparedScene& prepared) {
+  ImportOptions import = options.import;
+  import.unit_m = unit_m;
+  prepared.accel.reset();
+  ORIEL_TRY(ImportedScene imported,
+            timed("import", [&](auto&) { return import_gltf(options.scene, import, context); }));
+  prepared.imported = std::make_unique<ImportedScene>(std::move(imported));
+  if (options.with_transfer) {
+    ORIEL_TRY(prepared.movers, take_movers(prepared.imported->scene));
+  }
+  return build_accel(options, timed, context, prepared);
+}
+
+// Rooms as high as a tower, or as a matchbox: the file means another unit. What people are, see and walk is in metres.
+Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  const auto guess = guess_unit(*prepared.accel);
+  if (!guess) return {};
+  context.warning(fmt::format(
+      "the scene's rooms are {:.3g} m high at the median, and a person of 1.8 m stands in none: one unit of "
+      "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+      guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
+  auto warn = std::exchange(context.warn, nullptr);  // all was said before
+  const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
+  context.warn = std::move(warn);
+  return again;
+}
+
+// Where people can be, and pieces of what they see both near and far.
+Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  ORIEL_TRY(prepared.region,
+            timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, options.eyes, context); }));
+  if (prepared.region.left_out_m2 > 0)
+    prepared.omissions.push_back(fmt::format(
+        "eye region: {:.0f} m² of open ground are not walked on, where neither a roof nor a camera is near (--eyes)",
+        prepared.region.left_out_m2));
+  if (!divide_for_eyes(prepared.region, prepared.imported->scene)) return {};
+  return build_accel(options, timed, context, prepared);
+}
+
+// What a bake needs beside its texels: the scene, its accelerator and what is known of its triangles, its maps.
+std::uint64_t bytes_besides_texels(const BakeOptions& options, const Scene& scene) {
+  constexpr std::uint64_t kProgram = 100u << 20, kVertex = 64, kTriangle = 400;
+  std::uint64_t bytes = kProgram + kVertex * scene.positions.size() + kTriangle * scene.triangles.size();
+  for (const Image& image : scene.images) bytes += image.texels.size();
+  // Radiance maps are captured in floats, twice as large as they are stored, beside what is stored.
+  return bytes + (options.with_radiance ? 3 * options.planned.memory_bytes : 0);
+}
+
+// Splits the scene's double-sided surfaces by the light on their sides.
 Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatch& timed, Context& context) {
   Scene& scene = prepared.imported->scene;
-  const auto build = [&](auto&) { return Accel::build(scene, {options.reproducible, thread_count(context)}); };
-  ORIEL_TRY(prepared.accel, timed("accelerator", build));
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
@@ -24,8 +81,7 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   prepared.sides = found.report;
   if (!found.change_scene()) return {};
   scene = split_sides(std::move(scene), found.sides);
-  ORIEL_TRY(prepared.accel, timed("accelerator", build));
-  return {};
+  return build_accel(options, timed, context, prepared);
 }
 
 }  // namespace
@@ -57,21 +113,33 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<std:
 
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context) {
   PreparedScene prepared;
-  ORIEL_TRY(ImportedScene imported,
-            timed("import", [&](auto&) { return import_gltf(options.scene, options.import, context); }));
-  prepared.imported = std::make_unique<ImportedScene>(std::move(imported));
-  Scene& scene = prepared.imported->scene;
-  if (options.with_transfer) {
-    ORIEL_TRY(prepared.movers, take_movers(scene));
-  } else if (!scene.movers.empty()) {
+  ORIEL_TRY_VOID(import_scene(options, options.import.unit_m, timed, context, prepared));
+  if (options.guess_unit) ORIEL_TRY_VOID(settle_unit(options, timed, context, prepared));
+  if (!options.with_transfer && !prepared.scene().movers.empty())
     prepared.omissions.emplace_back("movers: left out by --only; they stand still");
-  }
+  ORIEL_TRY_VOID(find_eyes(options, timed, context, prepared));
   ORIEL_TRY_VOID(light_sides(options, prepared, timed, context));
   return prepared;
 }
 
-Status lay_out_lightmap(const AtlasOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
-  ORIEL_TRY(prepared.atlas, timed("atlas", [&](auto&) { return build_atlas(prepared.scene(), options, context); }));
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  if (prepared.demand.empty()) {
+    const StageInputs inputs(context, SurfacesOf{prepared.scene()});
+    ORIEL_TRY(prepared.demand,
+              timed("importance", [&](auto&) { return find_demand(*prepared.accel, prepared.region, context); }));
+  }
+  AtlasOptions atlas = options.atlas;
+  if (options.memory_bytes > 0) {
+    const std::uint64_t other = bytes_besides_texels(options, prepared.scene());
+    atlas.memory_bytes =
+        std::max(options.memory_bytes / 4, options.memory_bytes - std::min(options.memory_bytes, other));
+  }
+  if (options.choose_texel) {
+    atlas.texel_m = choose_texel(prepared.scene(), atlas.texel_m, prepared.demand);
+    atlas.coarsen = true;
+  }
+  ORIEL_TRY(prepared.atlas,
+            timed("atlas", [&](auto&) { return build_atlas(prepared.scene(), atlas, context, prepared.demand); }));
   ORIEL_TRY(prepared.texel_map, timed("texel map", [&](auto&) { return build_texel_map(prepared.atlas, context); }));
   return {};
 }

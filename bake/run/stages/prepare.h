@@ -7,6 +7,7 @@
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/options.h"
 #include "bake/run/stages/stopwatch.h"
+#include "bake/run/view_demand.h"
 #include "bake/scene/motion/movers.h"
 
 namespace oriel {
@@ -16,6 +17,8 @@ struct PreparedScene {
   std::vector<TakenMover> movers;           // apart from the scene; empty where they stand still in it
   SidesReport sides;
   std::optional<Accel> accel;  // never empty
+  EyeRegion region;            // where people can be
+  TexelDemand demand;          // what they want of the lightmap; empty before it is laid out
   Atlas atlas;
   std::vector<TexelMapPage> texel_map;
   std::vector<std::string> omissions;
@@ -23,11 +26,12 @@ struct PreparedScene {
   const Scene& scene() const { return imported->scene; }
 };
 
-// Imports the scene, takes the movers out of it, splits the double-sided surfaces by the light on their sides. Errors
-// as those stages give them.
+// Imports the scene (again, where its numbers cannot be metres), takes the movers out of it, finds where people can be,
+// cuts what is near and far at once, splits the double-sided surfaces by the light on their sides. Errors as those
+// stages give them.
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
-// Lays out the lightmap. Errors as build_atlas.
-Status lay_out_lightmap(const AtlasOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared);
+// Lays out the lightmap for what people see. Errors as build_atlas.
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared);
 
 PathOptions path_options(const BakeOptions& options);
 // Kernels may differ by the error that the bake may have.

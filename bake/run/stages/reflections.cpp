@@ -212,10 +212,10 @@ double reused_s(const Context& context) {
 
 }  // namespace
 
-Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel,
+Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel, const EyeRegion& region,
                                           std::span<const MaterialSummary> materials, Context& context) {
   FoundReflections all;
-  ORIEL_TRY(all.region, find_eye_region(accel, options.eyes, context));
+  all.region = region;
   if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
@@ -229,9 +229,10 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
 }
 
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
-                                            const MaterialMaps& materials, double seconds, Context& context) {
+                                            const EyeRegion& region, const MaterialMaps& materials, double seconds,
+                                            Context& context) {
   PlannedReflections planned;
-  ORIEL_TRY(planned.all, find_reflections(options, accel, materials.summaries, context));
+  ORIEL_TRY(planned.all, find_reflections(options, accel, region, materials.summaries, context));
   const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};

@@ -23,9 +23,9 @@ struct FoundReflections {
   bool empty() const { return found.reflectors.empty() && curved.reflectors.empty(); }
 };
 
-// Finds the eye region and the reflectors of a scene. Traces no ray for reflectors where no material may be one. Error
+// Finds the reflectors of a scene that eyes of a region see. Traces no ray where no material may be one. Error
 // kStopped.
-Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel,
+Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel, const EyeRegion& region,
                                           std::span<const MaterialSummary> materials, Context& context);
 
 struct ReflectionReport {
@@ -49,11 +49,12 @@ struct PlannedReflections {
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
 };
 
-// Finds the eye region and the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
-                                            const MaterialMaps& materials, double seconds, Context& context);
+                                            const EyeRegion& region, const MaterialMaps& materials, double seconds,
+                                            Context& context);
 
 // Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
 // residual maps go by what planning took. Error kStopped.

@@ -126,7 +126,7 @@ TEST_F(Anytime, EnoughEndsARoundAtOnce) {
     std::vector<StageTime> times;
     Stopwatch timed(times);
     auto prepared = *prepare_scene(options, timed, context);
-    EXPECT_TRUE(lay_out_lightmap(options.atlas, timed, context, prepared));
+    EXPECT_TRUE(lay_out_lightmap(options, timed, context, prepared));
     const LightSet lights(prepared.scene());
     RadiosityOptions radiosity{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
     radiosity.verify = 0;

@@ -255,13 +255,15 @@ TEST_F(BakeCli, InterruptLeavesNothing) {
 }
 
 TEST_F(BakeCli, PlanTellsAndFailsWhereFindingsAre) {
-  ASSERT_EQ(run("oriel-bake plan cornell.glb --texel 5cm --quiet --json -"), 0) << log();
+  ASSERT_EQ(run("oriel-bake plan cornell.glb --unit m --texel 5cm --quiet --json -"), 0) << log();
   const auto json = nlohmann::json::parse(log());
   EXPECT_TRUE(json["findings"].empty());
   EXPECT_GT(json["prediction"]["seconds"], 0);
-  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --json plan.json"), 0) << log();
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --unit m --json plan.json"), 0) << log();
   EXPECT_NE(log().find("no surround maps"), std::string::npos) << log();
   EXPECT_TRUE(fs::exists(folder_ / "plan.json"));
+  EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict"), 5) << "a room of 0.55 m";
+  EXPECT_NE(log().find("one unit of the file is taken to be 10 m"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --texel 1mm --max-page 64"), 5) << "texels";
   EXPECT_NE(log().find("D7 texel density: --texel"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --texel 1mm --max-page 64"), 0) << "told, not strict";

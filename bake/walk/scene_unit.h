@@ -1,0 +1,26 @@
+// Rooms, found by rays from surfaces: whether a scene's numbers can be metres, and where its roofs are.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bake/trace/accel.h"
+
+namespace oriel {
+
+struct UnitGuess {
+  double metres = 1;       // that one unit of the file is likely to be: a power of ten
+  double room_height = 0;  // median height of its rooms, in units
+};
+
+// Looks for places that a person fits into: floors with something 1.9 to 30 m overhead, and ceilings over one. Where
+// there are hardly any, but rooms all the same (something overhead, and walls on three of four sides), the unit is the
+// power of ten that makes them 2.7 m high at the median. Nothing where the numbers can be metres or no room tells. The
+// same rooms in any unit give the same rooms.
+std::optional<UnitGuess> guess_unit(const Accel& accel);
+
+// Points of floors with a roof 1.9 to 30 m overhead, scene space: some of any building, however small it is beside the
+// ground that it stands on.
+std::vector<Vec3> roofed_places(const Accel& accel);
+
+}  // namespace oriel
