@@ -118,6 +118,10 @@ class Layout {
     for (const ChartSet& set : sets)
       for (const Chart& chart : set.charts)
         charts_.push_back({&set, &chart, turn_of(scene, set, chart), own_texel(set, chart)});
+    if (options.demand != nullptr) {
+      std::vector<ChartTexel*> own = own_texels();
+      even_out(own);
+    }
   }
 
   Status pack() { return options_.one_page ? pack_one_page() : pack_at(options_.texel_m); }
@@ -137,6 +141,12 @@ class Layout {
     double sum = 0;
     for (std::uint32_t i = chart.first; i < chart.first + chart.count; ++i) sum += std::abs(signed_area(set.points[i]));
     return sum;
+  }
+
+  std::vector<ChartTexel*> own_texels() {
+    std::vector<ChartTexel*> own;
+    for (Entry& e : charts_) own.push_back(&e.own);
+    return own;
   }
 
   ChartTexel own_texel(const ChartSet& set, const Chart& chart) const {
@@ -235,8 +245,7 @@ Status Layout::check_memory(double texel_m, double texels) const {
 }
 
 void Layout::fit_memory() {
-  std::vector<ChartTexel*> own;
-  for (Entry& e : charts_) own.push_back(&e.own);
+  std::vector<ChartTexel*> own = own_texels();
   const double limit = static_cast<double>(options_.memory_bytes);
   const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) * kBakeTexelBytes > limit; });
   if (larger > 0)

@@ -10,6 +10,7 @@ namespace {
 constexpr double kSameTexel = 1.25;  // a chart that wants texels so little larger than the finest gets these
 constexpr double kLeastSeen = 0.01;  // of a chart's pixels on average: what no ray met may be seen as much
 constexpr double kMostCoarse = 1e30;
+constexpr double kLittle = 1.0 / 16, kMostSpared = 3;  // even_out()
 
 }  // namespace
 
@@ -31,6 +32,21 @@ ChartTexel texel_for(const TexelDemand& demand, std::span<const std::uint32_t> t
                                          : demand.unseen * std::max(finest_m, demand.angle_rad * nearest);
   if (wanted > kSameTexel * finest_m) chart.texel_m = wanted;
   return chart;
+}
+
+void even_out(std::span<ChartTexel*> charts) {
+  double pixels = 0, texels = 0;
+  for (const ChartTexel* chart : charts) {
+    if (chart->pixels <= 0) continue;
+    pixels += chart->pixels;
+    texels += chart->area_m2 / (chart->texel_m * chart->texel_m);
+  }
+  if (!(texels > 0)) return;
+  const double least = kLittle * pixels / texels;
+  for (ChartTexel* chart : charts)
+    if (chart->pixels > 0)
+      chart->texel_m =
+          std::clamp(std::sqrt(chart->area_m2 * least / chart->pixels), chart->texel_m, kMostSpared * chart->texel_m);
 }
 
 std::size_t coarsen(std::span<ChartTexel*> charts, const std::function<bool()>& too_many) {

@@ -45,6 +45,14 @@ TEST(TexelDemand, ChartsGetTheTexelOfTheirDistance) {
   EXPECT_EQ(count, (std::vector<std::size_t>{80 * 40, 80 * 40, 20 * 10, 20 * 10}));
 }
 
+TEST(TexelDemand, WhatIsSeenLittleGetsLargerTexels) {
+  TexelDemand seen = demand({1, 1, 1, 1});
+  for (int t = 6; t < 8; ++t) seen.triangles[t].pixels /= 1000, seen.triangles[t].inverse_square /= 1000;
+  const auto count = texels_of(walls(), {.texel_m = 0.1f}, seen);
+  EXPECT_EQ(count[0], 80u * 40);
+  EXPECT_EQ(count[3], 27u * 14);  // three times as large
+}
+
 TEST(TexelDemand, MemoryTakesFromWhatIsSeenLeast) {
   TexelDemand seen = demand({1, 1, 1, 1});
   for (int t = 2; t < 8; ++t) seen.triangles[t].pixels /= 100, seen.triangles[t].inverse_square /= 100;
