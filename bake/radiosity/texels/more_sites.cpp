@@ -1,6 +1,7 @@
 #include "bake/radiosity/texels/more_sites.h"
 
 #include "bake/direct/buried.h"
+#include "bake/direct/onlookers.h"
 
 namespace oriel {
 namespace {
@@ -28,7 +29,9 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
   if (k < texels_.kept_sites(i, half)) return texels_.site_for(i, half, k);
   const auto cut = texels_.cut.find(i);
   const bool divided = cut != texels_.cut.end();
-  const std::uint32_t first = texels_.has_many[i] ? 1 : 0;  // those of the first attempt are kept already
+  const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap
+  const Onlookers onlookers(t_.accel, texels_.eyes);
+  const std::uint32_t first = crowded ? 1 : 0;  // those of the first attempt are kept already
   for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {
     const SurfacePoint point =
         texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
@@ -36,6 +39,7 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
     const std::uint64_t seed =
         seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
     if (is_buried(t_, point, seed, stream, k, rays)) continue;
+    if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
   }
   return texels_.site_for(i, half, k);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/direct/buried.h"
+#include "bake/direct/onlookers.h"
 #include "bake/jobs/units.h"
 #include "bake/radiosity/texels/more_sites.h"
 #include "bake/radiosity/texels/texel_part.h"
@@ -23,8 +24,9 @@ constexpr std::uint64_t kNearSeed = 0x4ea5;
 
 class SiteFinder {
  public:
-  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), seed_(seed) {}
+  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::span<const Vec3> eyes,
+             std::uint64_t seed)
+      : t_(t), atlas_(atlas), maps_(maps), onlookers_(t.accel, eyes), seed_(seed) {}
 
   struct Found {
     TexelPart part;  // what a wall leaves of the texel
@@ -68,7 +70,8 @@ class SiteFinder {
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
       if (is_buried(t_, surface, seed_, stream, kSites + k, rays) ||
-          !found.part.holds(surface.triangle, surface.barycentric, rays))
+          !found.part.holds(surface.triangle, surface.barycentric, rays) ||
+          !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, rays))
         continue;
       albedo += albedo_at(surface);
       found.many[half].push_back(site_of(surface));
@@ -104,6 +107,7 @@ class SiteFinder {
   const Transport& t_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
+  Onlookers onlookers_;
   std::uint64_t seed_;
 };
 
@@ -171,8 +175,9 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays) {
+                           Context& context, std::atomic<std::uint64_t>& rays, std::span<const Vec3> eyes) {
   Texels texels;
+  texels.eyes.assign(eyes.begin(), eyes.end());
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
     texels.pages.push_back(
@@ -191,11 +196,11 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.has_many.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, context.seed);
+  const SiteFinder finder(t, atlas, texel_map, texels.eyes, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
-  loop.inputs = [](std::size_t run, Archive& key) { key(run); };
+  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes); };
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {

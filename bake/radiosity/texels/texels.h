@@ -1,6 +1,8 @@
 // The covered texels of all pages as one list: where light is gathered, and what a ray that hits them finds.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -31,6 +33,9 @@ inline constexpr int kHalves = 2;
 inline constexpr int kSitesPerHalf = 4;
 inline constexpr int kSites = kHalves * kSitesPerHalf;
 
+// Gaps behind panels and under plinths are narrower than texels; rays in them end within so many of these.
+inline constexpr float kGapTexels = 4;
+
 struct Texels {
   // By texel.
   std::vector<std::uint32_t> page, index;           // into the texel map: page, and TexelMapPage::texel[index]
@@ -41,12 +46,16 @@ struct Texels {
   // so they have more sites, by half.
   std::unordered_map<std::uint32_t, std::array<std::vector<TexelSite>, kHalves>> many_sites;
   std::vector<char> has_many;  // whether it is in many_sites
-  std::vector<float> visible;  // share of the texel that is not inside other geometry; 0: no site
+  std::vector<float> visible;  // share of the texel that is not inside other geometry nor in a gap; 0: no site
   std::vector<float> covered;  // share of the texel that has a surface
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
 
+  std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (direct/onlookers.h)
+
   std::size_t count() const { return page.size(); }
+  // How far a ray leaves a point that lies in no gap, m.
+  float gap_reach(std::size_t i) const { return kGapTexels * std::sqrt(area_m2[i] / std::max(covered[i], 0.1f)); }
   float seen(std::size_t i) const { return covered[i] * visible[i]; }  // seen_share()
 
   std::uint32_t kept_sites(std::uint32_t i, int half) const {
@@ -84,8 +93,9 @@ struct Texels {
   std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
 };
 
+// eyes: from which somebody looks; what none of them can see in a gap counts as hidden. None: nothing does.
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays);
+                           Context& context, std::atomic<std::uint64_t>& rays, std::span<const Vec3> eyes = {});
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

@@ -1,0 +1,50 @@
+#include "bake/direct/onlookers.h"
+
+#include <algorithm>
+
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kProbes = 12, kEscapes = 2;  // rays, and those that leave a gap by chance, less than which make it one
+constexpr std::size_t kNearest = 16;       // eyes that are asked
+constexpr std::uint64_t kSeed = 0x0e1e5;
+
+}  // namespace
+
+bool Onlookers::in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
+                       std::uint32_t sample, std::uint64_t& rays) const {
+  Sampler sampler(mix64(seed + kSeed), stream, sample);
+  const Mat3 frame = frame_from_normal(surface.geometric_normal);
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  int escaped = 0;
+  for (int probe = 0; probe < kProbes; ++probe) {
+    const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
+    ++rays;
+    if (!accel_.intersect({origin, direction, reach_m}) && ++escaped == kEscapes) return false;
+  }
+  return true;
+}
+
+bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
+                    std::uint32_t sample, std::uint64_t& rays) const {
+  if (eyes_.empty() || !in_gap(surface, reach_m, seed, stream, sample, rays)) return true;
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  std::vector<std::pair<float, std::uint32_t>> before;  // squared distance, eye
+  for (std::uint32_t e = 0; e < eyes_.size(); ++e)
+    if (const Vec3 way = eyes_[e] - origin; glm::dot(way, surface.geometric_normal) > 0)
+      before.emplace_back(glm::dot(way, way), e);
+  const std::size_t asked = std::min(before.size(), kNearest);
+  std::partial_sort(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(asked), before.end());
+  for (std::size_t i = 0; i < asked; ++i) {
+    const float distance = std::sqrt(before[i].first);
+    ++rays;
+    if (!(distance > 0) ||
+        max_component(accel_.transmittance({origin, (eyes_[before[i].second] - origin) / distance, distance})) > 0)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace oriel

@@ -1,0 +1,31 @@
+// Whether anybody can see a point of a surface: what lies in the gap behind a panel, under a plinth or a carpet nobody
+// looks at, and its darkness must not show where the gap ends.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/trace/path.h"
+
+namespace oriel {
+
+class Onlookers {
+ public:
+  // eyes: where people look from, scene space; none: every point counts as seen. Both must outlive it.
+  Onlookers(const Accel& accel, std::span<const Vec3> eyes) : accel_(accel), eyes_(eyes) {}
+
+  // False where all but one of a dozen rays from the point end within reach_m, as in a gap, and none of the nearest
+  // eyes before the surface has a line of sight to it. Most points take two rays. The same for the same seed, stream
+  // and sample.
+  bool see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample,
+           std::uint64_t& rays) const;
+
+ private:
+  bool in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
+              std::uint32_t sample, std::uint64_t& rays) const;
+
+  const Accel& accel_;
+  std::span<const Vec3> eyes_;
+};
+
+}  // namespace oriel
