@@ -94,7 +94,10 @@ class Walk {
       passes_ = 0;
     }
     ray_.origin = spawn_origin(surface, ray_.direction);
-    if (!std::isfinite(lumens(power_))) power_ = Vec3(0);
+    if (!is_usable(power_)) {
+      t_.accel.dropped().add(surface.triangle);
+      power_ = Vec3(0);
+    }
   }
 
   // f cosθi over the density of wo, as an eye at wo sees light from wi.

@@ -10,7 +10,7 @@
 namespace oriel {
 
 Vec3 usable_light(const Vec3& c) {
-  const auto channel = [](float x) { return std::isfinite(x) && x > 0 ? x : 0.0f; };
+  const auto channel = [](float x) { return x > 0 && x <= kAbsurdLight ? x : 0.0f; };
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 

@@ -104,7 +104,7 @@ LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std:
 Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) {
   const Parts parts = find_parts(transport.accel.scene());
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
-  std::vector<LitSides> of_part(parts.count());
+  std::vector<LitSides> of_part(parts.count(), LitSides::kBoth);
   std::atomic<std::uint64_t> rays{0};
   UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
   loop.inputs = [](std::size_t i, Archive& key) { key(i); };
@@ -114,7 +114,8 @@ Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) 
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };
-  ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+  if (const Status judged = parallel_units(context, loop, &rays); !judged && context.stop)
+    return tl::unexpected(judged.error());
   FoundSides found;
   found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);
   for (std::size_t i = 0; i < parts.count(); ++i) {

@@ -21,7 +21,8 @@ struct FoundSides {
 
 // Follows paths from points on both sides of every connected part (by vertex indices) of the double-sided surfaces,
 // unlit ones excepted. A side is lit where one of its points gets more than 1 % of the other side's mean. A part that
-// gets no light at all is kFront, so is a closed body whose inside is dark. Stage name "sides"; error kStopped.
+// gets no light at all is kFront, so is a closed body whose inside is dark. Where an Interruptible ends it, parts that
+// nobody looked at are kBoth. Stage name "sides"; error kStopped.
 Result<FoundSides> find_lit_sides(const Transport& transport, Context& context);
 
 }  // namespace oriel

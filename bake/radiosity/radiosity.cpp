@@ -215,7 +215,9 @@ class Finisher {
         fill_buried(atlas_, map_[p], result.pages[p]);
         dilate(options_.dilation, result.pages[p]);
       }
-      if (options_.stitch && !is_dark(transport_))
+      const bool late = options_.left && options_.left() <= 0;
+      if (late && options_.stitch) context_.warning("the seams of the lightmap are not stitched: --time was over");
+      if (options_.stitch && !late && !is_dark(transport_))
         ORIEL_TRY_VOID(stitch_lightmap(transport_, atlas_, map_, options_.error, context_, rays_, result));
     }
     summarize(transport_.accel.scene(), atlas_, map_, result);
@@ -228,7 +230,13 @@ class Finisher {
     RadiosityReport& report = result.report;
     if (options_.verify <= 0) return {};
     const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
-    ORIEL_TRY(report.certificate, certify(transport_, atlas_, map_, result, options_.error, at_most, context_));
+    const auto late = [&] { return options_.left && options_.left() <= 0; };
+    {
+      const Interruptible until(context_, late);
+      auto certificate = certify(transport_, atlas_, map_, result, options_.error, at_most, context_);
+      if (!certificate && (context_.stop || !late())) return tl::unexpected(certificate.error());
+      report.certificate = certificate ? *certificate : Certificate();
+    }
     rays_ += report.certificate.rays;
     const double asked = options_.error;
     const Certificate& c = report.certificate;

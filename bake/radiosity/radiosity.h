@@ -37,6 +37,9 @@ struct RadiosityOptions {
   // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
   // limit, say). Context::finishable is set while it is asked.
   std::function<bool()> enough = {};
+  // Seconds that the estimate and its verification may still take; empty: as long as they need. Where they are few,
+  // bounces have fewer rays, texels that no gather ray left keep the bounces' light, and nothing is verified.
+  std::function<double()> left = {};
   // cached: so many rays, as a share of the bake's, measure the error of held-out texels by unbiased paths (at least
   // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise, or looking
   // up less (cached/cached.h), can mend it, at most kRefinements times.
@@ -93,7 +96,9 @@ struct RadiosityReport {
   bool ended_early = false;   // by `enough`: the error asked for does not hold
   int refinements = 0;        // cached: after held-out texels told of a larger error than was asked for
   double sweep_tail = 0;      // cached: bound on what further bounces would add, relative
-  double filter_drift = 0;    // cached: relative change of the gathered energy by the filter
+  double sweep_growth = 0;    // cached: what the last bounce added over what the one before did
+  std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
+  double filter_drift = 0;          // cached: relative change of the gathered energy by the filter
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };

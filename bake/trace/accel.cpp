@@ -31,6 +31,7 @@ bool traceable(const Ray& ray, float scale) {
 }  // namespace
 
 struct Accel::Impl {
+  DroppedSamples dropped;
   const Scene* scene = nullptr;
   float scale = 1;  // Embree's units per metre: a power of two, so that scaling is exact
   std::vector<Vec3> positions;
@@ -255,6 +256,10 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Vec3> passed) con
                       : impl_->any_transmitting ? impl_->through_layers(rays[i + k])
                                                 : Vec3(1);
   }
+}
+
+DroppedSamples& Accel::dropped() const {
+  return impl_->dropped;
 }
 
 Vec3 point_on(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric) {

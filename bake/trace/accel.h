@@ -5,6 +5,7 @@
 #include <span>
 
 #include "bake/scene/scene.h"
+#include "bake/trace/dropped.h"
 #include "formats/core/result.h"
 
 namespace oriel {
@@ -52,6 +53,9 @@ class Accel {
   // The same for many rays; several times faster where neighbours in the span start and point alike. Sizes are equal.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> passed) const;
+
+  // Where whoever traces these rays tells of samples of light that were no numbers.
+  DroppedSamples& dropped() const;
 
  private:
   struct Impl;

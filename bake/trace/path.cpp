@@ -27,6 +27,10 @@ Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sam
   Vec3 value = light.estimate * reflect(light.direction);
   if (max_component(value) <= 0) return Vec3(0);
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
+  if (!is_usable(value)) {
+    t.accel.dropped().add(surface.triangle);
+    return Vec3(0);
+  }
   if (!(light.distance > 0)) return value;  // touching
   ++rays;
   return value * t.accel.transmittance({origin, light.direction, light.distance});
@@ -50,7 +54,17 @@ class Walk {
     return follow_from(ray, t_.accel.intersect(ray), bsdf_pdf, bounce, throughput);
   }
 
-  PathLight follow_from(Ray ray, Hit hit, float bsdf_pdf, int bounce, const Vec3& throughput) {
+  PathLight follow_from(const Ray& ray, const Hit& hit, float bsdf_pdf, int bounce, const Vec3& throughput) {
+    const PathLight light = walk(ray, hit, bsdf_pdf, bounce, throughput);
+    if (is_usable(light.emitted) && is_usable(light.sky) && is_usable(light.scattered)) return light;
+    t_.accel.dropped().add(hit.triangle);
+    return {.back_face = light.back_face};
+  }
+
+ private:
+  enum class Step { kEnd, kPassed, kBounced };
+
+  PathLight walk(Ray ray, Hit hit, float bsdf_pdf, int bounce, const Vec3& throughput) {
     PathLight light;
     throughput_ = throughput;
     from_ = ray.origin;
@@ -94,16 +108,13 @@ class Walk {
     return light;
   }
 
- private:
-  enum class Step { kEnd, kPassed, kBounced };
-
   // Tells the diffuse reflection; where it is taken over a surface without it is left. False where nothing else
   // reflects.
   bool tell_diffuse(SurfacePoint& surface, const Vec3& wo, float distance) {
     const float cosine = glm::dot(surface.normal, wo);
     const Vec3 specular = reflectance(surface.shade, cosine);
     const Vec3 weight = throughput_ * surface.shade.diffuse * (1 - max_component(specular));
-    if (max_component(weight) > 0 &&
+    if (max_component(weight) > 0 && is_usable(weight) &&
         !(*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, distance, weight}))
       return true;
     surface.shade.diffuse = Vec3(0);
@@ -279,7 +290,9 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   s.indirect = weight * light.scattered;
   s.back_face = light.back_face;
   if (directional) add_moments((light.emitted + light.sky + light.scattered) / pdf, direction);
-  return s;
+  if (is_usable(s.direct) && is_usable(s.indirect) && is_usable(s.vector)) return s;
+  t.accel.dropped().add(surface.triangle);
+  return {.back_face = light.back_face};
 }
 
 }  // namespace oriel

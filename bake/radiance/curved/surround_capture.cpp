@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kMaxLayers = 64;             // of surfaces before the first opaque one
 constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
+constexpr float kNearest = 1e-3f;          // of the object's size: a surface through the very centre has no distance
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 
 // What a ray has seen so far.
@@ -28,7 +29,12 @@ constexpr double kRaysARow = 2048;  // about
 class SurroundCapture {
  public:
   SurroundCapture(const Accel& accel, const CurvedObject& object, const OutgoingRadiance& outgoing, const Vec3& centre)
-      : accel_(accel), scene_(accel.scene()), object_(object), outgoing_(outgoing), centre_(centre) {}
+      : accel_(accel),
+        scene_(accel.scene()),
+        object_(object),
+        outgoing_(outgoing),
+        centre_(centre),
+        nearest_(std::max(kNearest * glm::length(object.upper - object.lower), 1e-12f)) {}
 
   SurroundSight look(const Vec3& direction) {
     const float bounds_end = leaves_bounds(direction);
@@ -93,7 +99,7 @@ class SurroundCapture {
     sight.throughput *= through;
     if (max_component(through) >= kSeeThrough) return;
     sight.ended = true;
-    sight.inverse_distance = 1 / std::max(glm::length(p - centre_), std::numeric_limits<float>::min());
+    sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
     sight.valid = back ? 0 : 1;
     if (back) sight.radiance = Vec3(0);
   }
@@ -103,6 +109,7 @@ class SurroundCapture {
   const CurvedObject& object_;
   const OutgoingRadiance& outgoing_;
   Vec3 centre_;
+  float nearest_;  // m
   std::uint64_t rays_ = 0;
 };
 

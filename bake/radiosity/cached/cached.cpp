@@ -14,19 +14,21 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
-constexpr std::uint32_t kCrowdedDirect = 16;            // where something is close by
-constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
-constexpr float kUncertain = 0.1f, kUneven = 0.02f;     // of the direct light
-constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
-constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
-constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
-constexpr float kDark = 0.002f;                         // of the mean
-constexpr double kDirectShare = 0.3;                    // of the squared error asked for
-constexpr double kTailShare = 0.05;                     // of the error asked for: what further bounces may add
-constexpr double kCoarseTarget = 0.04;                  // errors asked for from which coarser bounces do
-constexpr std::size_t kMaxLinks = 64u << 20;            // between patches: 1 GiB
-constexpr float kNearer = 4;                            // times as far (Refinement::nearer)
+constexpr std::uint32_t kFirstDirect = 2;                // samples a half, texel and light, before any refinement
+constexpr std::uint32_t kCrowdedDirect = 16;             // where something is close by
+constexpr int kDirectRounds = 2;                         // of four times the samples, where that leaves doubt
+constexpr float kUncertain = 0.1f, kUneven = 0.02f;      // of the direct light
+constexpr std::uint32_t kFirstGather = 4;                // rays a half and texel
+constexpr std::uint32_t kFirstCrowded = 32;              // where something is close by
+constexpr std::uint32_t kMostDark = 512;                 // the same, where these find next to no light:
+constexpr float kDark = 0.002f;                          // of the mean
+constexpr double kDirectShare = 0.3;                     // of the squared error asked for
+constexpr double kTailShare = 0.05;                      // of the error asked for: what further bounces may add
+constexpr double kCoarseTarget = 0.04;                   // errors asked for from which coarser bounces do
+constexpr double kDirectTime = 0.3, kBouncesTime = 0.3;  // of what is left (RadiosityOptions::left)
+constexpr float kCoarseError = 0.25f;                    // of bounces that no gather ray refined
+constexpr std::size_t kMaxLinks = 64u << 20;             // between patches: 1 GiB
+constexpr float kNearer = 4;                             // times as far (Refinement::nearer)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedBake {
@@ -52,18 +54,18 @@ class CachedBake {
     ORIEL_TRY_VOID(first_direct());
     Sweeps sweeps;
     if (options_.bounces != 1) {  // the gather itself is one
-      SweepOptions how;
-      how.most = std::max(0, options_.bounces - 1);
-      how.tolerance = kTailShare * std::max(target(), 1e-3);
-      how.side = target() >= kCoarseTarget ? 2 : 1;
+      SweepOptions how{.most = std::max(0, options_.bounces - 1), .enough = options_.enough};
+      how.tolerance = kTailShare * std::max(target_, 1e-3);
+      if (options_.left) how.seconds = kBouncesTime * options_.left();
+      how.side = target_ >= kCoarseTarget ? 2 : 1;
       while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
       ORIEL_TRY(sweeps, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
     }
     irradiance_ = direct_.value;
-    for (std::size_t i = 0; i < texels_.count(); ++i)
-      if (!sweeps.gathered.empty()) irradiance_[i] += sweeps.gathered[i];
+    for (std::size_t i = 0; i < sweeps.gathered.size(); ++i) irradiance_[i] += sweeps.gathered[i];
     result.report.sweeps = sweeps.count;
-    result.report.sweep_tail = sweeps.tail;
+    result.report.sweep_tail = sweeps.tail, result.report.sweep_growth = sweeps.growth;
+    result.report.bounded_patches = sweeps.bounded;
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
     ORIEL_TRY_VOID(first_gather());
@@ -72,8 +74,7 @@ class CachedBake {
       ORIEL_TRY_VOID(refine_direct());
       store(result);
       ORIEL_TRY(const Refinement more, next());
-      if (more.error <= 0) break;
-      target_ = more.error;
+      if ((target_ = more.error) <= 0) break;
       if (more.nearer) ORIEL_TRY_VOID(gather_nearer());
     }
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
@@ -86,8 +87,6 @@ class CachedBake {
   }
 
  private:
-  double target() const { return target_; }
-
   void recall() {
     known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
                                       context_.seed);
@@ -121,7 +120,7 @@ class CachedBake {
   bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
   std::vector<std::uint32_t> not_kept() const {
     std::vector<std::uint32_t> list = order_;
-    if (reuse_) std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
+    std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
     return list;
   }
 
@@ -139,7 +138,8 @@ class CachedBake {
     if (reuse_) take_known_direct();
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
     std::uint32_t per_half = first;
-    for (int round = 0; round < kDirectRounds; ++round) {
+    const double least = options_.left ? (1 - kDirectTime) * options_.left() : 0;
+    for (int round = 0; round < kDirectRounds && !(options_.left && options_.left() < least); ++round) {
       per_half *= 4;
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
@@ -170,7 +170,6 @@ class CachedBake {
     return list;
   }
 
-  // Of the direct light.
   std::vector<Vec3> direct_variance() {
     std::vector<Vec3> variance(texels_.count());
     for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = direct_.sampled[i] + direct_.uneven[i];
@@ -252,19 +251,26 @@ class CachedBake {
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
 
+  // Texels that time leaves none of the first rays keep the light of the bounces.
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
     std::vector<std::uint32_t> list = not_kept();
-    ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, per_half, cached_, context_, gathered_, rays_));
+    const auto gather_list = [&](std::uint32_t n) {
+      return refine([&] { return gather(texels_, sites_, around_, list, n, cached_, context_, gathered_, rays_); });
+    };
+    ORIEL_TRY_VOID(gather_list(per_half));
+    for (const std::uint32_t i : list)
+      if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
+        gathered_.assume(i, irradiance_[i] - direct_.value[i], kCoarseError);
     std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
-    if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half)
-      ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, more, cached_, context_, gathered_, rays_));
+    if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
+      ORIEL_TRY_VOID(gather_list(more));
     update_estimate();
     // In a gap few rays find any light: none of a handful says nothing.
     for (std::uint32_t more = 2 * kFirstCrowded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
       std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
-      if (list.empty()) break;
-      ORIEL_TRY_VOID(gather(texels_, sites_, around_, list, more, cached_, context_, gathered_, rays_));
+      if (list.empty() || ended_early_) break;
+      ORIEL_TRY_VOID(gather_list(more));
       update_estimate();
     }
     return {};
@@ -284,7 +290,7 @@ class CachedBake {
     if (options_.error <= 0) return {};
     const std::uint32_t most = most_gathered();
     if (options_.enough) context_.finishable = true;
-    const double goal = (1 - kDirectShare) * target() * target();
+    const double goal = (1 - kDirectShare) * target_ * target_;
     for (;;) {
       double now = mean_squares(estimate_.variance);
       now -= out_of_reach(goal, most, gathered_.samples);
@@ -304,7 +310,7 @@ class CachedBake {
     if (options_.error <= 0) return {};
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
-      const double goal = kDirectShare * target() * target();
+      const double goal = kDirectShare * target_ * target_;
       double now = mean_squares(direct_variance());
       now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};

@@ -10,7 +10,9 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kMaxPolygons = 128;
-constexpr std::size_t kGroup = 64;  // texels whose shadow rays to one light are traced together
+constexpr std::size_t kMaxPunctual = 256;  // that are asked one by one; of more,
+constexpr std::uint64_t kPicks = 16;       // so many are chosen for each point, by how bright they are from there
+constexpr std::size_t kGroup = 64;         // texels whose shadow rays to one light are traced together
 
 }  // namespace
 
@@ -28,15 +30,17 @@ class DirectGroup {
       aim_at_polygon(l);
       finish_light(d_.polygons_[l].radiance);
     }
-    for (std::uint32_t l = 0; l < d_.t_.accel.scene().lights.size(); ++l) {
+    for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
       aim_at_punctual(l);
       finish_light(Vec3(1));
     }
+    const auto any = [&](const Point& p, Sampler& sampler) {
+      const float u = sampler.next1();
+      return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
+    };
+    if (d_.many_punctual_) sample_punctual(any);
     if (!d_.closed_form_) {
-      sample_lights([&](const Point& p, Sampler& sampler) {
-        const float u = sampler.next1();
-        return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
-      });
+      sample_lights(any);
     } else if (d_.t_.lights.samples_sky()) {
       sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
     }
@@ -83,13 +87,20 @@ class DirectGroup {
         points_.push_back({d_.sites_.at(list_[i], half, k, rays_), i, half, k});
   }
 
+  // Whether an estimate is a number; where not it is told.
+  bool is_usable(const Point& point, const Vec3& light) const {
+    if (oriel::is_usable(light)) return true;
+    d_.t_.accel.dropped().add(d_.sites_.triangle(list_[point.texel]));
+    return false;
+  }
+
   void aim_at_polygon(std::uint32_t l) {
     const PolygonLight& light = d_.polygons_[l];
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
       const Receiver receiver = point.site.receiver();
       const float open = polygon_irradiance(light, receiver);
-      if (!(open > 0)) continue;
+      if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
       tallies_[point.texel].open[point.half] += Vec3(open);
       Sampler sampler(d_.seed_ + 0xd1ec + l, stream_of(list_[point.texel], point.half), point.k);
       const auto s = sample_polygon(light, receiver, sampler.next2());
@@ -105,7 +116,7 @@ class DirectGroup {
       Sampler sampler(d_.seed_ + 0x9f00 + l, stream_of(list_[point.texel], point.half), point.k);
       const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
       const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
-      if (!(max_component(value) > 0)) continue;
+      if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
       tallies_[point.texel].open[point.half] += value;
       shoot(p, {point.site.origin, s.direction, s.distance}, value);
     }
@@ -180,8 +191,13 @@ class DirectGroup {
       if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
       const float cosine = incidence(point.site.receiver(), s.direction);
       const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
-      if (max_component(value) > 0) shoot(p, {point.site.origin, s.direction, s.distance}, value);
+      if (max_component(value) > 0 && is_usable(point, value))
+        shoot(p, {point.site.origin, s.direction, s.distance}, value);
     }
+    finish_sampled();
+  }
+
+  void finish_sampled() {
     trace();
     const auto n = static_cast<float>(per_half_);
     for (Tally& t : tallies_) {
@@ -192,6 +208,22 @@ class DirectGroup {
       t.sampled += 0.25f * difference * difference;
       forget_light(t);
     }
+  }
+
+  // The same for points, spots and suns, which no ray meets.
+  template <class Sample>
+  void sample_punctual(const Sample& sample) {
+    for (std::uint64_t pick = 0; pick < kPicks; ++pick)
+      for (std::uint32_t p = 0; p < points_.size(); ++p) {
+        const Point& point = points_[p];
+        Sampler sampler(d_.seed_ + 0x9e11 + pick, stream_of(list_[point.texel], point.half), point.k);
+        const LightSample s = sample(point, sampler);
+        if (s.pdf > 0) continue;  // an emissive surface, or the sky
+        const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
+        if (max_component(value) > 0 && is_usable(point, value))
+          shoot(p, {point.site.origin, s.direction, s.distance}, value);
+      }
+    finish_sampled();
   }
 
   const DirectLight& d_;
@@ -211,13 +243,15 @@ DirectLight::DirectLight(const Transport& transport, const Texels& texels, const
   polygons_ = find_polygon_lights(scene);
   closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
   if (!closed_form_) polygons_.clear();
+  many_punctual_ = scene.lights.size() > kMaxPunctual;
 }
 
 Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
                              DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
-  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + t_.accel.scene().lights.size())) * per_half;
+  const std::size_t punctual = many_punctual_ ? kPicks : t_.accel.scene().lights.size();
+  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual)) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty()); };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half);

@@ -49,6 +49,7 @@ class DirectLight {
   const MoreSites& sites_;
   std::uint64_t seed_;
   std::vector<PolygonLight> polygons_;
+  bool many_punctual_ = false;  // light sampling chooses among them
   bool closed_form_ = true;
 };
 

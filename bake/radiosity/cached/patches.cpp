@@ -1,6 +1,8 @@
 #include "bake/radiosity/cached/patches.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include "bake/jobs/parallel.h"
@@ -9,8 +11,11 @@
 namespace oriel {
 namespace {
 
-constexpr std::size_t kGroup = 64;  // patches whose rays of one number are traced together
-constexpr int kMaxSweeps = 20000;
+constexpr std::size_t kGroup = 64;   // patches whose rays of one number are traced together
+constexpr double kWhole = 1 + 1e-6;  // of the light, and what rounding adds
+constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
+constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
+constexpr double kEndless = 0.1;     // a bound on further bounces from which light is said not to die away
 
 struct PatchLink {
   std::uint32_t patch;
@@ -100,6 +105,23 @@ class Solver {
     return parallel_units(context, loop, &rays);
   }
 
+  // Seconds that trace() is likely to take, from one group in so many; their links are forgotten.
+  Result<double> foretell(Context& context, std::atomic<std::uint64_t>& rays) {
+    constexpr std::size_t kOneIn = 64;
+    const std::size_t groups = (patches_.size() + kGroup - 1) / kGroup;
+    const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(context)));
+    if (tried == 0) return 0;
+    const auto begun = std::chrono::steady_clock::now();
+    const Status traced = parallel_for(context, "", tried, [&](std::size_t i) {
+      const std::size_t g = i * groups / tried;
+      for (std::uint32_t k = 0; k < kSites; ++k) rays += trace_sample(g * kGroup, group_end(g), k, context.seed);
+    });
+    if (!traced) return tl::unexpected(traced.error());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    return took.count() * (double{1.0f * options_.rays_per_patch} / kSites) * static_cast<double>(groups) /
+           static_cast<double>(tried);
+  }
+
   Status solve(Context& context, Sweeps& result);
 
   void interpolate(Context& context, Sweeps& result);
@@ -158,9 +180,26 @@ class Solver {
     links.shrink_to_fit();
   }
 
+  // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond 1 is their noise. Over a
+  // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
+  // to sweep. Whether there was one.
+  static bool bound(std::vector<PatchLink>& links) {
+    DVec3 sum(0);
+    for (const PatchLink& link : links) sum += DVec3(link.weight);
+    if (std::max({sum.r, sum.g, sum.b}) <= kWhole) return false;
+    const Vec3 share(1.0 / glm::max(sum, DVec3(1)));
+    for (PatchLink& link : links) link.weight *= share;
+    return true;
+  }
+
   // Adds what one sweep finds to `next`; returns the norm of the change.
   double sweep_once(Context& context, const std::vector<Vec3>& now, std::vector<Vec3>& next);
-  Error no_end(const std::vector<Vec3>& now) const;
+  // Sweeps from the dark until little is missing or there is enough; watches: or until their changes grow.
+  enum class End { kDone, kGrows, kStopped };
+  End run(Context& context, bool watches, Sweeps& result);
+  // Bounds the patches whose light grows from sweep to sweep; how many.
+  std::size_t bound_growing(Context& context);
+  void warn_of_no_end(Context& context, const Sweeps& result) const;
 
   const Texels& texels_;
   const Surroundings& around_;
@@ -189,41 +228,72 @@ double Solver::sweep_once(Context& context, const std::vector<Vec3>& now, std::v
   return total;
 }
 
-Error Solver::no_end(const std::vector<Vec3>& now) const {
+void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
   DVec3 incident(0), absorbed(0);
   for (std::size_t p = 0; p < patches_.size(); ++p)
     for (const std::uint32_t t : patches_[p].texels) {
-      const DVec3 flux = DVec3(direct_[t] + now[p]) * static_cast<double>(texels_.area_m2[t]);
+      const DVec3 flux = DVec3(direct_[t] + solution_[p]) * static_cast<double>(texels_.area_m2[t]);
       incident += flux;
       absorbed += flux * (DVec3(1) - DVec3(texels_.albedo[t]));
     }
-  return {ErrorCode::kInvalid,
-          fmt::format("the light does not die away: after {} bounces {:.4g} lm fall on the surfaces and {:.4g} lm of "
-                      "them are absorbed. Expected a scene that absorbs or lets out some light: lower an albedo of 1",
-                      kMaxSweeps, incident.g, absorbed.g),
-          "radiosity"};
+  context.warning(
+      fmt::format("the light hardly dies away: after {} bounces {:.4g} lm fall on the surfaces and {:.4g} lm of them "
+                  "are absorbed; what these bounces bring is baked. Lower albedos of 1, or let some light out",
+                  result.count, incident.g, absorbed.g));
 }
 
-Status Solver::solve(Context& context, Sweeps& result) {
+Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
+  const int most = options_.most > 0 ? options_.most : around_.transport().options.max_bounces;
   std::vector<Vec3> next(patches_.size());
   solution_.assign(patches_.size(), Vec3(0));
   double before = 0;
   for (result.count = 1;; ++result.count) {
     const double change = sweep_once(context, solution_, next);
+    if (context.stopped()) return End::kStopped;
     solution_.swap(next);
-    if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
     double scale = 0;
     for (std::size_t p = 0; p < patches_.size(); ++p)
       scale += patches_[p].area_m2 * (solution_[p].r + solution_[p].g + solution_[p].b);
-    if (!(change > 0) || !(scale > 0)) break;
+    if (watches && !std::isfinite(change)) return End::kGrows;
+    if (!(change > 0) || !(scale > 0)) return End::kDone;
     // A geometric tail, from the ratio of the last two changes; the first sweep only has its own size to go by.
     const double q = before > 0 ? change / before : 1;
+    result.growth = q;
     result.tail = q < 1 ? change / scale * q / (1 - q) : change / scale;
     before = change;
-    if (q < 1 && result.tail < options_.tolerance) break;
-    if (result.count == options_.most) break;
-    if (result.count >= kMaxSweeps) return tl::unexpected(no_end(solution_));
+    if (q < 1 && result.tail < options_.tolerance) return End::kDone;
+    if (watches && q > 1 && result.count >= kPatience) return End::kGrows;
+    if (result.count >= most) return End::kDone;
+    if (result.count >= kHasty && options_.enough && options_.enough()) return End::kDone;
   }
+}
+
+std::size_t Solver::bound_growing(Context& context) {
+  std::vector<Vec3> now(patches_.size()), next(patches_.size());
+  (void)sweep_once(context, solution_, now);
+  (void)sweep_once(context, now, next);
+  std::size_t bounded = 0;
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);
+    if (!(is.r + is.g + is.b < was.r + was.g + was.b)) bounded += bound(patches_[p].links);  // of no numbers, too
+  }
+  return bounded;
+}
+
+Status Solver::solve(Context& context, Sweeps& result) {
+  constexpr int kRounds = 8;
+  End end = run(context, true, result);
+  for (int round = 1; end == End::kGrows; ++round) {
+    const std::size_t bounded = round < kRounds ? bound_growing(context) : 0;
+    if (bounded == 0)
+      for (Patch& patch : patches_) result.bounded += bound(patch.links);
+    result.bounded += bounded;
+    end = run(context, bounded > 0, result);
+  }
+  if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+  const int most = around_.transport().options.max_bounces;
+  if (options_.most == 0 && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
+    warn_of_no_end(context, result);
   return {};
 }
 
@@ -252,11 +322,29 @@ void Solver::interpolate(Context& context, Sweeps& result) {
 
 }  // namespace
 
+namespace {
+
+// Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
+Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
+                                std::span<const Vec3> direct, SweepOptions options, Context& context,
+                                std::atomic<std::uint64_t>& rays) {
+  constexpr std::uint32_t kFewest = 2 * kSites, kLargest = 8;
+  if (!std::isfinite(options.seconds)) return options;
+  Solver pilot(texels, graph, around, direct, options);
+  ORIEL_TRY(double needed, pilot.foretell(context, rays));
+  while (needed > options.seconds && options.rays_per_patch > kFewest) options.rays_per_patch /= 2, needed /= 2;
+  while (needed > options.seconds && options.side < kLargest) options.side *= 2, needed /= 4;
+  return options;
+}
+
+}  // namespace
+
 Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
                      std::span<const Vec3> direct, const SweepOptions& options, Context& context,
                      std::atomic<std::uint64_t>& rays) {
   Sweeps result;
-  Solver solver(texels, graph, around, direct, options);
+  ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, context, rays));
+  Solver solver(texels, graph, around, direct, how);
   ORIEL_TRY_VOID(solver.trace(context, context.seed + 0xb0, rays));
   ORIEL_TRY_VOID(solver.solve(context, result));
   solver.interpolate(context, result);

@@ -2,6 +2,9 @@
 // texels that walls divide is a patch for each part of it.
 #pragma once
 
+#include <functional>
+#include <limits>
+
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
 #include "bake/radiosity/texels/neighbours.h"
@@ -13,21 +16,28 @@ struct SweepOptions {
   // with what is lit and seen lose light: 0.25 % a bounce with 2, 0.5 % with 4 in a furnished room of 13 cm texels.
   std::uint32_t side = 1;
   std::uint32_t rays_per_patch = 64;
-  int most = 0;             // sweeps; 0: until the tolerance holds
-  double tolerance = 1e-3;  // of the mean: bound on what further sweeps could add
+  int most = 0;                       // sweeps; 0: until the tolerance holds, or as many as paths have bounces
+  std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
+  double tolerance = 1e-3;            // of the mean: bound on what further sweeps could add
+  double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
 };
 
 struct Sweeps {
   std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
   int count = 0;
-  double tail = 0;  // the bound reached: what all further sweeps together add at most, relative to the mean
+  double tail = 0;          // the bound reached: what all further sweeps together add at most, relative to the mean
+  double growth = 0;        // of the last sweep's change over the one's before: below 1 where light dies away
+  std::size_t bounded = 0;  // patches whose weights were bounded
   std::size_t patches = 0;
 };
 
 // direct: irradiance by texel that gather rays do not find (closed forms), lux. Each patch traces its rays once; then
 // Jacobi sweeps run over what they found, until the geometric bound on the rest, |ΔB| q/(1 - q) with q the ratio of
-// successive changes, is below tolerance. Errors: kStopped; kInvalid where the light does not die away (a closed scene
-// that absorbs nothing), with the energy balance.
+// successive changes, is below tolerance. Where the changes grow instead, noise of few rays makes patches hand on more
+// than they get: those whose light grows get weights that sum to at most 1, and in the end all do, so that no sweep
+// adds more than the one before: with direct light E₀ the result is at most (count + 1) max E₀. Where light does not
+// die away (a closed scene that absorbs nothing) as many bounces are added up as paths follow, and a warning tells the
+// energy balance. Error kStopped.
 Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
                      std::span<const Vec3> direct, const SweepOptions& options, Context& context,
                      std::atomic<std::uint64_t>& rays);

@@ -31,8 +31,11 @@ void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::
   if (!(determinant > 0)) return;
   const DVec3 along_x = (yy * x_light - xy * y_light) / determinant,
               along_y = (xx * y_light - xy * x_light) / determinant;
-  for (int c = 0; c < 3; ++c)
+  // Over texels of no extent they are no numbers: then the light is even.
+  for (int c = 0; c < 3; ++c) {
     texel.slope[c] = static_cast<float>(along_x[c]) * frame[0] + static_cast<float>(along_y[c]) * frame[1];
+    if (!is_finite(texel.slope[c])) texel.slope[c] = Vec3(0);
+  }
 }
 
 // Shortens slopes until no site of the texel is below zero.

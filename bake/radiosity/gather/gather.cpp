@@ -91,13 +91,19 @@ class GroupGather {
     for (const Link& link : answers_.links) light[link.ray] += link.weight * cached_.irradiance[link.texel] / kPi;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
       Member& m = members_[target_[i]];
+      Vec3 slope(0);
       if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel) {
         const CachedTexel& met = cached_.texels[texel];
         const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
         light[i] += there;
-        m.slope += kPi * (there - met.radiance);
+        slope = kPi * (there - met.radiance);
+      }
+      if (!is_usable(light[i])) {
+        around_.transport().accel.dropped().add(answers_.hits[i].triangle);
+        continue;
       }
       m.sum += kPi * light[i];
+      m.slope += slope;
       if (moments_)
         m.moments +=
             moments_of(luminance(light[i]) * kPi / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);

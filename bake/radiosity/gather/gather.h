@@ -31,6 +31,11 @@ struct HalfSums {
     if (!from.moments.empty()) moments[i] = from.moments[k];
     samples[i] = from.samples[k];
   }
+  // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it.
+  void assume(std::size_t i, const Vec3& light, float uncertain) {
+    sum[0][i] = (1 + uncertain) * light, sum[1][i] = (1 - uncertain) * light;
+    samples[i] = 1;
+  }
   Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
 };

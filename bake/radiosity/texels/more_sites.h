@@ -22,6 +22,11 @@ class MoreSites {
 
   // The k-th site of a half, of as many as are asked for. The texel must be visible. Adds to rays.
   TexelSite at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const;
+  // One of the triangles under the texel.
+  std::uint32_t triangle(std::uint32_t i) const {
+    const TexelMapPage& map = maps_[texels_.page[i]];
+    return map.fragments[map.first[texels_.index[i]]].triangle;
+  }
 
  private:
   const Transport& t_;

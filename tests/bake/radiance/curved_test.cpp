@@ -164,7 +164,7 @@ TEST(Surroundings, AreFiniteWhereTheObjectTouches) {
     options.memory_bytes = 64 * 64 * kMapBytesPerPixel;
     const FoundCurvedReflectors found = captured(room, find(room, options));
     ASSERT_EQ(found.maps.size(), 1u);
-    for (const float d : found.maps[0].inverse_distance) ASSERT_TRUE(std::isfinite(d) && d >= 0);
+    for (const float d : found.maps[0].inverse_distance) ASSERT_TRUE(d >= 0 && d <= 1e5f) << d;
     for (const Vec3& c : found.maps[0].radiance) ASSERT_TRUE(is_finite(c));
   }
 }
