@@ -5,11 +5,14 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
+#include "bake/run/stages/deadline.h"
 #include "bake/run/stages/inputs.h"
 #include "bake/walk/scene_unit.h"
 
 namespace oriel {
 namespace {
+
+constexpr double kMostForSides = 0.15;  // of --time
 
 Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {
@@ -74,6 +77,9 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
+              const Deadline clock(0);
+              const Interruptible until(
+                  context, [&] { return options.time_s > 0 && clock.spent() > kMostForSides * options.time_s; });
               auto sides = find_lit_sides({*prepared.accel, lights, path_options(options)}, context);
               if (sides) rays = sides->report.rays;
               return sides;

@@ -241,17 +241,36 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
     planned.known = recall_reflections(context, name_of_known(options, accel.scene(), context));
   const std::vector<FoundReflector> found = planned.all.found.reflectors;
   BakeOptions fewer = options;
+  // Planning that takes longer than twice its time ends: the maps of the round before stay, or there are none.
+  const Deadline whole(0);
+  const double most = 2 * seconds;
+  const Interruptible until(context, [&] { return whole.spent() > most; });
   for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
     const Deadline clock(0);
     const double reused_before = reused_s(context);
     fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
-    planned.all.found.reflectors = found;
-    ORIEL_TRY(planned.plan, plan_maps(fewer, accel, context, planned));
+    const std::vector<FoundReflector> before = std::exchange(planned.all.found.reflectors, found);
+    auto plan = plan_maps(fewer, accel, context, planned);
+    if (!plan && !context.stop && whole.spent() > most) {
+      planned.all.found.reflectors = before;
+      planned.plans.clear();
+      if (divisor == kFewest) leave_out_maps("planning them takes too long for --time", planned);
+      break;
+    }
+    if (!plan) return tl::unexpected(plan.error());
+    planned.plan = std::move(*plan);
     seconds -= clock.spent();
     planned.seconds = clock.spent() + (reused_s(context) - reused_before) / thread_count(context);
     if (divisor == 1 || kFewer * planned.seconds > seconds) break;
   }
   return planned;
+}
+
+void leave_out_maps(const std::string& why, PlannedReflections& planned) {
+  planned.plan = {};
+  planned.all.found.reflectors.clear();
+  planned.all.curved = {};
+  planned.all.omissions.push_back("radiance maps: left out, " + why);
 }
 
 double PlannedReflections::pixels() const {

@@ -56,6 +56,9 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Ac
                                             const EyeRegion& region, const MaterialMaps& materials, double seconds,
                                             Context& context);
 
+// Nothing is captured, and the reason is among the omissions.
+void leave_out_maps(const std::string& why, PlannedReflections& planned);
+
 // Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
 // residual maps go by what planning took. Error kStopped.
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
