@@ -18,7 +18,8 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake plan house.glb                                what that would do and cost, and what looks wrong
 
 Exit codes: 0 done (after one interrupt with what was there), 1 usage, 2 a file cannot be read or written, 3 invalid input,
-4 failed at run time, 5 findings with plan --strict or other bytes with verify, 130 stopped by the user before there was a first estimate, or by a
+4 failed at run time, 5 findings with --strict or other bytes with verify, 6 the pack was written without a part that failed its checks,
+130 stopped by the user before there was a first estimate, or by a
 second interrupt (nothing half-written is left).)";
 
 constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
@@ -322,6 +323,9 @@ Arguments parse_arguments(int argc, char** argv) {
   add_bake_options(app, texts, shared, args);
   add_cache_options(app, args.cache);
   app.add_option("--report", args.report, "Write what was done, omitted, measured and how long it took, as JSON");
+  app.add_flag("--strict", args.strict,
+               "Exit code 5 where something is found to be likely wrong with the light, such as an energy ledger that "
+               "does not close. The pack is written all the same");
   add_run_options(app, shared, args);
   const CLI::App* lux = add_lux(app, lux_texts, shared, args);
   const CLI::App* render = add_render(app, render_texts, shared, args);

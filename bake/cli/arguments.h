@@ -41,6 +41,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   ProgressPrinter::Style style = ProgressPrinter::Style::kPlain;
   std::filesystem::path report;  // empty: none
+  bool strict = false;           // findings of a bake are an exit code
   int exit_code = -1;            // >= 0: end at once with it (--help, --version, a usage error already printed)
 };
 

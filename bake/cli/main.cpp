@@ -213,6 +213,10 @@ Status run_bake(const Arguments& args, Context& context, ProgressPrinter& printe
   const auto size = std::filesystem::file_size(args.bake.output, ec);
   printer.note(fmt::format("wrote {}: {:.1f} MB, baked in {:.1f} s", args.bake.output.string(),
                            ec ? 0.0 : static_cast<double>(size) * 1e-6, seconds));
+  if (!result.left_out.empty())
+    return fail(kIncomplete, args.bake.output.string(), "was written without {}", result.left_out[0]);
+  if (args.strict && !result.findings.empty())
+    return fail(ErrorCode::kDifferent, args.bake.output.string(), "was written; --strict: {}", result.findings[0]);
   return {};
 }
 

@@ -124,17 +124,18 @@ Result<Ledger> keep_ledger(const Transport& transport, const Atlas& atlas, std::
   return ledger;
 }
 
-Status check_ledger(const Ledger& ledger, Context& context) {
+std::vector<std::string> ledger_findings(const Ledger& ledger) {
+  std::vector<std::string> findings;
   if (ledger.closure() > kLedgerTolerance + kCertain * ledger.closure_error())
-    return fail(ErrorCode::kRuntime, "energy ledger",
-                "found {} of {:.4g} lm neither absorbed nor escaped nor lost, expected at most {} %: the light of this "
-                "scene is not computed right",
-                percent(ledger.closure(), ledger.closure_error()), ledger.emitted_lm(), 100 * kLedgerTolerance);
+    findings.push_back(fmt::format(
+        "the energy ledger is open: {} of {:.4g} lm are neither absorbed nor escaped nor lost, expected at most {} %: "
+        "the light of some surface is not computed right",
+        percent(ledger.closure(), ledger.closure_error()), ledger.emitted_lm(), 100 * kLedgerTolerance));
   if (ledger.disagreement() > kLedgerTolerance + kCertain * ledger.disagreement_error())
-    context.warning(fmt::format(
+    findings.push_back(fmt::format(
         "surfaces keep {:.4g} lm by the lightmap and {:.4g} lm by particles from the lights: {} apart",
         ledger.lightmap_lm, ledger.on_texels.value, percent(ledger.disagreement(), ledger.disagreement_error())));
-  return {};
+  return findings;
 }
 
 }  // namespace oriel

@@ -39,7 +39,7 @@ inline constexpr double kLedgerTolerance = 0.005;  // of closure() and disagreem
 Result<Ledger> keep_ledger(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                            const Radiosity& radiosity, std::uint64_t rays_at_most, Context& context);
 
-// Error kRuntime where the ledger does not close; warns where the lightmap disagrees.
-Status check_ledger(const Ledger& ledger, Context& context);
+// Where the ledger does not close or the lightmap disagrees, beyond what noise explains: one line each, with its size.
+std::vector<std::string> ledger_findings(const Ledger& ledger);
 
 }  // namespace oriel

@@ -19,4 +19,9 @@ AssembledMesh assemble_mesh(const Scene& scene, const Atlas& atlas);
 // Pack materials with indices into `maps` (K, R), and the base colour and normal textures that they use.
 void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack);
 
+// Leaves out of a pack what validate() finds an error in, and what depends on it; appends one line for each with the
+// first reason (sound_pack.cpp). Error kRuntime where the scene, its materials or the lightmap itself fail: no pack is
+// left then.
+Status leave_out_unsound(Pack& pack, std::vector<std::string>& left_out);
+
 }  // namespace oriel

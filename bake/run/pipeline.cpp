@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "bake/run/assemble.h"
 #include "bake/run/report.h"
@@ -16,8 +17,10 @@
 namespace oriel {
 namespace {
 
-constexpr double kMostForViews = 0.2;       // of the time that is left, for choosing viewpoints
+constexpr double kMostForAtlas = 0.2;       // of the time that is left, for charts that are more than plain
+constexpr double kMostForViews = 0.2;       // of the same, for choosing viewpoints
 constexpr double kMostForSets = 0.2;        // of the same, for visible sets
+constexpr double kMostForTiming = 0.1;      // of the same, for finding out how long capture takes
 constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins
 constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
 constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
@@ -87,11 +90,31 @@ Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& 
     dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
   }
   if (!planned.empty()) {
-    ORIEL_TRY_VOID(time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned));
+    const double until = deadline.left() * (1 - kMostForTiming);
+    const auto late = [&] { return deadline.left() < until; };
+    Status tried;
+    {
+      const Interruptible interruptible(context, late);
+      tried = time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
+    }
+    if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
+    if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
     shrink_maps(kMostForMaps * deadline.left(), planned);
   }
   const double field = prepared.movers.empty() ? 0 : kMostForField * std::max(0.0, deadline.left());
   return kUnlooked * (planned.capture_s + bytes_of(dark, planned) / kWritten_per_s) + field;
+}
+
+// What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.
+template <class Stage>
+auto unless_late(const Deadline& deadline, Context& context, const Stage& stage)
+    -> Result<std::optional<std::decay_t<decltype(*stage())>>> {
+  const auto late = [&] { return context.finish || deadline.left() <= 0; };
+  const Interruptible until(context, late);
+  auto made = stage();
+  if (made) return std::optional(std::move(*made));
+  if (made.error().code == ErrorCode::kStopped && late() && !context.stop) return std::nullopt;
+  return tl::unexpected(made.error());
 }
 
 // Reflections, left out where the user or the time wants the bake to finish.
@@ -113,6 +136,19 @@ void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissi
   omissions.emplace_back("kernels: left out by --only");
   materials.kernels.clear();
   for (auto& kernel : materials.kernel) kernel = -1;
+}
+
+// Samples that were left out, and where to look for the cause.
+void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
+  const DroppedSamples& dropped = accel.dropped();
+  if (dropped.count() == 0) return;
+  std::string place = "far from any surface";
+  if (const std::uint32_t t = dropped.first_triangle(); t != DroppedSamples::kNowhere) {
+    const Surface& surface = accel.scene().surfaces[accel.scene().triangle_surface[t]];
+    place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
+                        accel.scene().materials[surface.material].name);
+  }
+  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
 }
 
 void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
@@ -138,7 +174,10 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   const Deadline deadline(options.time_s);
   Stopwatch timed(result.times);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  ORIEL_TRY_VOID(lay_out_lightmap(options, timed, context, prepared));
+  BakeOptions layout = options;
+  if (deadline.limited() && layout.atlas.time_limit_s <= 0)
+    layout.atlas.time_limit_s = kMostForAtlas * std::max(deadline.left(), kLate * options.time_s);
+  ORIEL_TRY_VOID(lay_out_lightmap(layout, timed, context, prepared));
   result.omissions = prepared.omissions;
   const Scene& scene = prepared.scene();
   const Accel& accel = *prepared.accel;
@@ -183,6 +222,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
 
   RadiosityOptions radiosity_options = options.radiosity;
   radiosity_options.enough = refined_enough(options, deadline, later, context);
+  if (deadline.limited()) radiosity_options.left = [&, later] { return deadline.left() - later; };
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, LayoutOf{atlas},
@@ -196,14 +236,18 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   planned.light_reused = radiosity.report.reuse.kept > 0;
   context.finishable = true;
   warn_about_error(options, radiosity.report, deadline, context);
-  ORIEL_TRY(result.ledger, timed("ledger", [&](std::uint64_t& rays) {
+  ORIEL_TRY(auto ledger, timed("ledger", [&](std::uint64_t& rays) {
               const auto at_most = static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity.report.rays));
-              auto ledger = keep_ledger({accel, lights, path_options(options)}, atlas, prepared.texel_map, radiosity,
-                                        at_most, context);
-              if (ledger) rays = ledger->rays;
-              return ledger;
+              auto kept = unless_late(deadline, context, [&] {
+                return keep_ledger({accel, lights, path_options(options)}, atlas, prepared.texel_map, radiosity,
+                                   at_most, context);
+              });
+              if (kept && *kept) rays = (*kept)->rays;
+              return kept;
             }));
-  ORIEL_TRY_VOID(check_ledger(result.ledger, context));
+  if (!ledger) result.omissions.emplace_back("energy ledger: left out, --time was over");
+  result.ledger = ledger.value_or(Ledger());
+  result.findings = ledger_findings(result.ledger);
   pack.lightmaps = std::move(radiosity.pages);
   const BakedScene baked{accel, lights, atlas, pack.lightmaps};
   ReflectionReport reflections;
@@ -230,9 +274,14 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   if (!pack.visible_sets.empty())
     pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  pack.plan = plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions,
-                         lights.power(), reflections, mover_reports, visibility,
-                         options.radiosity.estimator == Estimator::kCached, options.radiosity.error, start});
+  ORIEL_TRY_VOID(timed("checks", [&](auto&) { return leave_out_unsound(pack, result.left_out); }));
+  result.omissions.insert(result.omissions.end(), result.left_out.begin(), result.left_out.end());
+  tell_dropped(accel, result.findings);
+  for (const std::string& finding : result.findings) context.warning(finding);
+  pack.plan =
+      plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions, lights.power(),
+                 reflections, mover_reports, visibility, options.radiosity.estimator == Estimator::kCached,
+                 options.radiosity.error, start, result.findings});
   pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
   warn_about_time(options, deadline, result.times, context);
   if (context.units) result.units = context.units->share();

@@ -10,6 +10,8 @@
 
 namespace oriel {
 
+inline constexpr ErrorCode kIncomplete{6};  // the exit code of a pack that was written without a part
+
 struct BakeResult {
   Pack pack;
   std::vector<StageTime> times;  // wall clock; not in the pack, whose bytes depend on input and options only
@@ -18,6 +20,8 @@ struct BakeResult {
   Ledger ledger;
   UnitShare units;                     // not in the pack either: empty without a store of units
   std::vector<std::string> omissions;  // what was not modelled, and why
+  std::vector<std::string> findings;   // what is likely wrong with the light, each with its size; warned of
+  std::vector<std::string> left_out;   // what failed the pack's own checks and is not in it; among the omissions too
 };
 
 // Scene file → pack in memory. Errors as the stages give them; kStopped when context.stop was set.

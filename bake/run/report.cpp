@@ -231,6 +231,8 @@ std::string plan_json(const BakeFacts& f) {
         {"rays", f.radiosity.rays},
         {"sweeps", f.radiosity.sweeps},
         {"sweep_tail", f.radiosity.sweep_tail},
+        {"sweep_growth", f.radiosity.sweep_growth},
+        {"bounded_patches", f.radiosity.bounded_patches},
         {"filter_drift", f.radiosity.filter_drift},
         {"ended_early", f.radiosity.ended_early},
         {"certificate",
@@ -264,6 +266,7 @@ std::string plan_json(const BakeFacts& f) {
       {"light_field", light_field_json(f.pack.light_field)},
       {"start", text_of(f.start)},
       {"omitted", f.omissions},
+      {"findings", f.findings},
   };
   return text_of(json);
 }

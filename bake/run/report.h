@@ -26,6 +26,7 @@ struct BakeFacts {
   bool cached = true;  // the estimator
   double asked = 0;    // error of the lightmap; 0: none
   Start start = Start::kOfScene;
+  const std::vector<std::string>& findings;
 };
 
 std::string plan_json(const BakeFacts& facts);

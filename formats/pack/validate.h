@@ -14,8 +14,9 @@ enum class Severity { kWarning, kError };
 struct Issue {
   int number = 0;
   Severity severity = Severity::kError;
-  std::string section;  // "section LMAP 2 (lightmap page)"
-  std::string message;  // how many, the first one, what was found and what was expected
+  std::string section;     // "section LMAP 2 (lightmap page)"
+  std::string message;     // how many, the first one, what was found and what was expected
+  std::uint32_t kind = 0;  // of the section (layout.h)
 };
 
 // Whether textures, lightmap pages and maps have their pixels, or are without until somebody wants them (deferred.h).

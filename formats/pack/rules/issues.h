@@ -19,15 +19,15 @@ namespace oriel {
 class IssueList {
  public:
   // What is added next is about this section.
-  void in_section(std::uint32_t kind, std::uint64_t nth = 0) { section_ = section_label(kind, nth); }
+  void in_section(std::uint32_t kind, std::uint64_t nth = 0) { section_ = section_label(kind, nth), kind_ = kind; }
 
   template <class... Args>
   void error(int number, fmt::format_string<Args...> format, Args&&... args) {
-    issues.push_back({number, Severity::kError, section_, fmt::format(format, std::forward<Args>(args)...)});
+    issues.push_back({number, Severity::kError, section_, fmt::format(format, std::forward<Args>(args)...), kind_});
   }
   template <class... Args>
   void warning(int number, fmt::format_string<Args...> format, Args&&... args) {
-    issues.push_back({number, Severity::kWarning, section_, fmt::format(format, std::forward<Args>(args)...)});
+    issues.push_back({number, Severity::kWarning, section_, fmt::format(format, std::forward<Args>(args)...), kind_});
   }
   // One error for all elements that are not good: "3 of 120 vertices: the first is 7, found …, expected …".
   template <class Element, class Good, class Text>
@@ -53,6 +53,7 @@ class IssueList {
 
  private:
   std::string section_;
+  std::uint32_t kind_ = 0;
 };
 
 inline std::string text_of(float v) {
