@@ -1,5 +1,7 @@
 #include "bake/cli/progress.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -11,32 +13,83 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} min {:02d} s", std::floor(seconds / 60), static_cast<int>(seconds) % 60);
 }
 
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 }  // namespace
+
+ProgressPrinter::ProgressPrinter(Style style) : style_(style) {
+  if (style_ != Style::kQuiet) watcher_ = std::thread([this] { watch(); });
+}
+
+ProgressPrinter::~ProgressPrinter() {
+  if (watcher_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      ends_ = true;
+    }
+    ended_.notify_all();
+    watcher_.join();
+  }
+  end_line();
+}
+
+double ProgressPrinter::silence() const {
+  constexpr double kShare = 0.1, kLongest = 10;  // of the time since the start, s
+  if (style_ == Style::kBar) return kSilence;
+  return std::clamp(kShare * seconds_between(begun_, Clock::now()), kSilence, kLongest);
+}
+
+void ProgressPrinter::watch() {
+  std::unique_lock lock(mutex_);
+  while (!ends_) {
+    const double left = silence() - seconds_between(drawn_, Clock::now());
+    if (left <= 0)
+      tell_alive();
+    else
+      ended_.wait_for(lock, std::chrono::duration<double>(left));
+  }
+}
+
+void ProgressPrinter::tell_alive() {
+  drawn_ = Clock::now();
+  if (!stage_.empty()) {
+    draw({stage_, fraction_, 0}, seconds_between(started_, drawn_));
+    return;
+  }
+  const std::string doing = told_.empty() ? "reading the scene" : "working, after " + told_;
+  const double seconds = seconds_between(begun_, drawn_);
+  if (style_ == Style::kJson)
+    line("note", fmt::format("{} ({:.0f} s since the start)", doing, seconds));
+  else
+    std::fprintf(stderr, "%s%s, %.0f s since the start%s", open_line_ ? "\r\x1b[K" : "", doing.c_str(), seconds,
+                 style_ == Style::kBar ? "" : "\n");
+  open_line_ = style_ == Style::kBar;
+}
 
 void ProgressPrinter::operator()(const Progress& progress) {
   if (style_ == Style::kQuiet) return;
+  const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
+  fraction_ = progress.fraction;
   const bool fresh = stage_ != progress.stage;
   if (fresh) {
-    finish();
+    end_line();
     stage_ = progress.stage;
     started_ = now;
   }
   const bool ended = progress.fraction >= 1;
-  const auto interval = style_ == Style::kBar ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000);
-  if (!fresh && !ended && now - drawn_ < interval) return;
-  if (fresh && style_ != Style::kBar && !ended) {
-    drawn_ = now;  // plain lines begin once there is something to tell
-    return;
-  }
+  const double interval = style_ == Style::kBar ? 0.1 : silence();
+  if (!ended && (!fresh || style_ != Style::kBar) && seconds_between(drawn_, now) < interval) return;
   drawn_ = now;
-  const double seconds = std::chrono::duration<double>(now - started_).count();
+  const double seconds = seconds_between(started_, now);
   // Refinement runs a stage again and again: short rounds have no line of their own.
   const bool again = ended && style_ == Style::kPlain && stage_ == told_ && seconds < kShort;
   if (!again) draw(progress, seconds);
   if (ended) {
     told_ = stage_;
-    finish();
+    end_line();
     stage_.clear();
   }
 }
@@ -54,7 +107,10 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
   }
   std::string text = fmt::format("{:<10} {:3.0f} %", progress.stage, 100 * progress.fraction);
   if (progress.rays > 0) text += fmt::format("  {:5.2f} Mray/s", rays_per_s * 1e-6);
-  text += progress.fraction < 1 ? fmt::format("  {} left", duration(left)) : fmt::format("  {:.1f} s", seconds);
+  if (progress.fraction <= 0)
+    text += fmt::format("  {} so far", duration(seconds));
+  else
+    text += progress.fraction < 1 ? fmt::format("  {} left", duration(left)) : fmt::format("  {:.1f} s", seconds);
   if (style_ == Style::kPlain) {
     std::fprintf(stderr, "%s\n", text.c_str());
     return;
@@ -78,14 +134,21 @@ void ProgressPrinter::line(const char* event, const std::string& message) {
 }
 
 void ProgressPrinter::warning(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   line("warning", message);
 }
 
 void ProgressPrinter::note(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   if (style_ != Style::kQuiet) line("note", message);
 }
 
 void ProgressPrinter::finish() {
+  const std::lock_guard lock(mutex_);
+  end_line();
+}
+
+void ProgressPrinter::end_line() {
   if (open_line_) std::fprintf(stderr, "\n");
   open_line_ = false;
 }

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "bake/jobs/context.h"
 
@@ -12,8 +15,10 @@ class ProgressPrinter {
  public:
   enum class Style { kBar, kPlain, kJson, kQuiet };
 
-  explicit ProgressPrinter(Style style) : style_(style) {}
-  ~ProgressPrinter() { finish(); }
+  // Where nothing else is told for kSilence seconds (on paper for longer, the longer the work takes), a line says what
+  // is going on: some stages tell nothing of themselves for long.
+  explicit ProgressPrinter(Style style);
+  ~ProgressPrinter();
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
@@ -23,17 +28,28 @@ class ProgressPrinter {
   // Ends a bar's line.
   void finish();
 
+  static constexpr double kSilence = 1.5;
+
  private:
   using Clock = std::chrono::steady_clock;
   void draw(const Progress& progress, double seconds);
+  void end_line();
+  double silence() const;  // after which a line is due, s
+  void watch();
+  void tell_alive();
   void line(const char* event, const std::string& message);
 
   Style style_;
   static constexpr double kShort = 0.5;  // seconds
   std::string stage_;
   std::string told_;  // the stage that ended last
-  Clock::time_point started_{}, drawn_{};
+  Clock::time_point begun_ = Clock::now(), started_ = begun_, drawn_ = begun_;
+  double fraction_ = 0;
   bool open_line_ = false;
+  std::mutex mutex_;  // of all above
+  std::condition_variable ended_;
+  bool ends_ = false;
+  std::thread watcher_;
 };
 
 }  // namespace oriel

@@ -1,0 +1,56 @@
+// Nobody looks at a silent program: whatever it does, a line comes.
+#include "bake/cli/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+using Style = ProgressPrinter::Style;
+
+// What is printed by `work`, and then while nothing is told for a while.
+template <class Work>
+std::string printed(Style style, const Work& work) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressPrinter printer(style);
+    work(printer);
+    std::this_thread::sleep_for(std::chrono::duration<double>(1.5 * ProgressPrinter::kSilence));
+  }
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(ProgressPrinter, SaysThatItReadsBeforeAnythingIsTold) {
+  for (const Style style : {Style::kPlain, Style::kBar, Style::kJson})
+    EXPECT_NE(printed(style, [](auto&) {}).find("reading the scene"), std::string::npos);
+}
+
+TEST(ProgressPrinter, ATaskThatTellsNothingIsNamed) {
+  const std::string text = printed(Style::kPlain, [](ProgressPrinter& p) { p({"charts", 0, 0}); });
+  EXPECT_NE(text.find("charts"), std::string::npos) << text;
+  EXPECT_NE(text.find("so far"), std::string::npos) << text;
+}
+
+TEST(ProgressPrinter, BetweenTasksTheLastOneIsNamed) {
+  const std::string text = printed(Style::kPlain, [](ProgressPrinter& p) { p({"charts", 1, 0}); });
+  EXPECT_NE(text.find("after charts"), std::string::npos) << text;
+}
+
+TEST(ProgressPrinter, WhatEndsSoonHasOneLine) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressPrinter printer(Style::kPlain);
+    for (const double f : {0.0, 0.3, 0.6, 1.0}) printer({"paths", f, 0});
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST(ProgressPrinter, QuietIsQuiet) {
+  EXPECT_EQ(printed(Style::kQuiet, [](ProgressPrinter& p) { p({"charts", 0, 0}); }), "");
+}
+
+}  // namespace
+}  // namespace oriel
