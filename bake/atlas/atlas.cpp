@@ -133,7 +133,8 @@ Result<Atlas> build_atlas(const Scene& scene, const AtlasOptions& options, Conte
   std::vector<std::uint32_t> artist, automatic;
   for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
-    if (surface.triangle_count == 0 || !takes_light(scene.materials[surface.material])) continue;
+    const SceneMaterial& material = scene.materials[surface.material];
+    if (surface.triangle_count == 0 || material.unlit || (!demand.empty() && !takes_light(material))) continue;
     const bool own = options.source == AtlasOptions::Source::kUv1 && surface.has_uv1;
     (own ? artist : automatic).push_back(s);
   }

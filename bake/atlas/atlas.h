@@ -48,7 +48,8 @@ struct AtlasReport {
 
 struct Atlas {
   std::vector<AtlasPage> pages;
-  std::vector<std::int32_t> page;       // by triangle; -1: none (unlit material, or one that reflects nothing)
+  std::vector<std::int32_t>
+      page;  // by triangle; -1: none (unlit material; with a demand also one that reflects nothing)
   std::vector<std::array<Vec2, 3>> uv;  // by triangle and corner, [0,1] over its page
   std::vector<std::uint32_t> chart;     // by triangle; ~0u: none
   std::uint32_t chart_count = 0;

@@ -96,10 +96,10 @@ Status check_output(const std::filesystem::path& output, const std::vector<std::
 
 std::string light_line(const RadiosityReport& r) {
   std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
-  if (const Certificate& c = r.certificate; c.texels > 0)
+  if (const Certificate& c = r.certificate; c.pixels > 0)
     line += fmt::format(
-        "; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out texels, which are {:+.2g} % ± {:.2g} % brighter",
-        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, c.texels, 100 * c.bias, 100 * c.bias_interval);
+        "; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out pixels, which are {:+.2g} % ± {:.2g} % brighter",
+        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, c.pixels, 100 * c.bias, 100 * c.bias_interval);
   if (r.reuse.asked > 0)
     line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
                         r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);

@@ -7,6 +7,7 @@
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
+#include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/texel_paths.h"
@@ -19,7 +20,11 @@ namespace {
 constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
 constexpr std::size_t kRaysAPath = 10;     // about
 constexpr double kStitchShare = 0.6;       // of the error asked for: what stitching may move texels by
+constexpr std::size_t kPixels = 1 << 16;   // that the error is told from, and as many others held out
+constexpr std::uint32_t kOpenEyes = 1024;  // where none is given
 constexpr std::size_t kRun = 64;  // texels a task: long enough to hide scheduling, short enough to stop at once
+
+constexpr std::uint64_t kPixelSeed = 0xf4a3e, kHeldOutSeed = 0x4e1d;
 
 struct Run {
   std::size_t page, first, last;
@@ -57,33 +62,32 @@ DVec3 incident_power(const Scene& scene, const Atlas& atlas, std::span<const Tex
   return sum;
 }
 
-// Root mean square, over what is seen of texels and over channels, of standard error over irradiance, with a floor of
-// 1 % of the mean. The irradiance is the true one's mean square: of a dark texel that is not known at all the error is
-// its light, not more.
-double relative_error(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
-  DVec3 mean(0);
-  double count = 0, seen = 0, squares = 0;
-  const auto each_valid = [&](const auto& visit) {
-    for (std::size_t p = 0; p < texel_map.size(); ++p)
-      for (std::size_t i = 0; i < texel_map[p].texel.size(); ++i) {
-        const std::uint32_t t = texel_map[p].texel[i];
-        if (radiosity.pages[p].state[t] == TexelState::kValid)
-          visit(seen_share(texel_map, radiosity, p, i), radiosity.pages[p].irradiance[t],
-                radiosity.pages[p].standard_error[t]);
-      }
-  };
-  each_valid([&](double share, const Vec3& e, const Vec3&) { mean += DVec3(e), ++count, seen += share; });
-  each_valid([&](double share, const Vec3& e, const Vec3& error) {
-    for (int c = 0; c < 3; ++c) {
-      const double floor = 0.01 * mean[c] / count, square = double{error[c]} * error[c];
-      const double denominator = double{e[c]} * e[c] + square + floor * floor;
-      if (denominator > 0) squares += share * square / denominator;
-    }
-  });
-  return seen > 0 ? std::sqrt(squares / (3 * seen)) : 0;
+// By texel, in the order of the texel map.
+std::vector<bool> has_light(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity) {
+  std::vector<bool> has;
+  for (std::size_t p = 0; p < texel_map.size(); ++p)
+    for (const std::uint32_t t : texel_map[p].texel) has.push_back(radiosity.pages[p].state[t] == TexelState::kValid);
+  return has;
 }
 
-void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map, Radiosity& radiosity) {
+// RadiosityReport::relative_error.
+double relative_error(std::span<const TexelMapPage> texel_map, std::span<const FramePixel> pixels,
+                      const Radiosity& radiosity) {
+  std::vector<Vec3> light, variance;
+  for (std::size_t p = 0; p < texel_map.size(); ++p)
+    for (const std::uint32_t t : texel_map[p].texel) {
+      const Vec3& error = radiosity.pages[p].standard_error[t];
+      light.push_back(radiosity.pages[p].irradiance[t]);
+      variance.push_back(error * error);
+    }
+  double sum = 0;
+  for (const float square : FrameError(pixels, texel_map, has_light(texel_map, radiosity)).squares(light, variance))
+    sum += square;
+  return std::sqrt(sum);
+}
+
+void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
+               std::span<const FramePixel> pixels, Radiosity& radiosity) {
   const auto& pages = radiosity.pages;
   RadiosityReport& report = radiosity.report;
   report.texels = report.buried = 0;
@@ -104,7 +108,7 @@ void summarize(const Scene& scene, const Atlas& atlas, std::span<const TexelMapP
   report.incident_lm = incident_power(scene, atlas, texel_map, radiosity);
   if (report.texels == 0) return;
   report.mean = Vec3(sum / static_cast<double>(report.texels));
-  report.relative_error = relative_error(texel_map, radiosity);
+  report.relative_error = relative_error(texel_map, pixels, radiosity);
 }
 
 Status stitch_lightmap(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
@@ -130,8 +134,9 @@ void darken_hidden(const TexelMapPage& map, const std::vector<float>& visible, L
 
 // Rounds that double the paths, until the error asked for holds or all are taken. Each texel's sums go on from round to
 // round: the result is that of one round.
-Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
-                      Context& context, std::atomic<std::uint64_t>& rays, Radiosity& result) {
+Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> texel_map,
+                      std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
+                      std::atomic<std::uint64_t>& rays, Radiosity& result) {
   std::vector<Run> runs;
   std::vector<std::vector<TexelSums>> sums;
   for (std::size_t p = 0; p < texel_map.size(); ++p) {
@@ -165,7 +170,7 @@ Status bake_reference(const TexelPaths& paths, std::span<const TexelMapPage> tex
         store(sums[p][i], next, result.pages[p], texel_map[p].texel[i]);
       }
     if (next == options.samples || context.stopped()) return {};
-    if (options.error > 0 && relative_error(texel_map, result) <= options.error) return {};
+    if (options.error > 0 && relative_error(texel_map, pixels, result) <= options.error) return {};
     if (options.enough) context.finishable = true;
     if ((result.report.ended_early = options.enough && options.enough())) return {};
   }
@@ -200,13 +205,33 @@ Status bake_dark(const Transport& transport, const Atlas& atlas, std::span<const
   return {};
 }
 
+// Pixels that eyes see; where they see nothing, or none is given, those of eyes in the open.
+Result<std::vector<FramePixel>> pixels_of(const Transport& transport, const Atlas& atlas, std::vector<Vec3> eyes,
+                                          std::uint64_t seed, Context& context) {
+  for (;; eyes.clear()) {
+    const bool given = !eyes.empty();
+    if (!given) eyes = eyes_in_the_open(transport, kOpenEyes, seed);
+    if (eyes.empty()) return std::vector<FramePixel>();
+    const auto per_eye = static_cast<std::uint32_t>(std::max<std::size_t>(1, kPixels / eyes.size()));
+    ORIEL_TRY(std::vector<FramePixel> pixels, find_frame_pixels(transport, atlas, eyes, per_eye, mix64(seed), context));
+    if (!given || !pixels.empty()) return pixels;
+  }
+}
+
 // All that follows an estimate: what is buried and beyond charts is filled, seams are stitched, and held-out texels
 // tell the error.
 class Finisher {
  public:
   Finisher(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-           const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays)
-      : transport_(transport), atlas_(atlas), map_(texel_map), options_(options), context_(context), rays_(rays) {}
+           std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
+           std::atomic<std::uint64_t>& rays)
+      : transport_(transport),
+        atlas_(atlas),
+        map_(texel_map),
+        pixels_(pixels),
+        options_(options),
+        context_(context),
+        rays_(rays) {}
 
   Status finish(Radiosity& result) {
     if (context_.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
@@ -220,36 +245,47 @@ class Finisher {
       if (options_.stitch && !late && !is_dark(transport_))
         ORIEL_TRY_VOID(stitch_lightmap(transport_, atlas_, map_, options_.error, context_, rays_, result));
     }
-    summarize(transport_.accel.scene(), atlas_, map_, result);
+    summarize(transport_.accel.scene(), atlas_, map_, pixels_, result);
     return {};
   }
 
-  // How to refine, where held-out texels tell of a larger error than was asked for.
+  // How to refine, where held-out pixels tell of a larger error than was asked for.
   Result<Refinement> finish_and_verify(Radiosity& result) {
     ORIEL_TRY_VOID(finish(result));
     RadiosityReport& report = result.report;
     if (options_.verify <= 0) return {};
-    const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
     const auto late = [&] { return options_.left && options_.left() <= 0; };
+    std::vector<FramePixel> held_out;
     {
       const Interruptible until(context_, late);
-      auto certificate = certify(transport_, atlas_, map_, result, options_.error, at_most, context_);
-      if (!certificate && (context_.stop || !late())) return tl::unexpected(certificate.error());
-      report.certificate = certificate ? *certificate : Certificate();
+      const auto measured = [&]() -> Result<Certificate> {
+        ORIEL_TRY(held_out, pixels_of(transport_, atlas_, options_.held_out.empty() ? options_.eyes : options_.held_out,
+                                      mix64(context_.seed + kHeldOutSeed), context_));
+        return ask(Ask::kPoints, held_out, result);
+      }();
+      if (!measured && (context_.stop || !late())) return tl::unexpected(measured.error());
+      report.certificate = measured ? *measured : Certificate();
     }
-    rays_ += report.certificate.rays;
     const double asked = options_.error;
-    const Certificate& c = report.certificate;
+    Certificate& c = report.certificate;
     const bool missed = asked > 0 && c.relative_error > kTolerated * asked && c.error_low > asked;
     if (!missed || report.ended_early || report.refinements == kRefinements) return {};
     if (options_.enough && options_.enough()) return {};
-    // What the noise that is stated does not explain stays, however many rays are traced, unless less is looked up: but
-    // for what stitching moves, which neither mends, and looked-up bounces, of which `bounces` says how many there are.
-    const double stays = std::max(std::pow(c.relative_error, 2) - std::pow(report.relative_error, 2), 0.0);
-    const double looked_up = stays - std::pow(report.seams.moved, 2);
+    // What the noise that is stated does not explain stays, however many rays are traced. Of it, what texels are off by
+    // as a whole comes from what rays look up, but for what stitching moves: less of it where less is looked up, and
+    // none of that can be with limited bounces. The rest is their size.
+    const double asked2 = asked * asked, square = c.relative_error * c.relative_error;
+    double stays = std::max(square - std::pow(report.relative_error, 2), 0.0);
     Refinement how;
-    how.nearer = report.refinements == 0 && options_.bounces == 0 && looked_up > kUnexplained * asked * asked;
-    const double goal2 = asked * asked - (how.nearer ? kNearerLeaves : 1) * stays;
+    if (report.refinements == 0 && options_.bounces == 0 && stays > kUnexplained * asked2) {
+      ORIEL_TRY(const Certificate texels, ask(Ask::kTexels, held_out, result));
+      c.texel_error = texels.relative_error, c.rays += texels.rays;
+      const double of_texels = c.texel_error * c.texel_error;
+      const double looked_up = of_texels - std::pow(report.relative_error, 2) - std::pow(report.seams.moved, 2);
+      how.nearer = looked_up > kUnexplained * asked2 && square - of_texels < asked2;
+      if (how.nearer) stays -= (1 - kNearerLeaves) * looked_up;
+    }
+    const double goal2 = asked2 - stays;
     if (!how.nearer && goal2 <= 0) return {};
     how.error = std::max(std::sqrt(std::max(goal2, 0.0)), kSharpest * asked);
     if (!how.nearer && how.error >= target_) return {};
@@ -265,9 +301,18 @@ class Finisher {
   static constexpr double kNearerLeaves = 0.5;  // of which so much is left where less is
   static constexpr double kSharpest = 0.5;      // of the error asked for: less noise would cost more than it brings
 
+  Result<Certificate> ask(Ask what, std::span<const FramePixel> held_out, const Radiosity& result) {
+    const auto at_most = static_cast<std::uint64_t>(options_.verify * static_cast<double>(rays_));
+    const double goal = options_.error > 0 ? options_.error : result.report.relative_error;
+    auto c = certify(transport_, atlas_, map_, result.pages, held_out, what, goal, at_most, context_);
+    if (c) rays_ += c->rays;
+    return c;
+  }
+
   const Transport& transport_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> map_;
+  std::span<const FramePixel> pixels_;
   const RadiosityOptions& options_;
   Context& context_;
   std::atomic<std::uint64_t>& rays_;
@@ -276,11 +321,6 @@ class Finisher {
 
 }  // namespace
 
-double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page,
-                  std::size_t i) {
-  return double{covered_share(texel_map[page], i)} * radiosity.visible[page][i];
-}
-
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context) {
@@ -288,16 +328,18 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   result.pages = empty_pages(texel_map, options.directional);
   for (const TexelMapPage& map : texel_map) result.visible.emplace_back(map.texel.size());
   std::atomic<std::uint64_t> rays{0};
-  Finisher finisher(transport, atlas, texel_map, options, context, rays);
+  ORIEL_TRY(const std::vector<FramePixel> pixels,
+            pixels_of(transport, atlas, options.eyes, mix64(context.seed + kPixelSeed), context));
+  Finisher finisher(transport, atlas, texel_map, pixels, options, context, rays);
   if (is_dark(transport)) {
     ORIEL_TRY_VOID(bake_dark(transport, atlas, texel_map, context, rays, result));
     ORIEL_TRY_VOID(finisher.finish(result));
   } else if (options.estimator == Estimator::kCached) {
     const NextRefinement next = [&] { return finisher.finish_and_verify(result); };
-    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, options, context, rays, result, next));
+    ORIEL_TRY_VOID(bake_cached(transport, atlas, texel_map, pixels, options, context, rays, result, next));
   } else {
-    ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, options,
-                                  context, rays, result));
+    ORIEL_TRY_VOID(bake_reference(TexelPaths(transport, atlas, options.directional, context), texel_map, pixels,
+                                  options, context, rays, result));
     ORIEL_TRY_VOID(finisher.finish(result));
   }
   result.report.rays = rays;

@@ -32,7 +32,7 @@ struct RadiosityOptions {
   Estimator estimator = Estimator::kReference;
   std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
                                 // cached: gather rays a texel, at most
-  double error = 0;             // stop at this relative error (RadiosityReport::relative_error); 0: take all samples
+  double error = 0;             // stop at this error of frames (RadiosityReport::relative_error); 0: take all samples
   int bounces = 0;  // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
   // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
   // limit, say). Context::finishable is set while it is asked.
@@ -40,7 +40,11 @@ struct RadiosityOptions {
   // Seconds that the estimate and its verification may still take; empty: as long as they need. Where they are few,
   // bounces have fewer rays, texels that no gather ray left keep the bounces' light, and nothing is verified.
   std::function<double()> left = {};
-  // cached: so many rays, as a share of the bake's, measure the error of held-out texels by unbiased paths (at least
+  // Where people's eyes are, scene space, m: the error is that of the frames which they see
+  // (frames/frame_error.h). Empty: anywhere in the air in front of surfaces. `held_out` are others, by which the error
+  // is verified; empty: other directions from the same.
+  std::vector<Vec3> eyes = {}, held_out = {};
+  // cached: so many rays, as a share of the bake's, measure the error of held-out pixels by unbiased paths (at least
   // some thousand); 0: none. What is measurably worse than 1.1 times `error` is refined where less noise, or looking
   // up less (cached/cached.h), can mend it, at most kRefinements times.
   double verify = 0.1;
@@ -64,14 +68,17 @@ struct SeamReport {
   double moved = 0;                    // by how much, rms over all surfaces, relative to the light of each texel
 };
 
-// What unbiased paths from held-out texels say of a bake.
+// What unbiased paths at held-out pixels say of the light that frames show (certificate.h).
 struct Certificate {
-  std::size_t texels = 0;                // compared
-  std::uint64_t paths = 0;               // from all of them
+  std::size_t pixels = 0;                // compared
+  std::uint64_t paths = 0;               // from the points of all of them
   double bias = 0;                       // Σ (baked - paths) / Σ paths, luminance
   double bias_interval = 0;              // the truth lies within bias ± this with 95 % certainty
-  double relative_error = 0;             // rms over what is seen of texels, free of the paths' own noise
-  double error_low = 0, error_high = 0;  // the rms of all that is seen lies between with 95 % certainty
+  double relative_error = 0;             // rms over pixels (frames/frame_error.h), free of the paths' own noise
+  double error_low = 0, error_high = 0;  // the rms of all pixels lies between with 95 % certainty
+  // The same of the texels that pixels read, each as a whole: what is beyond that is their size and interpolation.
+  // Asked where the error was missed and that may be why; 0: not asked.
+  double texel_error = 0;
   std::uint64_t rays = 0;
 };
 
@@ -90,11 +97,10 @@ struct RadiosityReport {
   std::size_t buried = 0;
   Vec3 mean{0};               // lux, over valid texels
   Vec3 max{0};                // lux
-  double relative_error = 0;  // rms of standard error, over what is seen of texels (seen_share) and channels, relative
-                              // to the true light (as the estimate and its error tell it) and 1 % of the mean
+  double relative_error = 0;  // stated: rms of standard error over the pixels that eyes see (frames/frame_error.h)
   int sweeps = 0;             // cached: bounces computed in the coarse lightmap
   bool ended_early = false;   // by `enough`: the error asked for does not hold
-  int refinements = 0;        // cached: after held-out texels told of a larger error than was asked for
+  int refinements = 0;        // cached: after held-out pixels told of a larger error than was asked for
   double sweep_tail = 0;      // cached: bound on what further bounces would add, relative
   double sweep_growth = 0;    // cached: what the last bounce added over what the one before did
   std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
@@ -110,10 +116,6 @@ struct Radiosity {
   std::vector<std::vector<float>> visible;
   RadiosityReport report;
 };
-
-// The share of covered texel i of a page that has a surface which is not hidden: [0,1]. Errors weigh texels by it, for
-// nobody sees the rest.
-double seen_share(std::span<const TexelMapPage> texel_map, const Radiosity& radiosity, std::size_t page, std::size_t i);
 
 // Texels hold the light of the front sides; split_sides() gives lit backs texels of their own.
 //

@@ -27,6 +27,7 @@ constexpr double kUnlooked = 1.3;           // times longer than foretold, for w
 constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
 constexpr double kLedgerRays = 0.01;        // of the lightmap's
 constexpr double kWritten_per_s = 25e6;     // bytes of maps and lightmaps that a pack takes in
+constexpr std::uint32_t kEyes = 1024;       // by which the lightmap's error is told, and as many that verify it
 constexpr double kLate_s = 2, kLate = 0.1;  // by which --time may be missed
 
 void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const Deadline& deadline,
@@ -36,7 +37,7 @@ void warn_about_error(const BakeOptions& options, const RadiosityReport& report,
   if (asked <= 0 || context.finish) return;
   if (c.error_low > kUnlooked * std::max(asked, stated))
     context.warning(
-        fmt::format("held-out texels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
+        fmt::format("held-out pixels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
                     "is stated: light "
                     "varies more within texels than they tell; --texel makes those finer",
                     100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
@@ -224,6 +225,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   radiosity_options.enough = refined_enough(options, deadline, later, context);
   if (deadline.limited()) radiosity_options.left = [&, later] { return deadline.left() - later; };
   radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
+  radiosity_options.eyes = sample_eyes(prepared.region, kEyes, context.seed);
+  radiosity_options.held_out = held_out_eyes(prepared.region, kEyes, context.seed);
   ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, LayoutOf{atlas},
                                        path_options(options).max_bounces);

@@ -103,10 +103,10 @@ Json errors_json(const BakeFacts& f) {
   Json diffuse = {{"component", "D"}};
   if (f.asked > 0) diffuse["asked"] = f.asked;
   diffuse["stated"] = f.radiosity.relative_error;
-  if (c.texels > 0) {
+  if (c.pixels > 0) {
     diffuse["measured"] = c.relative_error;
     diffuse["measured_95_interval"] = {c.error_low, c.error_high};
-    diffuse["texels"] = c.texels;
+    diffuse["pixels"] = c.pixels;
   }
   double weight = 0, squares = 0, seen_squares = 0, unseen = 0;
   for (std::size_t i = 0; i < f.reflections.errors.size(); ++i) {
@@ -236,13 +236,14 @@ std::string plan_json(const BakeFacts& f) {
         {"filter_drift", f.radiosity.filter_drift},
         {"ended_early", f.radiosity.ended_early},
         {"certificate",
-         {{"texels", f.radiosity.certificate.texels},
+         {{"pixels", f.radiosity.certificate.pixels},
           {"paths", f.radiosity.certificate.paths},
           {"bias", f.radiosity.certificate.bias},
           {"bias_95_interval", f.radiosity.certificate.bias_interval},
           {"relative_error", f.radiosity.certificate.relative_error},
           {"relative_error_95_low", f.radiosity.certificate.error_low},
           {"relative_error_95_high", f.radiosity.certificate.error_high},
+          {"texel_error", f.radiosity.certificate.texel_error},
           {"rays", f.radiosity.certificate.rays}}},
         {"refinements", f.radiosity.refinements},
         {"reuse", reuse_json(f.radiosity.reuse)},

@@ -20,7 +20,7 @@ int run(int argc, char** argv) {
   app.add_option("--rays", rays, "gather rays a texel, in place of an error");
   app.add_option("--bakes", settings.bakes, "seeds")->check(CLI::PositiveNumber);
   app.add_option("--texel", settings.texel_m, "metres")->check(CLI::PositiveNumber);
-  app.add_option("--truth-samples", settings.truth_samples, "paths a texel")->check(CLI::PositiveNumber);
+  app.add_option("--truth-samples", settings.truth_samples, "paths a pixel")->check(CLI::PositiveNumber);
   app.add_flag("--no-filter", no_filter, "gathered light as it is");
   CLI11_PARSE(app, argc, argv);
   if (rays > 0) o.samples = rays, o.error = 0;

@@ -8,6 +8,7 @@
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
 #include "bake/radiosity/cached/worst.h"
+#include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/moments.h"
 #include "formats/core/color.h"
 
@@ -22,6 +23,7 @@ constexpr std::uint32_t kFirstGather = 4;                // rays a half and texe
 constexpr std::uint32_t kFirstCrowded = 32;              // where something is close by
 constexpr std::uint32_t kMostDark = 512;                 // the same, where these find next to no light:
 constexpr float kDark = 0.002f;                          // of the mean
+constexpr double kLittleSeen = 0.1;                      // of the squared error asked for
 constexpr double kDirectShare = 0.3;                     // of the squared error asked for
 constexpr double kTailShare = 0.05;                      // of the error asked for: what further bounces may add
 constexpr double kCoarseTarget = 0.04;                   // errors asked for from which coarser bounces do
@@ -34,7 +36,8 @@ constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared e
 class CachedBake {
  public:
   CachedBake(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps,
-             const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays, const Texels& texels)
+             std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
+             std::atomic<std::uint64_t>& rays, const Texels& texels)
       : options_(options),
         context_(context),
         rays_(rays),
@@ -45,11 +48,13 @@ class CachedBake {
         around_(t, texels, direct_light_.closed_form(), context.seed),
         direct_(texels.count(), options.directional),
         gathered_(texels.count(), options.directional),
-        target_(options.error),
-        relative_(texels.count()) {}
+        frames_(pixels, maps, texels.has_light()),
+        target_(options.error) {}
 
   Status run(Radiosity& result, const NextRefinement& next) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    shares_ = typical_errors(graph_, frames_.shares(), context_);
+    little_seen_ = little_seen(order_, shares_, kLittleSeen * options_.error * options_.error);
     recall();
     ORIEL_TRY_VOID(first_direct());
     Sweeps sweeps;
@@ -87,6 +92,9 @@ class CachedBake {
   }
 
  private:
+  // Something is close to it, and people look there.
+  bool is_crowded(std::size_t i) const { return texels_.has_many[i] && !little_seen_[i]; }
+
   void recall() {
     known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
                                       context_.seed);
@@ -132,7 +140,7 @@ class CachedBake {
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
     // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
     std::vector<std::uint32_t> crowded = order_;
-    std::erase_if(crowded, [&](std::uint32_t i) { return !texels_.has_many[i]; });
+    std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
     ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, rays_));
     known_now_.glance = direct_.value;
     if (reuse_) take_known_direct();
@@ -162,7 +170,7 @@ class CachedBake {
     };
     std::vector<std::uint32_t> list;
     for (const std::uint32_t i : order_) {
-      if (reuse_ && known_direct_[i]) continue;
+      if (little_seen_[i] || (reuse_ && known_direct_[i])) continue;
       bool any = uncertain(i);
       for (const std::uint32_t j : graph_.of(i)) any |= uncertain(j);
       if (any) list.push_back(i);
@@ -202,46 +210,35 @@ class CachedBake {
     return {};
   }
 
-  // Squared relative error of one texel, mean over channels: the denominator has a floor of 1 % of the mean.
-  double relative2(std::size_t i, const Vec3& variance) const {
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const double value = double{direct_.value[i][c]} + estimate_.value[i][c], floor = 0.01 * mean_[c];
-      const double denominator = value * value + variance[c] + floor * floor;  // the truth's, on average
-      if (denominator > 0) sum += variance[c] / denominator;
-    }
-    return sum / 3;
-  }
-
   void update_estimate() {
     estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
     DVec3 sum(0);
-    count_ = 0, baked_ = 0;
+    double count = 0;
+    baked_ = 0;
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       if (texels_.visible[i] == 0) continue;
       sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
-      ++count_;
-      if (!keeps(i)) baked_ += texels_.seen(i);
+      ++count;
+      if (!keeps(i)) baked_ += frames_.shares()[i];
     }
-    mean_ = count_ > 0 ? sum / static_cast<double>(count_) : DVec3(0);
+    mean_ = sum / std::max(1.0, count);
   }
 
   std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
                                    const std::vector<std::uint32_t>& samples) {
     std::vector<std::uint32_t> open = not_kept();
     std::erase_if(open, [&](std::uint32_t i) { return samples[i] >= most; });
-    return worst_texels(texels_, graph_, open, relative_, samples,
+    return worst_texels(graph_, open, squares_, shares_, samples,
                         {.goal = goal, .excess = (now - goal) * baked_, .gain = gain}, context_);
   }
 
-  // The mean of relative2() over what is seen of the texels that are baked: what others keep is not theirs to make up
-  // for.
+  // The mean square over the pixels that show texels which are baked: what others keep is not theirs to make up for.
   double mean_squares(const std::vector<Vec3>& variance) {
+    std::vector<Vec3> light(texels_.count());
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = direct_.value[i] + estimate_.value[i];
+    squares_ = frames_.squares(light, variance);
     double sum = 0;
-    for (std::size_t i = 0; i < texels_.count(); ++i) {
-      relative_[i] = texels_.visible[i] > 0 ? static_cast<float>(relative2(i, variance[i])) : 0;
-      sum += keeps(i) ? 0 : relative_[i] * texels_.seen(i);
-    }
+    for (std::size_t i = 0; i < squares_.size(); ++i) sum += keeps(i) ? 0 : squares_[i];
     return baked_ > 0 ? sum / baked_ : 0;
   }
 
@@ -262,7 +259,7 @@ class CachedBake {
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
         gathered_.assume(i, irradiance_[i] - direct_.value[i], kCoarseError);
-    std::erase_if(list, [&](std::uint32_t i) { return !texels_.has_many[i]; });
+    std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
     update_estimate();
@@ -281,7 +278,7 @@ class CachedBake {
   double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
     double sum = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
-      if (samples[i] >= most && !keeps(i)) sum += relative_[i] * texels_.seen(i);
+      if (samples[i] >= most && !keeps(i)) sum += squares_[i];
     const double mean = baked_ > 0 ? sum / baked_ : 0;
     return mean > goal ? mean : 0;
   }
@@ -378,22 +375,24 @@ class CachedBake {
   std::optional<Reuse> reuse_;      // of the bake before
   std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
   Hash128 known_name_;
-  KnownLight known_now_;         // for the next bake
-  double target_;                // the error to refine to
-  std::vector<float> relative_;  // by texel: squared relative error of the part being refined
-  DVec3 mean_{0};                // lux, over texels that see light
-  std::size_t count_ = 0;        // of them
-  double baked_ = 0;             // what is seen of those that do not keep their light, in texels
+  KnownLight known_now_;  // for the next bake
+  FrameError frames_;
+  double target_;                  // the error to refine to
+  std::vector<float> shares_;      // of frames that a texel fills, as its surroundings tell
+  std::vector<bool> little_seen_;  // by texel
+  std::vector<float> squares_;     // by texel: its part of the mean square, of the light being refined
+  DVec3 mean_{0};                  // lux, over texels that see light
+  double baked_ = 0;               // share of frames that texels fill which do not keep their light
   bool ended_early_ = false;
 };
 
 }  // namespace
 
 Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                   const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
-                   Radiosity& result, const NextRefinement& next) {
-  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays));
-  CachedBake bake(t, atlas, texel_map, options, context, rays, texels);
+                   std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
+                   std::atomic<std::uint64_t>& rays, Radiosity& result, const NextRefinement& next) {
+  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays, options.eyes));
+  CachedBake bake(t, atlas, texel_map, pixels, options, context, rays, texels);
   return bake.run(result, next);
 }
 

@@ -1,6 +1,7 @@
 // The `cached` estimator: bounces live in the lightmap, and one final gather refines them.
 #pragma once
 
+#include "bake/radiosity/frames/frame_pixels.h"
 #include "bake/radiosity/radiosity.h"
 
 namespace oriel {
@@ -14,10 +15,11 @@ struct Refinement {
 // Asked when the estimate stands in the result.
 using NextRefinement = std::function<Result<Refinement>()>;
 
-// Fills pages (empty ones of the texel map's sizes, each time anew), visible and the report's samples and sweeps, until
-// `next` says that it is enough. Error kStopped; kInvalid where light does not die away.
+// Effort goes where `pixels` look. Fills pages (empty ones of the texel map's sizes, each time anew), visible and the
+// report's samples and sweeps, until `next` says that it is enough. Error kStopped; kInvalid where light does not die
+// away.
 Status bake_cached(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                   const RadiosityOptions& options, Context& context, std::atomic<std::uint64_t>& rays,
-                   Radiosity& result, const NextRefinement& next);
+                   std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
+                   std::atomic<std::uint64_t>& rays, Radiosity& result, const NextRefinement& next);
 
 }  // namespace oriel

@@ -25,7 +25,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context);
 
 // Refinement that chose texels by their own noisy errors would stop where chance made them small, and state them too
-// small: it goes by wide surroundings (about 130 texels). `errors` of one sample.
+// small: it goes by wide surroundings (about 130 texels). `errors` of one sample. Their sum stays.
 std::vector<float> typical_errors(const TexelGraph& graph, std::vector<float> errors, Context& context);
 
 // Squared errors pooled over each texel's surroundings, half of them near (about 33 texels), half wide (130): in a

@@ -6,18 +6,25 @@
 namespace oriel {
 
 struct WorstOptions {
-  double goal = 0;    // squared relative error asked for, mean over what is seen
-  double excess = 0;  // sum of squared relative errors, each by what is seen of the texel, that is to go
+  double goal = 0;    // mean square asked for
+  double excess = 0;  // of it that is to go
   double gain = 0.5;  // part of a texel's that its refinement takes away
 };
 
 // Of `open` (in coherent_order) those, in that order, whose refinement takes the excess away at the least cost: the
 // worst first, by what their surroundings tell of them, since texels chosen by their own noisy errors would stop where
-// chance made these small. Those twice as good as asked are left alone: they cannot make up for a few that stay bad.
-// squares: squared relative error by texel; samples: what it has so far, which doubling costs once more.
-std::vector<std::uint32_t> worst_texels(const Texels& texels, const TexelGraph& graph,
-                                        std::span<const std::uint32_t> open, const std::vector<float>& squares,
+// chance made these small, and those between the pixels that tell of errors would be forgotten. Those twice as good as
+// asked are left alone: they cannot make up for a few that stay bad.
+// By texel: squares, its part of the mean square; shares, of frames that it fills, as its surroundings tell; samples,
+// what it has so far, which doubling costs once more.
+std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
+                                        const std::vector<float>& squares, const std::vector<float>& shares,
                                         const std::vector<std::uint32_t>& samples, const WorstOptions& options,
                                         Context& context);
+
+// Of `texels` those that fill the least of frames, which together would add no more than `square` to the mean square
+// were all their light wrong. By texel. Bounces are carried by coarser patches with rays of their own: what these
+// texels get beside it are a few rays each. None where no error is asked for (square 0).
+std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& shares, double square);
 
 }  // namespace oriel

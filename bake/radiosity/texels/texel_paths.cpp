@@ -18,13 +18,7 @@ void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, s
     const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
     if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
-    const IrradianceSample e = sample_irradiance(t_, surface, sampler, rays, directional_);
-    const DVec3 value(e.direct + e.indirect);
-    sums.sum += value;
-    sums.squares += value * value;
-    sums.vector += DVec3(e.vector);
-    sums.mean += e.mean;
-    ++sums.count;
+    sums.add(sample_irradiance(t_, surface, sampler, rays, directional_));
   }
 }
 

@@ -8,13 +8,21 @@
 
 namespace oriel {
 
-// What the paths of one texel found, lux.
+// What the paths of one texel or point found, lux.
 struct TexelSums {
   DVec3 sum{0}, squares{0};
   DVec3 vector{0};  // of luminance, as IrradianceSample's
   double mean = 0;
   std::uint32_t count = 0;  // paths; fewer than asked where points are buried
 
+  void add(const IrradianceSample& e) {
+    const DVec3 value(e.direct + e.indirect);
+    sum += value;
+    squares += value * value;
+    vector += DVec3(e.vector);
+    mean += e.mean;
+    ++count;
+  }
   DVec3 irradiance() const { return count > 0 ? sum / double(count) : DVec3(0); }
   // Squared standard error of irradiance(). One path says nothing of its spread: its error is taken to be as large as
   // itself.

@@ -33,8 +33,9 @@ inline constexpr int kHalves = 2;
 inline constexpr int kSitesPerHalf = 4;
 inline constexpr int kSites = kHalves * kSitesPerHalf;
 
-// Gaps behind panels and under plinths are narrower than texels; rays in them end within so many of these.
-inline constexpr float kGapTexels = 4;
+// Gaps behind panels and under plinths are narrower than texels; rays in them end within so many of these, and within
+// so many metres: closets are no gaps, however large the texels of what nobody sees.
+inline constexpr float kGapTexels = 4, kGapReach_m = 0.2f;
 
 struct Texels {
   // By texel.
@@ -54,8 +55,15 @@ struct Texels {
   std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (direct/onlookers.h)
 
   std::size_t count() const { return page.size(); }
+  std::vector<bool> has_light() const {
+    std::vector<bool> has;
+    for (const float share : visible) has.push_back(share > 0);
+    return has;
+  }
   // How far a ray leaves a point that lies in no gap, m.
-  float gap_reach(std::size_t i) const { return kGapTexels * std::sqrt(area_m2[i] / std::max(covered[i], 0.1f)); }
+  float gap_reach(std::size_t i) const {
+    return std::min(kGapReach_m, kGapTexels * std::sqrt(area_m2[i] / std::max(covered[i], 0.1f)));
+  }
   float seen(std::size_t i) const { return covered[i] * visible[i]; }  // seen_share()
 
   std::uint32_t kept_sites(std::uint32_t i, int half) const {

@@ -97,7 +97,7 @@ TEST(TexelDemand, BlackThingsThatShineHaveNoTexels) {
   parts.quad("screen", parts.add(screen), {0, 0, 6}, {1, 0, 0}, {0, 1, 0});
   const Scene scene = parts.finish();
   Context context;
-  const auto atlas = build_atlas(scene, {}, context);
+  const auto atlas = build_atlas(scene, {}, context, demand({1, 1, 1}));
   ASSERT_TRUE(atlas);
   EXPECT_GE(atlas->page[0], 0);
   EXPECT_EQ(atlas->page[2], -1);

@@ -1,4 +1,4 @@
-// Do stated errors tell the truth? Bakes with different seeds beside converged unbiased paths.
+// Do stated errors tell the truth? Pixels of bakes with different seeds beside converged unbiased paths.
 #pragma once
 
 #include "tests/bake/radiosity/baked.h"
@@ -7,7 +7,8 @@ namespace oriel::test {
 
 struct CalibrationOptions {
   RadiosityOptions cached;
-  std::uint32_t truth_samples = 4096;
+  std::uint32_t truth_samples = 4096;  // paths a pixel
+  std::uint32_t pixels = 2048;         // about
   float texel_m = 0.2f;
   int bakes = 6;
   double claimed = 1;  // share of the stated errors that is taken for them: below 1, a liar
@@ -16,13 +17,11 @@ struct CalibrationOptions {
     cached.estimator = Estimator::kCached;
     cached.samples = 4096;
     cached.error = 0.05;
-    cached.dilation = 0;
-    cached.stitch = false;
   }
 };
 
 struct Calibration {
-  double covered = 0;  // share of texels and channels whose 95 % interval holds the truth
+  double covered = 0;  // share of pixels and channels whose 95 % interval holds the truth
   double error = 0;    // measured, as RadiosityOptions::error has it
   double stated = 0;   // RadiosityReport::relative_error, rms over the bakes
   double truth = 0;    // the truth's own error

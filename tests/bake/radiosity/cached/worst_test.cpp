@@ -8,31 +8,29 @@
 namespace oriel {
 namespace {
 
-// Texels without neighbours, all seen and equally bad, with 4 samples each.
+// Texels without neighbours, equally seen and bad, with 4 samples each.
 struct Alike {
-  Texels texels;
   TexelGraph graph;
   std::vector<std::uint32_t> order;
-  std::vector<float> squares;
+  std::vector<float> squares, shares;
   std::vector<std::uint32_t> samples;
   Context context;
 
-  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), samples(n, 4) {
+  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), shares(n, 1), samples(n, 4) {
     std::iota(order.begin(), order.end(), 0u);
-    texels.visible.assign(n, 1), texels.covered.assign(n, 1);
     graph.neighbour.resize(n), graph.count.assign(n, 0);
   }
   std::vector<std::uint32_t> worst(const WorstOptions& options) {
-    return worst_texels(texels, graph, order, squares, samples, options, context);
+    return worst_texels(graph, order, squares, shares, samples, options, context);
   }
 };
 
 TEST(WorstTexels, AreThoseThatGainMostForTheirRays) {
   Alike a(4);
-  a.texels.covered[0] = 0.2f;  // a sliver
-  a.samples[1] = 64;           // dear
-  a.squares[2] = 0.02f;        // better
-  // What refining one whole texel takes away is 0.02, of the sliver 0.004.
+  a.shares[0] *= 0.2f, a.squares[0] *= 0.2f;  // little seen
+  a.samples[1] = 64;                          // dear
+  a.squares[2] = 0.02f;                       // better
+  // What refining one whole texel takes away is 0.02, of the little seen one 0.004.
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.015}), (std::vector<std::uint32_t>{3}));
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.025}), (std::vector<std::uint32_t>{2, 3}));
   EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.032}), (std::vector<std::uint32_t>{0, 2, 3}));

@@ -1,0 +1,66 @@
+// The error that people see in a pack's light, whoever baked it: held-out pixels against unbiased paths.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "bake/radiosity/certificate.h"
+#include "bake/run/pipeline.h"
+#include "bake/run/stages/prepare.h"
+#include "formats/pack/reader.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kEyes = 1024, kPixels = 64;
+constexpr std::uint64_t kSeed = 0xbe9c;  // of no bake
+
+Result<Certificate> measure(const BakeOptions& options, double known_to, std::uint64_t rays_at_most) {
+  Context context;
+  std::vector<StageTime> times;
+  Stopwatch timed(times);
+  ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
+  ORIEL_TRY_VOID(lay_out_lightmap(options.atlas, timed, context, prepared));
+  ORIEL_TRY(const Pack pack, read_pack(options.output));
+  const Atlas& atlas = prepared.atlas;
+  bool same = pack.lightmaps.size() == atlas.pages.size();
+  for (std::size_t p = 0; same && p < atlas.pages.size(); ++p)
+    same = pack.lightmaps[p].width == atlas.pages[p].width && pack.lightmaps[p].height == atlas.pages[p].height;
+  if (!same)
+    return invalid(options.output.string(), "found pages of another layout than the scene's with this --texel");
+  const LightSet lights(prepared.scene());
+  const Transport transport{*prepared.accel, lights, path_options(options)};
+  context.seed = kSeed;
+  ORIEL_TRY(const EyeRegion region, find_eye_region(*prepared.accel, options.eyes, context));
+  ORIEL_TRY(const std::vector<FramePixel> pixels,
+            find_frame_pixels(transport, atlas, held_out_eyes(region, kEyes, kSeed), kPixels, kSeed, context));
+  return certify(transport, atlas, prepared.texel_map, pack.lightmaps, pixels, Ask::kPoints, known_to, rays_at_most,
+                 context);
+}
+
+int bench(int argc, char** argv) {
+  CLI::App app("Prints the frame error of a pack's lightmap (docs/radiosity.md) with its 95 % interval.");
+  BakeOptions options;
+  std::string texel = "10cm";
+  double known_to = 0.02, rays = 2e8;
+  app.add_option("scene", options.scene)->required();
+  app.add_option("pack", options.output, "baked of that scene")->required();
+  app.add_option("--texel", texel, "that it was baked with")->capture_default_str();
+  app.add_option("--known-to", known_to, "error whose square is to be known to a fifth")->capture_default_str();
+  app.add_option("--rays", rays, "at most")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const auto texel_m = parse_length(texel);
+  if (!texel_m) return std::fprintf(stderr, "%s\n", texel_m.error().text().c_str()), 1;
+  options.atlas.texel_m = *texel_m;
+  const auto c = measure(options, known_to, static_cast<std::uint64_t>(rays));
+  if (!c) return std::fprintf(stderr, "%s\n", c.error().text().c_str()), static_cast<int>(c.error().code);
+  std::printf("frame error %.2f %% (%.2f to %.2f %%), %+.2f %% ± %.2f %% brighter, %zu pixels, %.1f Mrays\n",
+              100 * c->relative_error, 100 * c->error_low, 100 * c->error_high, 100 * c->bias, 100 * c->bias_interval,
+              c->pixels, static_cast<double>(c->rays) * 1e-6);
+  return 0;
+}
+
+}  // namespace
+}  // namespace oriel
+
+int main(int argc, char** argv) {
+  return oriel::bench(argc, argv);
+}
