@@ -18,7 +18,7 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
   std::vector<StageTime> times;
   Stopwatch timed(times);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  ORIEL_TRY_VOID(lay_out_lightmap(options.atlas, timed, context, prepared));
+  ORIEL_TRY_VOID(lay_out_lightmap(options, timed, context, prepared));
   ORIEL_TRY(const Pack pack, read_pack(options.output));
   const Atlas& atlas = prepared.atlas;
   bool same = pack.lightmaps.size() == atlas.pages.size();
@@ -29,9 +29,8 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
   const LightSet lights(prepared.scene());
   const Transport transport{*prepared.accel, lights, path_options(options)};
   context.seed = kSeed;
-  ORIEL_TRY(const EyeRegion region, find_eye_region(*prepared.accel, options.eyes, context));
   ORIEL_TRY(const std::vector<FramePixel> pixels,
-            find_frame_pixels(transport, atlas, held_out_eyes(region, kEyes, kSeed), kPixels, kSeed, context));
+            find_frame_pixels(transport, atlas, held_out_eyes(prepared.region, kEyes, kSeed), kPixels, kSeed, context));
   return certify(transport, atlas, prepared.texel_map, pack.lightmaps, pixels, Ask::kPoints, known_to, rays_at_most,
                  context);
 }
@@ -39,7 +38,7 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
 int bench(int argc, char** argv) {
   CLI::App app("Prints the frame error of a pack's lightmap (docs/radiosity.md) with its 95 % interval.");
   BakeOptions options;
-  std::string texel = "10cm";
+  std::string texel = "auto";
   double known_to = 0.02, rays = 2e8;
   app.add_option("scene", options.scene)->required();
   app.add_option("pack", options.output, "baked of that scene")->required();
@@ -47,9 +46,10 @@ int bench(int argc, char** argv) {
   app.add_option("--known-to", known_to, "error whose square is to be known to a fifth")->capture_default_str();
   app.add_option("--rays", rays, "at most")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const auto texel_m = parse_length(texel);
+  const auto texel_m = parse_texel(texel);
   if (!texel_m) return std::fprintf(stderr, "%s\n", texel_m.error().text().c_str()), 1;
-  options.atlas.texel_m = *texel_m;
+  options.choose_texel = *texel_m == 0;
+  if (!options.choose_texel) options.atlas.texel_m = *texel_m;
   const auto c = measure(options, known_to, static_cast<std::uint64_t>(rays));
   if (!c) return std::fprintf(stderr, "%s\n", c.error().text().c_str()), static_cast<int>(c.error().code);
   std::printf("frame error %.2f %% (%.2f to %.2f %%), %+.2f %% ± %.2f %% brighter, %zu pixels, %.1f Mrays\n",
