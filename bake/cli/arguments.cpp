@@ -77,11 +77,12 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
          "times less work) or reference (unbiased paths from every texel, to check the other against)")
       ->check(CLI::IsMember({"cached", "reference"}))
       ->capture_default_str();
-  auto* error = app.add_option("--error", texts.error,
-                               "The error asked for: root mean square over what is seen of texels, relative, dark ones "
-                               "by 1 % of the mean. Work stops there")
-                    ->check(checked(parse_fraction, "SHARE"))
-                    ->capture_default_str();
+  auto* error =
+      app.add_option("--error", texts.error,
+                     "The error asked for, as people see it: root mean square over the pixels that eyes in the "
+                     "scene see, relative, dark ones to a tenth of the mean. Work stops there")
+          ->check(checked(parse_fraction, "SHARE"))
+          ->capture_default_str();
   texts.error_option = error;
   app.add_option(
          "--time", texts.time,
@@ -92,7 +93,7 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->check(checked(parse_duration, "TIME"));
   app.add_option(
          "--verify", texts.verify,
-         "After the lightmap, measure its error on held-out texels by unbiased paths: with so many of the bake's "
+         "After the lightmap, measure its error on held-out pixels by unbiased paths: with so many of the bake's "
          "rays, or off. What misses --error by a tenth is refined")
       ->check(checked(parse_verify, "SHARE|off"))
       ->capture_default_str();

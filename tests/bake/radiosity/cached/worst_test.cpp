@@ -44,5 +44,13 @@ TEST(WorstTexels, AreNotThoseThatAreTwiceAsGoodAsAsked) {
   EXPECT_TRUE(a.worst({.goal = 0.2, .excess = 1}).empty());
 }
 
+TEST(LittleSeen, AreThoseThatTogetherFillLittle) {
+  const std::vector<float> shares = {0.5f, 0.002f, 0, 0.001f, 0.497f};
+  const std::vector<std::uint32_t> all = {0, 1, 2, 3, 4};
+  EXPECT_EQ(little_seen(all, shares, 0.0035), (std::vector<bool>{false, true, true, true, false}));
+  EXPECT_EQ(little_seen(all, shares, 0.0025), (std::vector<bool>{false, false, true, true, false}));
+  EXPECT_EQ(little_seen(all, shares, 0), std::vector<bool>(5)) << "no error was asked for: all count";
+}
+
 }  // namespace
 }  // namespace oriel
