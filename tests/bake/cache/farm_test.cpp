@@ -88,10 +88,10 @@ TEST_F(Farm, ARepeatedBakeComputesNothingAndAnEditWhatItTouches) {
   EXPECT_LE(units("seed.oriel", "reused"), 5) << "kernels and the like know no seed";
 }
 
-TEST_F(Farm, AnotherCameraComputesNothing) {
+// Where cameras stand is where people's eyes are, and texels and effort follow these; what they frame changes nothing.
+TEST_F(Farm, AnotherFieldOfViewComputesNothing) {
   ASSERT_EQ(finish(bake("a.oriel", " --only radiosity")), 0);
-  replace_in_scene("0.6860479116439819", "0.4860479116439819");    // its field of view
-  replace_in_scene("0.27300000190734863", "0.29300000190734863");  // its height
+  replace_in_scene("0.6860479116439819", "0.4860479116439819");
   ASSERT_EQ(finish(bake("b.oriel", " --only radiosity")), 0);
   EXPECT_EQ(units("b.oriel", "computed"), 0);
   EXPECT_GT(units("b.oriel", "reused"), 0);
