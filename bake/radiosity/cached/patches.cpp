@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kGroup = 64;   // patches whose rays of one number are traced together
 constexpr double kWhole = 1 + 1e-6;  // of the light, and what rounding adds
+constexpr double kDim = 1e-4;        // of the mean: what is darker need not be done
 constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
 constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
 constexpr double kEndless = 0.1;     // a bound on further bounces from which light is said not to die away
@@ -193,7 +194,12 @@ class Solver {
   }
 
   // Adds what one sweep finds to `next`; returns the norm of the change.
-  double sweep_once(Context& context, const std::vector<Vec3>& now, std::vector<Vec3>& next);
+  // `share`: of each patch's own light (and `floor`), weighed by area. A sunlit wall outside is done after a bounce,
+  // and its light would drown a room's that is not.
+  struct Change {
+    double absolute = 0, share = 0;
+  };
+  Change sweep_once(Context& context, const std::vector<Vec3>& now, double floor, std::vector<Vec3>& next);
   // Sweeps from the dark until little is missing or there is enough; watches: or until their changes grow.
   enum class End { kDone, kGrows, kStopped };
   End run(Context& context, bool watches, Sweeps& result);
@@ -210,9 +216,10 @@ class Solver {
   std::vector<Vec3> solution_;           // by patch
 };
 
-double Solver::sweep_once(Context& context, const std::vector<Vec3>& now, std::vector<Vec3>& next) {
+Solver::Change Solver::sweep_once(Context& context, const std::vector<Vec3>& now, double floor,
+                                  std::vector<Vec3>& next) {
   constexpr std::size_t kRun = 256;
-  std::vector<double> change((patches_.size() + kRun - 1) / kRun);
+  std::vector<Change> change((patches_.size() + kRun - 1) / kRun);
   (void)parallel_for(context, "", change.size(), [&](std::size_t run) {
     for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
       // In double: a hundred bounces between white walls add up a hundred roundings.
@@ -220,11 +227,13 @@ double Solver::sweep_once(Context& context, const std::vector<Vec3>& now, std::v
       for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
       next[p] = Vec3(sum);
       const Vec3 d = glm::abs(next[p] - now[p]);
-      change[run] += patches_[p].area_m2 * (d.r + d.g + d.b);
+      const double moved = double{d.r} + d.g + d.b, light = double{next[p].r} + next[p].g + next[p].b + floor;
+      change[run].absolute += patches_[p].area_m2 * moved;
+      if (light > 0) change[run].share += patches_[p].area_m2 * moved / light;
     }
   });
-  double total = 0;
-  for (const double c : change) total += c;
+  Change total;
+  for (const Change& c : change) total.absolute += c.absolute, total.share += c.share;
   return total;
 }
 
@@ -246,22 +255,26 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
   const int most = options_.most > 0 ? options_.most : around_.transport().options.max_bounces;
   std::vector<Vec3> next(patches_.size());
   solution_.assign(patches_.size(), Vec3(0));
-  double before = 0;
+  double area = 0, scale = 0;
+  for (const Patch& patch : patches_) area += patch.area_m2;
+  Change before;
+  // A geometric tail, from the ratio q of the last two changes; the first sweep only has its own size to go by.
+  const auto tail = [](double change, double q, double of) { return q < 1 ? change / of * q / (1 - q) : change / of; };
+  const auto ratio = [](double change, double last) { return last > 0 ? change / last : 1; };
   for (result.count = 1;; ++result.count) {
-    const double change = sweep_once(context, solution_, next);
+    const Change change = sweep_once(context, solution_, area > 0 ? kDim * scale / area : 0, next);
     if (context.stopped()) return End::kStopped;
     solution_.swap(next);
-    double scale = 0;
+    scale = 0;
     for (std::size_t p = 0; p < patches_.size(); ++p)
       scale += patches_[p].area_m2 * (solution_[p].r + solution_[p].g + solution_[p].b);
-    if (watches && !std::isfinite(change)) return End::kGrows;
-    if (!(change > 0) || !(scale > 0)) return End::kDone;
-    // A geometric tail, from the ratio of the last two changes; the first sweep only has its own size to go by.
-    const double q = before > 0 ? change / before : 1;
+    if (watches && !std::isfinite(change.absolute)) return End::kGrows;
+    if (!(change.absolute > 0) || !(scale > 0)) return End::kDone;
+    const double q = ratio(change.absolute, before.absolute), q_share = ratio(change.share, before.share);
     result.growth = q;
-    result.tail = q < 1 ? change / scale * q / (1 - q) : change / scale;
+    result.tail = std::max(tail(change.absolute, q, scale), tail(change.share, q_share, area));
     before = change;
-    if (q < 1 && result.tail < options_.tolerance) return End::kDone;
+    if (q < 1 && q_share < 1 && result.tail < options_.tolerance) return End::kDone;
     if (watches && q > 1 && result.count >= kPatience) return End::kGrows;
     if (result.count >= most) return End::kDone;
     if (result.count >= kHasty && options_.enough && options_.enough()) return End::kDone;
@@ -270,8 +283,8 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
 
 std::size_t Solver::bound_growing(Context& context) {
   std::vector<Vec3> now(patches_.size()), next(patches_.size());
-  (void)sweep_once(context, solution_, now);
-  (void)sweep_once(context, now, next);
+  (void)sweep_once(context, solution_, 0, now);
+  (void)sweep_once(context, now, 0, next);
   std::size_t bounded = 0;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);

@@ -57,6 +57,22 @@ TEST_P(CachedFurnace, EveryTexelIsTheSeries) {
 INSTANTIATE_TEST_SUITE_P(Shapes, CachedFurnace,
                          testing::Combine(testing::Bool(), testing::Values(0.0f, 0.5f, 0.9f, 0.99f)));
 
+// The same box beside a wall in light a hundred thousand times as strong, which is done after one bounce: the box is
+// not.
+TEST(Cached, ARoomIsNotCutShortByTheSunOutside) {
+  SceneParts parts;
+  parts.box("box", parts.diffuse(Vec3(0.9f), Vec3(1)), Vec3(-1), Vec3(1), true);
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1e5f)), {5, 0, -5}, {0, 10, 0}, {0, 0, 10});
+  parts.quad("wall", parts.diffuse(Vec3(0.5f)), {9, 0, -5}, {0, 0, 10}, {0, 10, 0});
+  const Baked b = bake(parts.finish(), 0.25f, cached(256));
+  double sum = 0, count = 0;
+  b.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t triangle) {
+    if (b.scene.triangle_surface[triangle] == 0) sum += page.irradiance[t].g * (1 - 0.9) / kPiD, ++count;
+  });
+  ASSERT_GT(count, 0);
+  EXPECT_NEAR(sum / count, 1, 5e-3);
+}
+
 // Mean of the light by surface, against unbiased paths: within 0.3 %, four standard errors of independent texels and
 // one of texels among which the filter spread their noise.
 class CachedAgrees : public testing::TestWithParam<Feature> {};
