@@ -60,7 +60,7 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   ORIEL_TRY(const MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
   ORIEL_TRY(const FoundReflections reflections, timed("reflectors", [&](auto&) {
-              return find_reflections(options, *prepared.accel, prepared.region, materials.summaries, context);
+              return find_reflections(options, prepared, materials.summaries, context);
             }));
   const ViewShares views = look_around(*prepared.accel, reflections.eyes, context.seed);
   const CensusInput input{options, prepared, lights, materials, reflections, views.front};

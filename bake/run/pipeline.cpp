@@ -196,8 +196,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   PlannedReflections planned;
   if (options.with_radiance) {
     ORIEL_TRY(planned, timed("views", [&](auto&) {
-                return plan_reflections(options, accel, lights, prepared.region, materials,
-                                        kMostForViews * deadline.left(), context);
+                return plan_reflections(options, prepared, lights, materials, kMostForViews * deadline.left(), context);
               }));
   }
   AssembledMesh mesh = assemble_mesh(scene, atlas);

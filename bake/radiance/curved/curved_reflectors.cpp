@@ -1,6 +1,8 @@
 #include "bake/radiance/curved/curved_reflectors.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -10,7 +12,9 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kMinSide = 32;  // of maps that are made smaller
+constexpr std::uint32_t kMinSide = 32;               // of maps that are made smaller
+constexpr double kNobodySees_m = 1e9;                // as far away as that is what no eye was found to see
+constexpr double kPixelsPerRad = 720 / (kPi / 3.0);  // of a frame
 
 std::uint32_t material_of(const Scene& scene, std::uint32_t triangle) {
   return scene.surfaces[scene.triangle_surface[triangle]].material;
@@ -107,11 +111,17 @@ double area_of(const Scene& scene, const std::vector<std::uint32_t>& triangles) 
   return area;
 }
 
-void keep_most_important(std::span<const ReflectorMaterial> materials, std::uint32_t limit,
+SeenOfTriangle seen_of(std::span<const SeenOfTriangle> seen, const std::vector<std::uint32_t>& triangles) {
+  SeenOfTriangle sum;
+  for (const std::uint32_t t : triangles) sum.pixels += seen[t].pixels, sum.inverse_square += seen[t].inverse_square;
+  return sum;
+}
+
+void keep_most_important(std::span<const ReflectorMaterial> materials, bool eyes_known, std::uint32_t limit,
                          FoundCurvedReflectors& found) {
   const auto importance = [&](const FoundCurvedReflector& f) {
     const ReflectorMaterial& m = materials[f.reflector.material];
-    return reflectance_at_60_deg(m) * f.area_m2 * (1 - m.roughness);
+    return reflectance_at_60_deg(m) * (eyes_known ? double{f.seen.pixels} : f.area_m2) * (1 - m.roughness);
   };
   auto& list = found.reflectors;
   std::stable_sort(list.begin(), list.end(), [&](const FoundCurvedReflector& a, const FoundCurvedReflector& b) {
@@ -125,12 +135,18 @@ void keep_most_important(std::span<const ReflectorMaterial> materials, std::uint
 }
 
 // Their centres were set; halves the maps of the least important until all fit.
-void choose_sizes(std::span<const ReflectorMaterial> materials, std::uint64_t memory_bytes,
+void choose_sizes(std::span<const ReflectorMaterial> materials, bool eyes_known, std::uint64_t memory_bytes,
                   FoundCurvedReflectors& found) {
   std::uint64_t texels = 0;
   std::size_t halved = 0;
   for (std::size_t i = 0; i < found.maps.size(); ++i) {
-    const std::uint32_t size = surround_resolution(materials[found.reflectors[i].reflector.material].roughness);
+    const FoundCurvedReflector& f = found.reflectors[i];
+    std::uint32_t size = surround_resolution(materials[f.reflector.material].roughness);
+    if (eyes_known) {
+      const double distance =
+          f.seen.inverse_square > 0 ? std::sqrt(f.seen.pixels / f.seen.inverse_square) : kNobodySees_m;
+      size = std::min(size, surround_resolution_for_eyes(f.diagonal_m, distance));
+    }
     found.maps[i].size = size;
     texels += std::uint64_t{size} * size;
   }
@@ -155,9 +171,14 @@ std::uint32_t surround_resolution(float roughness) {
   return roughness <= 0.2f ? 256 : 128;
 }
 
+std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m) {
+  const double texels = 1.8 * kPixelsPerRad * diagonal_m / std::max(distance_m, diagonal_m / 2);
+  return std::bit_ceil(std::max(kMinSide, static_cast<std::uint32_t>(texels)));
+}
+
 FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const std::uint32_t> triangles,
                                              std::span<const ReflectorMaterial> materials,
-                                             const CurvedOptions& options) {
+                                             std::span<const SeenOfTriangle> seen, const CurvedOptions& options) {
   FoundCurvedReflectors out;
   std::size_t small = 0;
   std::string smallest;
@@ -173,6 +194,8 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
       found.reflector.material = surface.material;
       found.reflector.map = static_cast<std::uint32_t>(out.maps.size());
       found.area_m2 = area_of(scene, piece.triangles);
+      found.diagonal_m = glm::length(piece.upper - piece.lower);
+      if (!seen.empty()) found.seen = seen_of(seen, piece.triangles);
       found.triangles = std::move(piece.triangles);
       found.object = static_cast<std::uint32_t>(out.objects.size());
       out.maps.emplace_back().centre = 0.5f * (piece.lower + piece.upper);
@@ -183,14 +206,14 @@ FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const
   if (small > 0)
     out.omitted.push_back(fmt::format("{} curved pieces ('{}'{}): smaller than {:.3g} m", small, smallest,
                                       small > 1 ? " and others" : "", options.min_extent_m));
-  keep_most_important(materials, options.max_reflectors, out);
+  keep_most_important(materials, !seen.empty(), options.max_reflectors, out);
   std::vector<SurroundMap> maps;
   for (FoundCurvedReflector& found : out.reflectors) {
     maps.push_back(std::move(out.maps[found.reflector.map]));
     found.reflector.map = static_cast<std::uint32_t>(maps.size() - 1);
   }
   out.maps = std::move(maps);
-  choose_sizes(materials, options.memory_bytes, out);
+  choose_sizes(materials, !seen.empty(), options.memory_bytes, out);
   return out;
 }
 

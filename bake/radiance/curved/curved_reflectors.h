@@ -7,11 +7,17 @@
 namespace oriel {
 
 struct CurvedOptions {
-  std::uint32_t max_reflectors = 32;  // the largest by reflectance * area * (1 - roughness) are kept
+  std::uint32_t max_reflectors = 32;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
   float min_extent_m = 0.05f;         // diagonal of the bounds: smaller ones are not seen
   float max_extent_m = 2;             // longest side of the bounds: larger ones see too much from their middle, so
   std::uint32_t max_pieces = 8;       // they are cut into at most so many pieces
   std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps in the pack, kMapBytesPerPixel each
+};
+
+// What eyes see of a triangle.
+struct SeenOfTriangle {
+  float pixels = 0;          // their unit cancels out
+  float inverse_square = 0;  // Σ 1/d² of these, d the distance from the eye in metres
 };
 
 struct FoundCurvedReflector {
@@ -19,6 +25,8 @@ struct FoundCurvedReflector {
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
   std::uint32_t object = 0;              // into FoundCurvedReflectors::objects
   double area_m2 = 0;
+  double diagonal_m = 0;  // of its bounds
+  SeenOfTriangle seen;    // of all of them
 };
 
 // A connected shiny surface.
@@ -37,11 +45,18 @@ struct FoundCurvedReflectors {
 // Texels of a map's side for a lobe of that roughness: a mirror 512, wider lobes fewer.
 std::uint32_t surround_resolution(float roughness);
 
+// Texels of a map's side, a power of two of 32 or more, for a piece of that diagonal seen from that far, m, on a frame
+// of 720 pixels and 60°. A mirroring sphere N pixels across turns the reflected direction by 4/N rad a pixel in its
+// middle, and a map of S² texels has √(4π)/S rad a texel: S = 0.9 N. Twice that, for pieces half as bent as a sphere.
+std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m);
+
 // `triangles` (FoundReflectors::unplanar) that share positions and a material make an object; one that is too large is
-// cut across its longest side. Each piece sees its surroundings from the middle of its bounds. Where the maps need more
-// than memory_bytes, those of the least important reflectors are halved first. The order depends on the scene only.
+// cut across its longest side. Each piece sees its surroundings from the middle of its bounds. `seen`: by triangle of
+// the scene; empty: nothing is known of eyes, area stands for what they see and maps are as fine as lobes show. Where
+// the maps need more than memory_bytes, those of the least important reflectors are halved first. The order depends on
+// the arguments only.
 FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const std::uint32_t> triangles,
                                              std::span<const ReflectorMaterial> materials,
-                                             const CurvedOptions& options = {});
+                                             std::span<const SeenOfTriangle> seen, const CurvedOptions& options = {});
 
 }  // namespace oriel

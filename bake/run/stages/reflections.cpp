@@ -205,6 +205,12 @@ OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const Outgoin
   };
 }
 
+std::vector<SeenOfTriangle> seen_triangles(const TexelDemand& demand) {
+  std::vector<SeenOfTriangle> seen;
+  for (const TriangleDemand& t : demand.triangles) seen.push_back({t.pixels, t.inverse_square});
+  return seen;
+}
+
 // Of the units found so far, what computing them once took, over all threads.
 double reused_s(const Context& context) {
   return context.units ? context.units->share().reused_s : 0;
@@ -212,10 +218,11 @@ double reused_s(const Context& context) {
 
 }  // namespace
 
-Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel, const EyeRegion& region,
+Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
                                           std::span<const MaterialSummary> materials, Context& context) {
+  const Accel& accel = *prepared.accel;
   FoundReflections all;
-  all.region = region;
+  all.region = prepared.region;
   if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
@@ -223,16 +230,18 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Acce
   ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
-  all.curved = find_curved_reflectors(accel.scene(), all.found.unplanar, all.lobes, curved);
+  all.curved =
+      find_curved_reflectors(accel.scene(), all.found.unplanar, all.lobes, seen_triangles(prepared.demand), curved);
   append(all.omissions, all.curved.omitted);
   return all;
 }
 
-Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
-                                            const EyeRegion& region, const MaterialMaps& materials, double seconds,
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
                                             Context& context) {
+  const Accel& accel = *prepared.accel;
   PlannedReflections planned;
-  ORIEL_TRY(planned.all, find_reflections(options, accel, region, materials.summaries, context));
+  ORIEL_TRY(planned.all, find_reflections(options, prepared, materials.summaries, context));
   const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};

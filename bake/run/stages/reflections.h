@@ -8,6 +8,7 @@
 #include "bake/run/options.h"
 #include "bake/run/stages/baked_light.h"
 #include "bake/run/stages/judge.h"
+#include "bake/run/stages/prepare.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -23,9 +24,9 @@ struct FoundReflections {
   bool empty() const { return found.reflectors.empty() && curved.reflectors.empty(); }
 };
 
-// Finds the reflectors of a scene that eyes of a region see. Traces no ray where no material may be one. Error
-// kStopped.
-Result<FoundReflections> find_reflections(const BakeOptions& options, const Accel& accel, const EyeRegion& region,
+// Finds the reflectors of a scene that eyes of its region see, once its lightmap is laid out. Traces no ray where no
+// material may be one. Error kStopped.
+Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
                                           std::span<const MaterialSummary> materials, Context& context);
 
 struct ReflectionReport {
@@ -52,8 +53,8 @@ struct PlannedReflections {
 // Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
-Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Accel& accel, const LightSet& lights,
-                                            const EyeRegion& region, const MaterialMaps& materials, double seconds,
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
                                             Context& context);
 
 // Nothing is captured, and the reason is among the omissions.

@@ -28,7 +28,7 @@ FoundCurvedReflectors find(const test::MirrorRoom& room, const CurvedOptions& op
   const auto accel = Accel::build(room.scene);
   if (!accel) return {};
   const auto flat = find_reflectors(*accel, room.materials(), room.reflector_options());
-  return find_curved_reflectors(room.scene, flat.unplanar, room.materials(), options);
+  return find_curved_reflectors(room.scene, flat.unplanar, room.materials(), {}, options);
 }
 
 FoundCurvedReflectors captured(const test::MirrorRoom& room, FoundCurvedReflectors found, int threads = 2) {
@@ -37,6 +37,22 @@ FoundCurvedReflectors captured(const test::MirrorRoom& room, FoundCurvedReflecto
   context.threads = threads;
   if (!accel || !capture_surroundings(*accel, found, room.outgoing(), context)) found.maps.clear();
   return found;
+}
+
+TEST(CurvedReflectors, MapsAreAsFineAsEyesCanTell) {
+  EXPECT_EQ(surround_resolution_for_eyes(0.1, 2), 64u);  // 34 pixels across
+  EXPECT_EQ(surround_resolution_for_eyes(0.1, 100), 32u);
+  EXPECT_GE(surround_resolution_for_eyes(0.1, 0), 2048u);  // an eye at the thing
+  const BallRoom room;
+  const auto accel = Accel::build(room.scene);
+  ASSERT_TRUE(accel);
+  const auto flat = find_reflectors(*accel, room.materials(), room.reflector_options());
+  std::vector<SeenOfTriangle> seen(room.scene.triangles.size());
+  for (const std::uint32_t t : flat.unplanar) seen[t] = {1, 1 / (20.0f * 20.0f)};
+  const auto far = find_curved_reflectors(room.scene, flat.unplanar, room.materials(), seen);
+  ASSERT_EQ(far.maps.size(), 1u);
+  EXPECT_EQ(far.maps[0].size, surround_resolution_for_eyes(far.reflectors[0].diagonal_m, 20));
+  EXPECT_LT(far.maps[0].size, find(room).maps[0].size);
 }
 
 TEST(CurvedReflectors, ABallIsOneAndAPlaneIsNot) {
