@@ -10,12 +10,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kPoints = 2048;                 // of each kind
-constexpr double kLow = 1.9, kHigh = 30, kUsual = 2.7;  // heights of rooms, m
-constexpr double kFew = 0.02;                           // of the points of one kind, under a roof of that height
-constexpr double kRooms = 0.05;                         // of them in rooms of any height, for these to tell
-constexpr double kWidest = 20;                          // a room is no wider than that many of its heights
-constexpr double kUsualFrom = 1.2, kUsualTo = 40;       // medians that are odd, but may be metres
+constexpr std::uint32_t kPoints = 2048;            // of each kind
+constexpr double kLow = 1.9, kHigh = 30;           // heights of rooms, m
+constexpr double kFew = 0.02;                      // of the points of one kind, under a roof of that height
+constexpr double kRooms = 0.05;                    // of them in rooms of any height, for these to tell
+constexpr double kWidest = 20;                     // a room is no wider than that many of its heights
+constexpr double kUsualFrom = 1.2, kUsualTo = 40;  // medians that are odd, but may be metres
 
 // Points are drawn in three ways, for no single one is fair to all scenes: evenly over surfaces (a room of a hundred
 // surfaces beside a ground plane of one), over triangles, and over square metres.
@@ -78,6 +78,17 @@ bool fits_people(double height) {
   return height >= kLow && height <= kHigh;
 }
 
+// The median, each weighted by its square: a room counts for as much as people see of it, and the many gaps between
+// boards and tiles for next to nothing. Not empty.
+double typical_height(std::vector<double> heights) {
+  std::sort(heights.begin(), heights.end());
+  double sum = 0, run = 0;
+  for (const double h : heights) sum += h * h;
+  const auto middle =
+      std::find_if(heights.begin(), heights.end() - 1, [&](double h) { return (run += h * h) >= sum / 2; });
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<Vec3> roofed_places(const Accel& accel) {
@@ -104,11 +115,9 @@ std::optional<UnitGuess> guess_unit(const Accel& accel) {
     rooms = rooms || here >= kRooms * kPoints;
   }
   if (!rooms) return std::nullopt;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  const double height = *middle;
+  const double height = typical_height(std::move(heights));
   if (height >= kUsualFrom && height <= kUsualTo) return std::nullopt;
-  const double power = std::round(std::log10(kUsual / height));
+  const double power = std::ceil(std::log10(kLow / height));
   if (power == 0) return std::nullopt;
   return UnitGuess{std::pow(10.0, power), height};
 }

@@ -10,7 +10,7 @@ namespace oriel {
 
 struct UnitGuess {
   double metres = 1;       // that one unit of the file is likely to be: a power of ten
-  double room_height = 0;  // median height of its rooms, in units
+  double room_height = 0;  // typical height of its rooms, in units: the median, weighted by its square
 };
 
 // Looks for places that a person fits into: floors with something 1.9 to 30 m overhead, and ceilings over one. Where

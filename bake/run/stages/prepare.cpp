@@ -40,10 +40,10 @@ Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed,
 Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   const auto guess = guess_unit(*prepared.accel);
   if (!guess) return {};
-  context.warning(fmt::format(
-      "the scene's rooms are {:.3g} m high at the median, and a person of 1.8 m stands in none: one unit of "
-      "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
-      guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
+  context.warning(
+      fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                  "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                  guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
   auto warn = std::exchange(context.warn, nullptr);  // all was said before
   const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
   context.warn = std::move(warn);
