@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <unordered_map>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
 
 #include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
@@ -88,46 +89,34 @@ int point_count(const RimEdge& edge) {
   return std::max(1, static_cast<int>(std::ceil(kPointsPerTexel * edge.length_texels)));
 }
 
-// Edges by the cells of space they pass through.
-class EdgeGrid {
+// Edges by their boxes. Their lengths and tolerances span orders of magnitude where far things have large texels, so no
+// grid of one size fits them.
+class EdgeTree {
  public:
-  explicit EdgeGrid(std::span<const RimEdge> edges) {
-    double length = 0, points = 0, tolerance = 0;
-    for (const RimEdge& e : edges) {
-      length += e.length_m(), points += point_count(e);
-      tolerance = std::max(tolerance, kTolerance * e.texel_m);
-    }
-    // As many entries as points, about; marks a quarter of a cell apart, and what is asked for less than another.
-    cell_ = std::max({2 * length / std::max(points, 1.0), 4.1 * tolerance, 1e-30});
+  explicit EdgeTree(std::span<const RimEdge> edges) {
+    std::vector<Entry> entries;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      const int marks = 1 + static_cast<int>(std::ceil(2 * edges[i].length_m() / cell_));
-      for (int k = 0; k <= marks; ++k) {
-        const DVec3 p = edges[i].a + edges[i].along * (static_cast<double>(k) / marks);
-        auto& cell = cells_[key(glm::floor(p / cell_))];
-        if (cell.empty() || cell.back() != i) cell.push_back(i);
-      }
+      const DVec3 a = edges[i].a, b = edges[i].a + edges[i].along;
+      entries.emplace_back(Box(point(glm::min(a, b)), point(glm::max(a, b))), i);
     }
+    tree_ = Tree(entries);
   }
 
-  // Every edge within the tolerance of p, and others: ascending.
-  void near(const DVec3& p, std::vector<std::uint32_t>& found) const {
+  // Every edge within that distance of p, and others: ascending.
+  void near(const DVec3& p, double distance, std::vector<std::uint32_t>& found) const {
     found.clear();
-    const DVec3 lowest = glm::floor(p / cell_ - 0.5);
-    for (int i = 0; i < 8; ++i) {
-      const auto cell = cells_.find(key(lowest + DVec3(i & 1, i >> 1 & 1, i >> 2)));
-      if (cell != cells_.end()) found.insert(found.end(), cell->second.begin(), cell->second.end());
-    }
+    const auto around = boost::geometry::index::intersects(Box(point(p - distance), point(p + distance)));
+    for (auto it = tree_.qbegin(around); it != tree_.qend(); ++it) found.push_back(it->second);
     std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
   }
 
  private:
-  static std::uint64_t key(const DVec3& cell) {
-    const auto index = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v)) & 0x1FFFFF; };
-    return index(cell.x) << 42 | index(cell.y) << 21 | index(cell.z);
-  }
-  double cell_ = 1;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  using Point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Box = boost::geometry::model::box<Point>;
+  using Entry = std::pair<Box, std::uint32_t>;
+  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
+  static Point point(const DVec3& p) { return {p.x, p.y, p.z}; }
+  Tree tree_;
 };
 
 class Finder {
@@ -139,7 +128,7 @@ class Finder {
         pages_(pages),
         seed_(seed),
         edges_(rim_edges(scene_, atlas)),
-        grid_(edges_) {}
+        tree_(edges_) {}
 
   std::size_t edge_count() const { return edges_.size(); }
 
@@ -204,8 +193,9 @@ class Finder {
   bool find_other(const Side& a, std::vector<std::uint32_t>& near, Side& best) const {
     const RimEdge& own = edges_[a.edge];
     const DVec3 p = own.a + own.along * a.at;
+    const double tolerance = kTolerance * own.texel_m + 4e-7 * a.surface.magnitude;
     double least = 1e300;
-    grid_.near(p, near);
+    tree_.near(p, tolerance, near);
     for (const std::uint32_t i : near) {
       const RimEdge& other = edges_[i];
       if (std::tie(other.texel_m, i) <= std::tie(own.texel_m, a.edge)) continue;
@@ -213,7 +203,7 @@ class Finder {
       if (!(length > 0) || cosine > -kParallel * length * own.length_m()) continue;
       const double at = std::clamp(glm::dot(p - other.a, other.along) / (length * length), 0.0, 1.0);
       const double distance = glm::distance(p, other.a + other.along * at);
-      if (distance > kTolerance * own.texel_m + 4e-7 * a.surface.magnitude || distance >= least) continue;
+      if (distance > tolerance || distance >= least) continue;
       const Side b = side_of(i, at);
       if (!goes_on(a, b)) continue;
       least = distance, best = b;
@@ -267,7 +257,7 @@ class Finder {
   std::span<const LightmapPage> pages_;
   std::uint64_t seed_;
   std::vector<RimEdge> edges_;
-  EdgeGrid grid_;
+  EdgeTree tree_;
 };
 
 }  // namespace

@@ -79,9 +79,10 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});      // what eyes see
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
-  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/texels"});
+  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/paths", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
+  m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
   m["bake/run"] = plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
@@ -143,6 +144,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"CGAL/", {"bake/scene"}},
     {"OpenMesh/", {"bake/atlas/chart"}},
     {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
+    {"boost/", {"bake/radiosity"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/panel", "player/window"}},
