@@ -109,6 +109,7 @@ Status place_automatic(const Scene& scene, const std::vector<std::uint32_t>& sur
   layout.texel_m = texel_m;
   layout.memory_bytes = options.memory_bytes;
   layout.coarsen = options.coarsen;
+  layout.texels_in_time = options.texels_in_time;
   if (!one_page && !demand.empty()) layout.demand = &demand;
   return lay_out(scene, sets, layout, context, atlas);
 }

@@ -27,6 +27,7 @@ struct AtlasOptions {
   std::uint64_t memory_bytes = 0;  // of baking the lightmap: an error where the texels need more; 0: no limit
   bool coarsen = false;            // with a TexelDemand: where the texels need more, those of what is seen least become
                                    // larger until they do not
+  std::uint64_t texels_in_time = 0;  // with coarsen: likewise where there are more than so many; 0: no limit
 };
 
 struct AtlasPage {

@@ -194,7 +194,7 @@ class Layout {
     for (const Entry& e : charts_) sum += e.own.area_m2 / (chart_texel(e, texel_m) * chart_texel(e, texel_m));
     return sum;
   }
-  void fit_memory();
+  void fit_limits();
   double covered_texels() const {
     double sum = 0;
     for (const TexelMask& mask : masks_) sum += static_cast<double>(mask.count());
@@ -244,15 +244,21 @@ Status Layout::check_memory(double texel_m, double texels) const {
       texel_m, texels, bytes / kMiB, limit / kMiB, fits);
 }
 
-void Layout::fit_memory() {
+void Layout::fit_limits() {
   std::vector<ChartTexel*> own = own_texels();
-  const double limit = static_cast<double>(options_.memory_bytes);
-  const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) * kBakeTexelBytes > limit; });
-  if (larger > 0)
-    context_.warning(
-        fmt::format("atlas: texels of {:.3g} m would take more memory to bake than the {:.0f} MiB there are for them "
-                    "(--memory-limit): {} of {} charts, those seen least, get larger ones",
-                    texel_m_, limit / 1048576, larger, charts_.size()));
+  const auto fit = [&](double most, const std::string& why) {
+    const std::size_t larger = coarsen(own, [&] { return kMargins * least_texels(texel_m_) > most; });
+    if (larger > 0)
+      context_.warning(fmt::format("atlas: texels of {:.3g} m {}: {} of {} charts, those seen least, get larger ones",
+                                   texel_m_, why, larger, charts_.size()));
+  };
+  if (options_.memory_bytes > 0)
+    fit(static_cast<double>(options_.memory_bytes) / kBakeTexelBytes,
+        fmt::format("would take more memory to bake than the {:.0f} MiB there are for them (--memory-limit)",
+                    static_cast<double>(options_.memory_bytes) / 1048576));
+  if (options_.texels_in_time > 0)
+    fit(static_cast<double>(options_.texels_in_time),
+        fmt::format("would be more than the {} that --time leaves time for", options_.texels_in_time));
 }
 
 Status Layout::pack_at(double texel_m) {
@@ -260,7 +266,7 @@ Status Layout::pack_at(double texel_m) {
   const std::uint32_t side = options_.side, padding = options_.padding;
   const double room = static_cast<double>(kMaxPages) * side * side;
   // Charts alone are at least their area: refused before their masks need memory, too.
-  if (options_.coarsen && options_.demand != nullptr && options_.memory_bytes > 0) fit_memory();
+  if (options_.coarsen && options_.demand != nullptr) fit_limits();
   ORIEL_TRY_VOID(check_memory(texel_m, least_texels(texel_m)));
   if (box_area(texel_m) <= 4 * room) {
     ORIEL_TRY_VOID(draw_masks(texel_m));

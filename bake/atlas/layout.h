@@ -13,6 +13,7 @@ struct LayoutOptions {
   double texel_m = 0;                   // else this one
   std::uint64_t memory_bytes = 0;       // of baking: more texels than fit there are an error; 0: no limit
   bool coarsen = false;                 // instead of that error, larger texels where least is seen
+  std::uint64_t texels_in_time = 0;     // with coarsen: about so many at most; 0: no limit
   const TexelDemand* demand = nullptr;  // charts have texels of their own, never finer than texel_m; null: all the same
 };
 
