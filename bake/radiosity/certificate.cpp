@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bake/jobs/units.h"
+#include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texel_paths.h"
 #include "formats/core/color.h"
 #include "formats/core/half.h"
@@ -81,7 +82,7 @@ class Verifier {
            std::uint64_t rays_at_most, Context& context)
       : t_(transport), map_(map), what_(what), asked2_(asked * asked), rays_at_most_(rays_at_most), context_(context) {
     of_texels_.reserve(seeds_.size());
-    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + 0xce27 + k);
+    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + seeds::kCertificate + k);
     for (const Context& own : seeds_) of_texels_.emplace_back(transport, atlas, false, own);
   }
 

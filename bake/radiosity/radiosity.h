@@ -40,6 +40,7 @@ struct RadiosityOptions {
   // Seconds that the estimate and its verification may still take; empty: as long as they need. Where they are few,
   // bounces have fewer rays, texels that no gather ray left keep the bounces' light, and nothing is verified.
   std::function<double()> left = {};
+  bool late() const { return left && left() <= 0; }
   // Where people's eyes are, scene space, m: the error is that of the frames which they see
   // (frames/frame_error.h). Empty: anywhere in the air in front of surfaces. `held_out` are others, by which the error
   // is verified; empty: other directions from the same.

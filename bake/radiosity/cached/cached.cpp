@@ -30,68 +30,90 @@ constexpr double kCoarseTarget = 0.04;                   // errors asked for fro
 constexpr double kDirectTime = 0.3, kBouncesTime = 0.3;  // of what is left (RadiosityOptions::left)
 constexpr float kCoarseError = 0.25f;                    // of bounces that no gather ray refined
 constexpr std::size_t kMaxLinks = 64u << 20;             // between patches: 1 GiB
-constexpr float kNearer = 4;                             // times as far (Refinement::nearer)
+constexpr float kFurther = 4;                            // times as far (Goal::longer_look_up)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
-class CachedBake {
+class CachedEstimator : public LightEstimator {
  public:
-  CachedBake(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps,
-             std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
-             std::atomic<std::uint64_t>& rays, const Texels& texels)
-      : options_(options),
-        context_(context),
-        rays_(rays),
-        texels_(texels),
-        order_(coherent_order(texels)),
-        sites_(t, atlas, maps, texels, context.seed),
-        direct_light_(t, texels, sites_, context.seed),
-        around_(t, texels, direct_light_.closed_form(), context.seed),
-        direct_(texels.count(), options.directional),
-        gathered_(texels.count(), options.directional),
-        frames_(pixels, maps, texels.has_light()),
-        target_(options.error) {}
+  CachedEstimator(const RadiosityTask& task, Texels texels)
+      : options_(task.options),
+        context_(task.context),
+        rays_(task.rays),
+        texels_(std::move(texels)),
+        order_(coherent_order(texels_)),
+        sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
+        direct_light_(task.transport, texels_, sites_, task.context.seed),
+        around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
+        direct_(texels_.count(), options_.directional),
+        gathered_(texels_.count(), options_.directional),
+        frames_(task.pixels, task.map, texels_.has_light()) {}
 
-  Status run(Radiosity& result, const NextRefinement& next) {
-    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
-    shares_ = typical_errors(graph_, frames_.shares(), context_);
-    little_seen_ = little_seen(order_, shares_, kLittleSeen * options_.error * options_.error);
-    recall();
-    ORIEL_TRY_VOID(first_direct());
-    Sweeps sweeps;
-    if (options_.bounces != 1) {  // the gather itself is one
-      SweepOptions how{.most = std::max(0, options_.bounces - 1), .enough = options_.enough};
-      how.tolerance = kTailShare * std::max(target_, 1e-3);
-      if (options_.left) how.seconds = kBouncesTime * options_.left();
-      how.side = target_ >= kCoarseTarget ? 2 : 1;
-      while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
-      ORIEL_TRY(sweeps, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
-    }
-    irradiance_ = direct_.value;
-    for (std::size_t i = 0; i < sweeps.gathered.size(); ++i) irradiance_[i] += sweeps.gathered[i];
-    result.report.sweeps = sweeps.count;
-    result.report.sweep_tail = sweeps.tail, result.report.sweep_growth = sweeps.growth;
-    result.report.bounded_patches = sweeps.bounded;
-    cached_ = cache_light(texels_, graph_, irradiance_, context_);
-    take_known();
-    ORIEL_TRY_VOID(first_gather());
-    while (true) {
-      ORIEL_TRY_VOID(gather_to_target());
-      ORIEL_TRY_VOID(refine_direct());
-      store(result);
-      ORIEL_TRY(const Refinement more, next());
-      if ((target_ = more.error) <= 0) break;
-      if (more.nearer) ORIEL_TRY_VOID(gather_nearer());
-    }
+  Status refine(const Goal& goal) override {
+    if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
+    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
+    ORIEL_TRY_VOID(gather_to(goal.error));
+    ORIEL_TRY_VOID(refine_direct(goal.error));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
-    if (ended_early_ || result.report.reuse.kept > 0) return {};
-    KnownLight& known = known_now_;
-    known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
-    known.coarse = irradiance_, known.direct = direct_, known.gathered = gathered_;
-    remember_light(context_, known_name_, std::move(known));
+    if (!ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
   }
 
+  void write(Radiosity& light) const override {
+    RadiosityReport& report = light.report;
+    report.sweeps = sweeps_.count, report.sweep_tail = sweeps_.tail, report.sweep_growth = sweeps_.growth;
+    report.bounded_patches = sweeps_.bounded;
+    report.filter_drift = estimate_.energy_drift;
+    report.ended_early = ended_early_;
+    report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
+    const std::vector<Vec3> of_direct = direct_variance();
+    const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      LightmapPage& page = light.pages[texels_.page[i]];
+      const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
+      light.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
+      page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
+      if (texels_.visible[i] == 0) continue;
+      if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
+      page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
+      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
+      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited * edited);
+    }
+  }
+
  private:
+  // Direct light, its bounces on coarse patches, and the first rays that gather these.
+  Status begin(const Goal& goal) {
+    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    shares_ = typical_errors(graph_, frames_.shares(), context_);
+    little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
+    recall();
+    ORIEL_TRY_VOID(first_direct());
+    if (options_.bounces != 1) ORIEL_TRY_VOID(bounce(goal.error));  // the gather itself is one
+    irradiance_ = direct_.value;
+    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i) irradiance_[i] += sweeps_.gathered[i];
+    cached_ = cache_light(texels_, graph_, irradiance_, context_);
+    take_known();
+    return first_gather();
+  }
+
+  Status bounce(double error) {
+    SweepOptions how{.most = std::max(0, options_.bounces - 1), .enough = options_.enough};
+    how.tolerance = kTailShare * std::max(error, 1e-3);
+    if (options_.left) how.seconds = kBouncesTime * options_.left();
+    how.side = error >= kCoarseTarget ? 2 : 1;
+    while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
+    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
+    return {};
+  }
+
+  void remember() {
+    if (!context_.units) return;
+    KnownLight known = known_now_;
+    known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
+    known.coarse = irradiance_, known.direct = direct_, known.gathered = gathered_;
+    remember_light(context_, known_name_, std::move(known));
+  }
+
   // Something is close to it, and people look there.
   bool is_crowded(std::size_t i) const { return texels_.has_many[i] && !little_seen_[i]; }
 
@@ -178,7 +200,7 @@ class CachedBake {
     return list;
   }
 
-  std::vector<Vec3> direct_variance() {
+  std::vector<Vec3> direct_variance() const {
     std::vector<Vec3> variance(texels_.count());
     for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = direct_.sampled[i] + direct_.uneven[i];
     variance = pooled_errors(texels_, graph_, std::move(variance), direct_.value, context_);
@@ -283,11 +305,11 @@ class CachedBake {
     return mean > goal ? mean : 0;
   }
 
-  Status gather_to_target() {
-    if (options_.error <= 0) return {};
+  Status gather_to(double error) {
+    if (error <= 0) return {};
     const std::uint32_t most = most_gathered();
     if (options_.enough) context_.finishable = true;
-    const double goal = (1 - kDirectShare) * target_ * target_;
+    const double goal = (1 - kDirectShare) * error * error;
     for (;;) {
       double now = mean_squares(estimate_.variance);
       now -= out_of_reach(goal, most, gathered_.samples);
@@ -303,11 +325,11 @@ class CachedBake {
     }
   }
 
-  Status refine_direct() {
-    if (options_.error <= 0) return {};
+  Status refine_direct(double error) {
+    if (error <= 0) return {};
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
-      const double goal = kDirectShare * target_ * target_;
+      const double goal = kDirectShare * error * error;
       double now = mean_squares(direct_variance());
       now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};
@@ -321,9 +343,9 @@ class CachedBake {
   }
 
   // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
-  Status gather_nearer() {
+  Status gather_from_further() {
     const float before = around_.near();
-    around_.set_near(kNearer * before);
+    around_.set_near(kFurther * before);
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
     for (const std::uint32_t i : list) anew.forget(i);
@@ -339,34 +361,16 @@ class CachedBake {
     return {};
   }
 
-  void store(Radiosity& result) {
-    result.report.filter_drift = estimate_.energy_drift;
-    result.report.ended_early = ended_early_;
-    result.report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
-    const std::vector<Vec3> of_direct = direct_variance();
-    const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
-    for (std::size_t i = 0; i < texels_.count(); ++i) {
-      LightmapPage& page = result.pages[texels_.page[i]];
-      const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
-      result.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
-      page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
-      if (texels_.visible[i] == 0) continue;
-      if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
-      page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
-      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
-      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited * edited);
-    }
-  }
-
   const RadiosityOptions& options_;
   Context& context_;
   std::atomic<std::uint64_t>& rays_;
-  const Texels& texels_;
+  const Texels texels_;
   std::vector<std::uint32_t> order_;
   MoreSites sites_;
   DirectLight direct_light_;
   Surroundings around_;
   TexelGraph graph_;
+  Sweeps sweeps_;  // bounces on patches
   DirectSums direct_;
   HalfSums gathered_;
   Estimate estimate_;               // of the gathered light
@@ -377,7 +381,6 @@ class CachedBake {
   Hash128 known_name_;
   KnownLight known_now_;  // for the next bake
   FrameError frames_;
-  double target_;                  // the error to refine to
   std::vector<float> shares_;      // of frames that a texel fills, as its surroundings tell
   std::vector<bool> little_seen_;  // by texel
   std::vector<float> squares_;     // by texel: its part of the mean square, of the light being refined
@@ -388,12 +391,10 @@ class CachedBake {
 
 }  // namespace
 
-Status bake_cached(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                   std::span<const FramePixel> pixels, const RadiosityOptions& options, Context& context,
-                   std::atomic<std::uint64_t>& rays, Radiosity& result, const NextRefinement& next) {
-  ORIEL_TRY(const Texels texels, list_texels(t, atlas, texel_map, context, rays, options.eyes));
-  CachedBake bake(t, atlas, texel_map, pixels, options, context, rays, texels);
-  return bake.run(result, next);
+Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
+  ORIEL_TRY(Texels texels,
+            list_texels(task.transport, task.atlas, task.map, task.context, task.rays, task.options.eyes));
+  return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -102,7 +103,7 @@ class DirectGroup {
       const float open = polygon_irradiance(light, receiver);
       if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
       tallies_[point.texel].open[point.half] += Vec3(open);
-      Sampler sampler(d_.seed_ + 0xd1ec + l, stream_of(list_[point.texel], point.half), point.k);
+      Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
       const auto s = sample_polygon(light, receiver, sampler.next2());
       if (!s) continue;
       const float weight = incidence(receiver, s->direction) * s->solid_angle;
@@ -113,7 +114,7 @@ class DirectGroup {
   void aim_at_punctual(std::uint32_t l) {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
-      Sampler sampler(d_.seed_ + 0x9f00 + l, stream_of(list_[point.texel], point.half), point.k);
+      Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
       const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
       const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
       if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
@@ -186,7 +187,7 @@ class DirectGroup {
   void sample_lights(const Sample& sample) {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
-      Sampler sampler(d_.seed_ + 0x50f, stream_of(list_[point.texel], point.half), point.k);
+      Sampler sampler(d_.seed_ + seeds::kSky, stream_of(list_[point.texel], point.half), point.k);
       const LightSample s = sample(point, sampler);
       if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
       const float cosine = incidence(point.site.receiver(), s.direction);
@@ -216,7 +217,7 @@ class DirectGroup {
     for (std::uint64_t pick = 0; pick < kPicks; ++pick)
       for (std::uint32_t p = 0; p < points_.size(); ++p) {
         const Point& point = points_[p];
-        Sampler sampler(d_.seed_ + 0x9e11 + pick, stream_of(list_[point.texel], point.half), point.k);
+        Sampler sampler(d_.seed_ + seeds::kManyLights + pick, stream_of(list_[point.texel], point.half), point.k);
         const LightSample s = sample(point, sampler);
         if (s.pdf > 0) continue;  // an emissive surface, or the sky
         const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));

@@ -7,6 +7,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
+#include "bake/radiosity/texels/seeds.h"
 
 namespace oriel {
 namespace {
@@ -358,7 +359,7 @@ Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surrou
   Sweeps result;
   ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, context, rays));
   Solver solver(texels, graph, around, direct, how);
-  ORIEL_TRY_VOID(solver.trace(context, context.seed + 0xb0, rays));
+  ORIEL_TRY_VOID(solver.trace(context, context.seed + seeds::kBounces, rays));
   ORIEL_TRY_VOID(solver.solve(context, result));
   solver.interpolate(context, result);
   return result;

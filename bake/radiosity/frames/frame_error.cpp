@@ -1,5 +1,6 @@
 #include "bake/radiosity/frames/frame_error.h"
 
+#include <cmath>
 #include <limits>
 
 namespace oriel {
@@ -50,6 +51,22 @@ std::vector<float> FrameError::squares(std::span<const Vec3> light, std::span<co
     }
   }
   return squares;
+}
+
+double stated_error(std::span<const TexelMapPage> map, std::span<const FramePixel> pixels,
+                    std::span<const LightmapPage> pages) {
+  std::vector<Vec3> light, variance;
+  std::vector<bool> has_light;
+  for (std::size_t p = 0; p < map.size(); ++p)
+    for (const std::uint32_t t : map[p].texel) {
+      const Vec3& error = pages[p].standard_error[t];
+      light.push_back(pages[p].irradiance[t]);
+      variance.push_back(error * error);
+      has_light.push_back(pages[p].state[t] == TexelState::kValid);
+    }
+  double sum = 0;
+  for (const float square : FrameError(pixels, map, has_light).squares(light, variance)) sum += square;
+  return std::sqrt(sum);
 }
 
 }  // namespace oriel

@@ -3,6 +3,7 @@
 
 #include "bake/atlas/texel_map.h"
 #include "bake/radiosity/frames/frame_pixels.h"
+#include "formats/assets/lightmap.h"
 
 namespace oriel {
 
@@ -61,5 +62,9 @@ class FrameError {
   std::vector<FramePixel> pixels_;  // texel: numbers; page: of no use
   std::vector<float> shares_;
 };
+
+// RadiosityReport::relative_error: the root of that sum, of what pages state.
+double stated_error(std::span<const TexelMapPage> map, std::span<const FramePixel> pixels,
+                    std::span<const LightmapPage> pages);
 
 }  // namespace oriel

@@ -2,6 +2,7 @@
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -129,7 +130,7 @@ class GroupGather {
 Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
               std::span<const std::uint32_t> list, std::uint32_t per_half, const CachedLight& cached, Context& context,
               HalfSums& sums, std::atomic<std::uint64_t>& rays) {
-  const ShiftedNet net(context.seed + 0x9a7e, per_half);
+  const ShiftedNet net(context.seed + seeds::kGather, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   const auto sums_of = [&](std::size_t g, Archive& archive) {

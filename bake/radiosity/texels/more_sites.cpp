@@ -2,12 +2,12 @@
 
 #include "bake/direct/buried.h"
 #include "bake/direct/onlookers.h"
+#include "bake/radiosity/texels/seeds.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kTries = 64;  // for one point, where most of the texel is hidden
-constexpr std::uint64_t kBuriedSeed = 0x3a17;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
         texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
     const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
     const std::uint64_t seed =
-        seed_ + kBuriedSeed + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
+        seed_ + seeds::kMoreSites + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
     if (is_buried(t_, point, seed, stream, k, rays)) continue;
     if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);

@@ -4,12 +4,12 @@
 #include <array>
 
 #include "bake/direct/buried.h"
+#include "bake/radiosity/texels/seeds.h"
 
 namespace oriel {
 namespace {
 
-constexpr float kLift = 0.1f;  // of a texel's side
-constexpr std::uint64_t kSeed = 0x9a27;
+constexpr float kLift = 0.1f;          // of a texel's side
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
@@ -49,7 +49,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   };
   const auto is_covered = [&](SurfacePoint p, std::uint32_t k) {
     p.position = lifted(p);
-    return is_buried(transport, p, ~kSeed, map.texel[texel], k, rays);
+    return is_buried(transport, p, ~seeds::kWalls, map.texel[texel], k, rays);
   };
   const SurfacePoint middle = point(Vec3(0.5f));
   const Vec3 up = lift_ * middle.geometric_normal;
@@ -59,10 +59,10 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   std::vector<Vec3> left;
   bool any = false;
   for (std::uint32_t k = 0; k < kPoints; ++k) {
-    Sampler sampler(kSeed, map.texel[texel], k);
+    Sampler sampler(seeds::kWalls, map.texel[texel], k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint p = point(Vec3(uv, sampler.next1()));
-    if (is_buried(transport, p, kSeed, map.texel[texel], k, rays)) continue;
+    if (is_buried(transport, p, seeds::kWalls, map.texel[texel], k, rays)) continue;
     any = true;
     if (!is_covered(p, k)) left.push_back(lifted(p));
   }

@@ -6,6 +6,7 @@
 #include "bake/direct/onlookers.h"
 #include "bake/jobs/units.h"
 #include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/warp.h"
@@ -19,8 +20,6 @@ constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averag
 // Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
 constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
-
-constexpr std::uint64_t kNearSeed = 0x4ea5;
 
 class SiteFinder {
  public:
@@ -96,7 +95,7 @@ class SiteFinder {
 
   // Whether a ray from a site finds something nearer than a texel's side.
   bool meets_near(const Texels& texels, std::size_t i, int k, std::uint64_t stream, std::uint64_t& rays) const {
-    Sampler sampler(seed_ + kNearSeed, stream, static_cast<std::uint32_t>(k));
+    Sampler sampler(seed_ + seeds::kCrowded, stream, static_cast<std::uint32_t>(k));
     const TexelSite& site = texels.site[i][k];
     const Vec3 direction =
         glm::normalize(frame_from_normal(site.geometric_normal) * square_to_cosine_hemisphere(sampler.next2()));
@@ -123,15 +122,10 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
 
 }  // namespace
 
-std::uint32_t Texels::number_at(std::uint32_t page_number, int px, int py) const {
+std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
   const Page& p = pages[page_number];
   if (px < 0 || py < 0 || px >= static_cast<int>(p.width) || py >= static_cast<int>(p.height)) return kNoTexel;
   return p.number[static_cast<std::size_t>(py) * p.width + static_cast<std::size_t>(px)];
-}
-
-std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
-  const std::uint32_t number = number_at(page_number, px, py);
-  return number == kNoTexel ? kNoTexel : number & ~kCut;
 }
 
 std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
@@ -140,11 +134,9 @@ std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
   const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
   const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
   const auto page_number = static_cast<std::uint32_t>(place.page);
-  if (const std::uint32_t number = number_at(page_number, px, py); number != kNoTexel) {
-    if ((number & kCut) == 0) return number;
-    const std::uint32_t texel = number & ~kCut;
+  if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
     std::uint64_t rays = 0;
-    return cut.at(texel).holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
+    return !is_cut[texel] || cut.at(texel).holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
   }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
@@ -194,7 +186,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   }
   const std::size_t n = texels.count();
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
-      texels.has_many.resize(n);
+      texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
   const SiteFinder finder(t, atlas, texel_map, texels.eyes, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
@@ -226,8 +218,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
     for (auto& [i, found] : run) {
       if (!found.part.whole()) {
         texels.cut.emplace(i, found.part);
-        Texels::Page& page = texels.pages[texels.page[i]];
-        page.number[std::size_t{texels.y[i]} * page.width + texels.x[i]] |= Texels::kCut;
+        texels.is_cut[i] = true;
       }
       if (found.many[0].empty()) continue;
       texels.has_many[i] = true;

@@ -77,6 +77,7 @@ struct Texels {
   }
 
   std::unordered_map<std::uint32_t, TexelPart> cut;  // texels on which a wall stands
+  std::vector<char> is_cut;                          // whether it is in `cut`
 
   // The texel under a point of a triangle, or the one beside it where a wall parts it from the point; kNoTexel where it
   // takes no lightmap.
@@ -84,10 +85,9 @@ struct Texels {
   // The texel at a place of a page; kNoTexel where none is.
   std::uint32_t at(std::uint32_t page_number, int px, int py) const;
 
-  static constexpr std::uint32_t kCut = 1u << 31;
   struct Page {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint32_t> number;  // by y * width + x; kCut is set for those in Texels::cut
+    std::vector<std::uint32_t> number;  // by y * width + x
   };
   std::vector<Page> pages;
   struct Placement {  // of a triangle on its page, in texels
@@ -97,7 +97,6 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
-  std::uint32_t number_at(std::uint32_t page_number, int px, int py) const;
   std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
 };
 

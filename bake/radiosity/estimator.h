@@ -1,0 +1,41 @@
+// What estimates the light on an atlas' texels: bake_radiosity refines it until the error asked for holds.
+#pragma once
+
+#include <atomic>
+
+#include "bake/radiosity/frames/frame_pixels.h"
+#include "bake/radiosity/radiosity.h"
+
+namespace oriel {
+
+// What one bake of a lightmap is about. All of it outlives the estimator.
+struct RadiosityTask {
+  const Transport& transport;
+  const Atlas& atlas;
+  std::span<const TexelMapPage> map;
+  std::span<const FramePixel> pixels;  // by which the error is told (frames/frame_error.h)
+  const RadiosityOptions& options;
+  Context& context;
+  std::atomic<std::uint64_t>& rays;  // traced so far
+};
+
+// What an estimate is refined to.
+struct Goal {
+  double error = 0;             // of frames, relative; 0: all samples are taken
+  bool longer_look_up = false;  // cached: rays look texels up from four times as far away, and follow paths till then
+};
+
+// Pages of the texel map's sizes, without light.
+Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
+
+class LightEstimator {
+ public:
+  virtual ~LightEstimator() = default;
+  // Until the goal holds, all samples are taken, or RadiosityOptions::enough. Error kStopped.
+  virtual Status refine(const Goal& goal) = 0;
+  // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
+  // report's numbers of the estimate. `light` is an empty_radiosity().
+  virtual void write(Radiosity& light) const = 0;
+};
+
+}  // namespace oriel
