@@ -15,7 +15,8 @@ constexpr double kLit = 0.01;  // of the other side's mean
 // Points of a part, one path from each of their sides: enough to find light that one path in a hundred meets. Fewer
 // where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
 constexpr std::size_t kRaysAPoint = 10;  // on both sides, about
-constexpr std::size_t kPoints = 256, kFewPoints = 8, kAllPoints = std::size_t{1} << 19;
+constexpr std::size_t kPoints = 256, kFewPoints = 8, kFirstPoints = 2, kAllPoints = std::size_t{1} << 17;
+constexpr int kMostBounces = 6;  // light that needs more is dim beside what the other side gets
 
 // The double-sided triangles, part by part.
 struct Parts {
@@ -90,8 +91,9 @@ LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std:
       const IrradianceSample e = sample_irradiance(t, point, own, rays);
       side->add(luminance(e.direct + e.indirect));
     }
-    // Most double-sided things in the light show it at once.
-    if (k + 1 >= kFewPoints && std::has_single_bit(k + 1) && front.lit_beside(back, k + 1) &&
+    // Most double-sided things in the light show it at once: what is found to be lit stays so however many points
+    // follow.
+    if (k + 1 >= kFirstPoints && std::has_single_bit(k + 1) && front.lit_beside(back, k + 1) &&
         back.lit_beside(front, k + 1))
       return LitSides::kBoth;
   }
@@ -104,13 +106,15 @@ LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std:
 Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) {
   const Parts parts = find_parts(transport.accel.scene());
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
+  Transport short_paths = transport;
+  short_paths.options.max_bounces = std::min(transport.options.max_bounces, kMostBounces);
   std::vector<LitSides> of_part(parts.count(), LitSides::kBoth);
   std::atomic<std::uint64_t> rays{0};
   UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
   loop.inputs = [](std::size_t i, Archive& key) { key(i); };
   loop.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
-    of_part[i] = lit_sides(transport, parts.of(i), points, context.seed, traced);
+    of_part[i] = lit_sides(short_paths, parts.of(i), points, context.seed, traced);
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };

@@ -1,6 +1,7 @@
 #include "bake/run/stages/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bake/jobs/parallel.h"
@@ -8,11 +9,16 @@
 #include "bake/run/stages/deadline.h"
 #include "bake/run/stages/inputs.h"
 #include "bake/walk/scene_unit.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-constexpr double kMostForSides = 0.15;  // of --time
+constexpr double kMostForSides = 0.15;       // of --time
+constexpr double kMostForFirstLight = 0.25;  // of what of it is left when the lightmap is laid out
+constexpr double kFirstRays = 400;    // of a texel, for a first estimate of its light: points, direct light, gather
+constexpr double kViewRays = 6e5;     // that tell what people see, by which a ray's time is told;
+constexpr double kLeastRay_s = 1e-7;  // which says nothing where they were known already
 
 Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {
@@ -74,6 +80,7 @@ std::uint64_t bytes_besides_texels(const BakeOptions& options, const Scene& scen
 // Splits the scene's double-sided surfaces by the light on their sides.
 Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatch& timed, Context& context) {
   Scene& scene = prepared.imported->scene;
+  if (LightSet(scene).empty() && luminance(scene.sky) <= 0) return {};  // nothing is lit
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
@@ -128,7 +135,9 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
   return prepared;
 }
 
-Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
+                        double seconds) {
+  const Deadline clock(0);
   if (prepared.demand.empty()) {
     const StageInputs inputs(context, SurfacesOf{prepared.scene()});
     ORIEL_TRY(prepared.demand,
@@ -143,6 +152,11 @@ Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& c
   if (options.choose_texel) {
     atlas.texel_m = choose_texel(prepared.scene(), atlas.texel_m, prepared.demand);
     atlas.coarsen = true;
+    if (std::isfinite(seconds)) {
+      const double ray_s = std::max(clock.spent() / kViewRays, kLeastRay_s);
+      atlas.texels_in_time =
+          static_cast<std::uint64_t>(std::max(1e3, kMostForFirstLight * seconds / (kFirstRays * ray_s)));
+    }
   }
   ORIEL_TRY(prepared.atlas,
             timed("atlas", [&](auto&) { return build_atlas(prepared.scene(), atlas, context, prepared.demand); }));
