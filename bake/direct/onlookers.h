@@ -2,6 +2,7 @@
 // looks at, and its darkness must not show where the gap ends.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,15 +15,19 @@ class Onlookers {
   // eyes: where people look from, scene space; none: every point counts as seen. Both must outlive it.
   Onlookers(const Accel& accel, std::span<const Vec3> eyes) : accel_(accel), eyes_(eyes) {}
 
-  // False where all but one of a dozen rays from the point end within reach_m, as in a gap, and none of the nearest
-  // eyes before the surface has a line of sight to it. Most points take two rays. The same for the same seed, stream
-  // and sample.
+  // The nearest eyes before a texel, found when first asked for.
+  using Nearest = std::optional<std::vector<Vec3>>;
+
+  // False where all but one of a dozen rays from a texel's point end within reach_m, as in a gap, and none of the
+  // nearest eyes has a line of sight to it. Most points take two rays. The same for the same seed, stream and sample.
   bool see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample,
-           std::uint64_t& rays) const;
+           Nearest& nearest, std::uint64_t& rays) const;
 
  private:
   bool in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
               std::uint32_t sample, std::uint64_t& rays) const;
+
+  std::vector<Vec3> nearest_to(const SurfacePoint& surface) const;
 
   const Accel& accel_;
   std::span<const Vec3> eyes_;

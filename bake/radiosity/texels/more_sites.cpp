@@ -7,7 +7,9 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTries = 64;  // for one point, where most of the texel is hidden
+// For one point, where most of the texel is hidden: after these one of the kept points, which are as fair, serves
+// again.
+constexpr std::uint32_t kTries = 16;
 
 }  // namespace
 
@@ -31,6 +33,7 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
   const bool divided = cut != texels_.cut.end();
   const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap
   const Onlookers onlookers(t_.accel, texels_.eyes);
+  Onlookers::Nearest eyes;
   const std::uint32_t first = crowded ? 1 : 0;  // those of the first attempt are kept already
   for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {
     const SurfacePoint point =
@@ -39,7 +42,7 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
     const std::uint64_t seed =
         seed_ + seeds::kMoreSites + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
     if (is_buried(t_, point, seed, stream, k, rays)) continue;
-    if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, rays)) continue;
+    if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, eyes, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
   }
   return texels_.site_for(i, half, k);

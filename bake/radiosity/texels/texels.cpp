@@ -62,6 +62,7 @@ class SiteFinder {
                      std::uint64_t& rays) const {
     Vec3 albedo(0);
     std::uint32_t tried = 0, total = 0;
+    Onlookers::Nearest eyes;
     // A handful of points that escaped the probes do not make a texel visible.
     const auto enough = [&] { return total * 16 >= tried && !found.many[0].empty() && !found.many[1].empty(); };
     for (; tried < points || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
@@ -70,7 +71,7 @@ class SiteFinder {
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
       if (is_buried(t_, surface, seed_, stream, kSites + k, rays) ||
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
-          !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, rays))
+          !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, eyes, rays))
         continue;
       albedo += albedo_at(surface);
       found.many[half].push_back(site_of(surface));
