@@ -16,9 +16,16 @@ constexpr float kSeeThrough = 0.5f;        // transmittance from which distance 
 constexpr float kNearest = 1e-3f;          // of the object's size: a surface through the very centre has no distance
 constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
 
+// A surface on the way, and the share of its light that comes through what is before it.
+struct Layer {
+  Hit hit;
+  Vec3 share{0};
+};
+
 // What a ray has seen so far.
 struct SurroundSight {
-  Vec3 radiance{0}, throughput{1};
+  std::vector<Layer> layers;
+  Vec3 throughput{1};
   float inverse_distance = 0;
   std::uint8_t valid = 2;
   bool ended = false;
@@ -36,7 +43,20 @@ class SurroundCapture {
         centre_(centre),
         nearest_(std::max(kNearest * glm::length(object.upper - object.lower), 1e-12f)) {}
 
-  SurroundSight look(const Vec3& direction) {
+  // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
+  // leaves some bodies through dozens of surfaces.
+  SurroundSight look(const Vec3& direction, Vec3& radiance) {
+    SurroundSight sight = walk(direction);
+    radiance = Vec3(0);
+    for (const Layer& layer : sight.layers)
+      radiance += layer.share * usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .rays = &rays_}));
+    if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
+    return sight;
+  }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  SurroundSight walk(const Vec3& direction) {
     const float bounds_end = leaves_bounds(direction);
     Ray ray{centre_, direction};
     SurroundSight sight;
@@ -44,10 +64,7 @@ class SurroundCapture {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       const Hit hit = accel_.intersect(ray);
       ++rays_;
-      if (!hit) {
-        if (!sight.ended) sight.radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
-        return sight;
-      }
+      if (!hit) return sight;
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
       if (own(hit.triangle)) {
         if (!hit.front) sight = {};  // all before lies inside
@@ -61,9 +78,7 @@ class SurroundCapture {
     if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
     return sight;
   }
-  std::uint64_t rays() const { return rays_; }
 
- private:
   bool own(std::uint32_t triangle) const {
     const auto listed = [&](std::uint32_t t) {
       return std::binary_search(object_.triangles.begin(), object_.triangles.end(), t);
@@ -93,15 +108,13 @@ class SurroundCapture {
       through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));
     }
     const bool back = !hit.front && !material.double_sided;
-    if (coverage > 0 && !back)
-      sight.radiance += sight.throughput * coverage *
-                        usable_light(outgoing_({.hit = hit, .towards_eye = -direction, .rays = &rays_}));
+    if (coverage > 0 && !back) sight.layers.push_back({hit, sight.throughput * coverage});
     sight.throughput *= through;
     if (max_component(through) >= kSeeThrough) return;
     sight.ended = true;
     sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
     sight.valid = back ? 0 : 1;
-    if (back) sight.radiance = Vec3(0);
+    if (back) sight.layers.clear();
   }
 
   const Accel& accel_;
@@ -138,9 +151,10 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
     const std::uint32_t y = rows[row].y;
     for (std::uint32_t x = 0; x < map.size; ++x) {
       const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
-      const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)));
+      Vec3 radiance;
+      const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)), radiance);
       const std::size_t texel = std::size_t{y} * map.size + x;
-      map.radiance[texel] = usable_light(sight.radiance);
+      map.radiance[texel] = usable_light(radiance);
       map.inverse_distance[texel] = sight.inverse_distance;
       map.valid[texel] = sight.valid;
     }

@@ -9,6 +9,7 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFewerForMirrors = 8;  // whose rays only scatter where they arrive
+constexpr int kMostLobes = 8;                  // one after the other: in a closed pipe of metal paths never end
 
 // One of a page's arrays at a point, bilinear.
 Vec3 sample_page(const LightmapPage& page, const std::vector<Vec3>& texels, const Atlas& atlas, std::uint32_t triangle,
@@ -42,7 +43,7 @@ Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const Surface
 // What the specular lobes send towards the eye.
 Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint32_t paths,
                 std::uint64_t seed, std::uint64_t& rays) {
-  const Transport transport{baked.accel, baked.lights, {}};
+  const Transport transport{baked.accel, baked.lights, {.max_bounces = kMostLobes}};
   const UVec2 place = glm::floatBitsToUint(surface.barycentric);
   const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
   Vec3 sum(0);
@@ -87,7 +88,7 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
 }
 
 std::uint32_t lobe_paths(double pixels) {
-  constexpr double kFewest = 4, kMost = 32, kAll = 64e6;
+  constexpr double kFewest = 4, kMost = 32, kAll = 24e6;
   return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
 }
 
