@@ -22,8 +22,6 @@ Exit codes: 0 done (after one interrupt with what was there), 1 usage, 2 a file 
 130 stopped by the user before there was a first estimate, or by a
 second interrupt (nothing half-written is left).)";
 
-constexpr std::uint32_t kMostSamples = 4096;  // a texel, however small the error asked for
-
 struct Texts {
   std::string texel = "auto", unit = "auto", memory = "128MiB", memory_limit, views = "planned:8", eyes = "walk",
               pvs = "auto", directional = "auto", atlas = "auto", only, estimator = "cached", error = "2%",
@@ -225,10 +223,10 @@ Status resolve(const Texts& texts, Arguments& args) {
     if (texts.error_option->count() > 0) {
       ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
     }
-    bake.radiosity.samples = kMostSamples;
+    bake.radiosity.samples = kMostTexelRays;
   } else {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
-    bake.radiosity.samples = kMostSamples;
+    bake.radiosity.samples = most_texel_rays(bake.radiosity);
   }
   bake.memory_given = !texts.memory_limit.empty();
   if (bake.memory_given) {

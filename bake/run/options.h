@@ -94,4 +94,9 @@ Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std
 // The options that can change a pack's bytes, as JSON: for provenance. Threads and paths are not among them.
 std::string options_json(const BakeOptions& options, std::uint64_t seed);
 
+inline constexpr std::uint32_t kMostTexelRays = 4096;  // a texel, however small the error asked for
+
+// Rays that one texel may take where an error is asked for.
+std::uint32_t most_texel_rays(const RadiosityOptions& radiosity);
+
 }  // namespace oriel

@@ -178,7 +178,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   BakeOptions layout = options;
   if (deadline.limited() && layout.atlas.time_limit_s <= 0)
     layout.atlas.time_limit_s = kMostForAtlas * std::max(deadline.left(), kLate * options.time_s);
-  ORIEL_TRY_VOID(lay_out_lightmap(layout, timed, context, prepared));
+  ORIEL_TRY_VOID(lay_out_lightmap(layout, timed, context, prepared, deadline.left()));
   result.omissions = prepared.omissions;
   const Scene& scene = prepared.scene();
   const Accel& accel = *prepared.accel;

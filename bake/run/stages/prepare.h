@@ -1,6 +1,7 @@
 // The scene as all stages see it: what a bake and its plan begin with.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -30,8 +31,10 @@ struct PreparedScene {
 // cuts what is near and far at once, splits the double-sided surfaces by the light on their sides. Errors as those
 // stages give them.
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
-// Lays out the lightmap for what people see. Errors as build_atlas.
-Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared);
+// Lays out the lightmap for what people see. With choose_texel no more texels than a first estimate of their light can
+// do in a part of `seconds`, those that the bake has left; infinite: as many as are wanted. Errors as build_atlas.
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
+                        double seconds = std::numeric_limits<double>::infinity());
 
 PathOptions path_options(const BakeOptions& options);
 // Kernels may differ by the error that the bake may have.
