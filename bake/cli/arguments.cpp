@@ -144,7 +144,7 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_option(
          "--pvs", texts.pvs,
          "Find out which triangles can be seen from where people walk, so that the player draws no others: auto "
-         "(in scenes of 50 000 triangles and more, where it leaves out a quarter), on, off")
+         "(in scenes of 500 000 triangles and more, where it leaves out a quarter), on, off")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   app.add_option("--orders", bake.sight.orders,

@@ -18,7 +18,7 @@ namespace oriel {
 namespace {
 
 constexpr double kMostForAtlas = 0.2;       // of the time that is left, for charts that are more than plain
-constexpr double kMostForViews = 0.2;       // of the same, for choosing viewpoints
+constexpr double kMostForViews = 0.15;      // of the same, for choosing viewpoints
 constexpr double kMostForSets = 0.2;        // of the same, for visible sets
 constexpr double kMostForTiming = 0.1;      // of the same, for finding out how long capture takes
 constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins

@@ -15,8 +15,8 @@ namespace oriel {
 namespace {
 
 constexpr double kMostForSides = 0.15;       // of --time
-constexpr double kMostForFirstLight = 0.25;  // of what of it is left when the lightmap is laid out
-constexpr double kFirstRays = 400;    // of a texel, for a first estimate of its light: points, direct light, gather
+constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
+constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
 constexpr double kViewRays = 6e5;     // that tell what people see, by which a ray's time is told;
 constexpr double kLeastRay_s = 1e-7;  // which says nothing where they were known already
 

@@ -15,6 +15,9 @@
 #include "formats/pack/reader.h"
 
 namespace oriel::fuzz {
+
+using namespace nlohmann::literals;
+
 namespace {
 
 constexpr double kMostBounces = 4096;  // after which paths and sweeps give up (bake/trace/path.h)
@@ -34,8 +37,18 @@ void check_light(const char* what, const std::vector<Vec3>& values, double bound
   }
 }
 
+// What the bake took a unit of the file to be: a power of ten, told from the surfaces.
+double unit_of(const Pack& pack, double area_m2) {
+  double area = 0;
+  const auto& p = pack.mesh.positions;
+  const auto& v = pack.mesh.indices;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    area += 0.5 * glm::length(glm::cross(DVec3(p[v[i + 1]]) - DVec3(p[v[i]]), DVec3(p[v[i + 2]]) - DVec3(p[v[i]])));
+  return area > 0 && area_m2 > 0 ? std::pow(10, std::round(0.5 * std::log10(area / area_m2))) : 1;
+}
+
 std::vector<std::string> check_files(const std::filesystem::path& pack, const std::filesystem::path& report,
-                                     double bound) {
+                                     const RandomScene& scene) {
   const auto text = read_file(report);
   if (!text) return {text.error().text()};
   const Json json = Json::parse(reinterpret_cast<const char*>(text->data()),
@@ -44,7 +57,9 @@ std::vector<std::string> check_files(const std::filesystem::path& pack, const st
   if (json.is_discarded()) wrong.emplace_back("the report is no JSON");
   const auto read = read_pack(pack);  // with every rule of the format, which want finite numbers
   if (!read) wrong.push_back(read.error().text());
-  if (read) {
+  if (read && !json.is_discarded()) {
+    const double texel_m = json.value("/plan/atlas/texel_m"_json_pointer, 1e-3);
+    const double bound = irradiance_bound(scene.sources, texel_m / unit_of(*read, scene.area_m2));
     const auto more = check_pack_numbers(*read, bound);
     wrong.insert(wrong.end(), more.begin(), more.end());
   }
@@ -126,13 +141,12 @@ std::vector<std::string> check_bake(const std::filesystem::path& oriel_bake, con
   const auto glb = folder / "scene.glb", pack = folder / "scene.oriel", report = folder / "scene.json";
   std::filesystem::create_directories(folder);
   if (const Status status = write_file_atomically(glb, scene.glb); !status) return {status.error().text()};
-  const Ran ran =
-      run_limited({oriel_bake.string(), glb.string(), "-o", pack.string(), "--report", report.string(), "--no-cache",
-                   "--time", fmt::format("{}s", limits.time_s), "--texel", fmt::format("{:.9f}m", scene.texel_m)},
-                  folder / "log", 5 * limits.time_s + 60);
+  const Ran ran = run_limited({oriel_bake.string(), glb.string(), "-o", pack.string(), "--report", report.string(),
+                               "--no-cache", "--time", fmt::format("{}s", limits.time_s)},
+                              folder / "log", 5 * limits.time_s + 60);
   std::vector<std::string> wrong = check_run(ran, limits);
   if (ran.code == 0) {
-    const auto more = check_files(pack, report, irradiance_bound(scene.sources, scene.texel_m));
+    const auto more = check_files(pack, report, scene);
     wrong.insert(wrong.end(), more.begin(), more.end());
   }
   return wrong;

@@ -61,7 +61,7 @@ bool holds(const Options& options, std::uint64_t seed) {
     fs::remove_all(folder);
     return true;
   }
-  fmt::print("seed {}: scale {:.3g}, texel {:.3g} m, {}\n{}", seed, scene.scale, scene.texel_m, listed(scene.parts),
+  fmt::print("seed {}: scale {:.3g}, {:.3g} m2, {}\n{}", seed, scene.scale, scene.area_m2, listed(scene.parts),
              lines(wrong));
   if (options.shrink) shrink(options, seed, folder);
   std::fflush(stdout);
@@ -87,7 +87,7 @@ int main_of_fuzz(int argc, char** argv) {
     fs::create_directories(options.work);
     const fs::path file = options.work / fmt::format("seed-{}.glb", write);
     const RandomScene scene = random_scene(write);
-    fmt::print("{}: texel {:.9f} m, {}\n", file.string(), scene.texel_m, listed(scene.parts));
+    fmt::print("{}: {:.3g} m2, {}\n", file.string(), scene.area_m2, listed(scene.parts));
     return write_file_atomically(file, scene.glb) ? 0 : 2;
   }
   std::uint64_t failed = 0;

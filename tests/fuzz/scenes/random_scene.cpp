@@ -1,16 +1,8 @@
 #include "tests/fuzz/scenes/random_scene.h"
 
-#include <algorithm>
-
 #include "tests/fuzz/scenes/parts.h"
 
 namespace oriel::fuzz {
-namespace {
-
-constexpr double kTexels = 4000;
-
-}  // namespace
-
 RandomScene random_scene(std::uint64_t seed, const std::set<std::string>& without, bool plain_space) {
   Random random(seed);
   RandomScene scene;
@@ -30,7 +22,7 @@ RandomScene random_scene(std::uint64_t seed, const std::set<std::string>& withou
     scene.parts.emplace_back(part.name);
   }
   scene.sources = glb.sources();
-  scene.texel_m = scene.scale * std::clamp(std::sqrt(glb.area() / kTexels), 1e-3, 1e5);
+  scene.area_m2 = scene.scale * scene.scale * glb.area();
   scene.glb = glb.finish(scene.scale, offset);
   return scene;
 }

@@ -12,7 +12,7 @@ struct RandomScene {
   Bytes glb;
   std::vector<std::string> parts;  // their names, as all_parts() has them
   double scale = 1;                // metres a unit of the parts
-  double texel_m = 0.1;            // that gives it some thousand texels, m
+  double area_m2 = 0;              // of its surfaces
   Sources sources;                 // radiance and lights do not depend on the scale
 };
 
