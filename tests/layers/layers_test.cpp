@@ -144,7 +144,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"CGAL/", {"bake/scene"}},
     {"OpenMesh/", {"bake/atlas/chart"}},
     {"Eigen/", {"bake/atlas/chart", "bake/radiosity", "bake/transfer"}},
-    {"boost/", {"bake/radiosity"}},
+    {"boost/", {"bake/radiosity", "bake/radiosity/texels"}},
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/panel", "player/window"}},

@@ -10,6 +10,7 @@ namespace {
 // For one point, where most of the texel is hidden: after these one of the kept points, which are as fair, serves
 // again.
 constexpr std::uint32_t kTries = 16;
+constexpr std::uint32_t kServe = 4;  // times that a kept point of such a texel serves: a new one takes dozens of rays
 
 }  // namespace
 
@@ -28,7 +29,7 @@ TexelSite site_of(const SurfacePoint& s) {
 }
 
 TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const {
-  if (k < texels_.kept_sites(i, half)) return texels_.site_for(i, half, k);
+  if (k < (texels_.has_many[i] ? kServe : 1) * texels_.kept_sites(i, half)) return texels_.site_for(i, half, k);
   const auto cut = texels_.cut.find(i);
   const bool divided = cut != texels_.cut.end();
   const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap

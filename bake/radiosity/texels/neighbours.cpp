@@ -1,7 +1,8 @@
 #include "bake/radiosity/texels/neighbours.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
 
 #include "bake/jobs/parallel.h"
 
@@ -12,6 +13,9 @@ constexpr float kSameNormal = 0.9f;  // cosine
 constexpr float kSamePlane = 0.25f;  // of the distance
 constexpr float kReach = 1.6f;       // texels: a diagonal and a little
 constexpr float kLift = 0.1f;        // texels above the surface at which neighbours must see each other
+
+using Box = boost::geometry::model::box<boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>>;
+using Rims = boost::geometry::index::rtree<std::pair<Box, std::uint32_t>, boost::geometry::index::quadratic<16>>;
 
 struct Candidate {
   std::uint32_t a, b;  // a < b
@@ -35,7 +39,7 @@ class Finder {
       of_chart[texels.chart[i]] = std::max(of_chart[texels.chart[i]], size_[i]);
     }
     for (std::size_t i = 0; i < texels.count(); ++i) size_[i] = of_chart[texels.chart[i]];
-    fill_cells();
+    fill_rims();
   }
 
   // Pairs that begin at texel a, nearest first.
@@ -82,15 +86,10 @@ class Finder {
   }
 
   void add_from_world(std::uint32_t a, std::vector<std::pair<float, std::uint32_t>>& found) const {
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const auto cell = cells_.find(cell_of(position_[a], dx, dy, dz));
-          if (cell == cells_.end()) continue;
-          for (const std::uint32_t b : cell->second)
-            if (b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
-              found.emplace_back(distance2(a, b), b);
-        }
+    const auto around = boost::geometry::index::intersects(reach_of(a));
+    for (auto it = rims_.qbegin(around); it != rims_.qend(); ++it)
+      if (const std::uint32_t b = it->second; b != a && texels_.chart[b] != texels_.chart[a] && continues(a, b))
+        found.emplace_back(distance2(a, b), b);
   }
 
   // Only texels at the rim of their chart can have neighbours elsewhere.
@@ -104,26 +103,23 @@ class Finder {
     return false;
   }
 
-  void fill_cells() {
-    float largest = 0;
-    for (const float s : size_) largest = std::max(largest, s);
-    cell_ = std::max(kReach * largest, 1e-20f);
-    for (std::uint32_t i = 0; i < texels_.count(); ++i)
-      if (texels_.visible[i] > 0 && at_rim(i)) cells_[cell_of(position_[i], 0, 0, 0)].push_back(i);
+  Box reach_of(std::uint32_t i) const {
+    const Vec3 reach(kReach * size_[i]), low = position_[i] - reach, high = position_[i] + reach;
+    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
   }
-  std::uint64_t cell_of(const Vec3& p, int dx, int dy, int dz) const {
-    const auto index = [&](float v, int d) {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v / cell_)) + d) & 0x1FFFFF;
-    };
-    return index(p.x, dx) << 42 | index(p.y, dy) << 21 | index(p.z, dz);
+
+  void fill_rims() {
+    std::vector<std::pair<Box, std::uint32_t>> entries;
+    for (std::uint32_t i = 0; i < texels_.count(); ++i)
+      if (texels_.visible[i] > 0 && at_rim(i)) entries.emplace_back(reach_of(i), i);
+    rims_ = Rims(entries);
   }
 
   const Transport& t_;
   const Texels& texels_;
   std::vector<Vec3> position_;
   std::vector<float> size_;  // side of a texel of its chart, metres
-  float cell_ = 1;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  Rims rims_;                // how far texels at the rim of their chart reach: sizes span orders of magnitude
 };
 
 void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {

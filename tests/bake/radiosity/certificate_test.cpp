@@ -70,7 +70,7 @@ TEST(HeldOut, TellTheErrorThatIsThere) {
   EXPECT_GT(good.pixels, 64u);
   Baked b = clean;
   spoil(b, 0.4f);
-  const Certificate spoilt = certificate_of(b, 0.1, kManyRays);
+  const Certificate spoilt = certificate_of(b, 0.05, kManyRays);
   const double added = added_error(clean, b);
   EXPECT_GT(added, 0.1) << "a third of it is left between texels";
   const double expected = std::hypot(added, good.relative_error);

@@ -142,7 +142,7 @@ TEST(FrameError, HasAFloorOfATenthOfWhatTheEyeSees) {
 // Of two rooms alike the one that nobody sees gets a few rays a texel, the other is as good as was asked.
 TEST(Effort, GoesWherePeopleLook) {
   const auto bake_for = [](std::vector<Vec3> eyes) {
-    RadiosityOptions o{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
+    RadiosityOptions o{.estimator = Estimator::kCached, .samples = 4096, .error = 0.006};
     o.eyes = std::move(eyes);
     return test::bake(two_rooms(), 0.1f, o);
   };
@@ -152,8 +152,8 @@ TEST(Effort, GoesWherePeopleLook) {
     here.push_back(eye), both.push_back(eye), both.push_back(eye + Vec3(3, 0, 0));
   }
   const Baked one = bake_for(here), two = bake_for(both);
-  EXPECT_LE(one.radiosity.report.relative_error, 0.011);
-  EXPECT_LE(two.radiosity.report.relative_error, 0.011);
+  EXPECT_LE(one.radiosity.report.relative_error, 0.0066);
+  EXPECT_LE(two.radiosity.report.relative_error, 0.0066);
   // Points, patches and first rays of both rooms are a fixed part.
   EXPECT_LT(static_cast<double>(one.radiosity.report.rays), 0.9 * static_cast<double>(two.radiosity.report.rays));
   double error[2] = {0, 0}, count[2] = {0, 0};
