@@ -11,7 +11,7 @@ struct PlannedViewOptions {
   ChoiceOptions choice;          // max_maps: of an element of element_m; larger ones get as many times more, but with a
                                  // residual no more than kMostMapsPerElement
   float element_m = 3;           // metres: the paper's
-  std::uint32_t samples = 8192;  // for each element_m square, at most for four of a reflector
+  std::uint32_t samples = 4096;  // for each element_m square, at most for four of a reflector
   std::uint32_t hemisphere = 64;                          // candidates: the paper's
   std::uint32_t mirrored_eyes = 128;                      // and mirror images of eyes that see the element
   std::uint32_t max_elements = 16;                        // of a reflector: it is divided while that makes it sharper
