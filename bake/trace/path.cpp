@@ -114,12 +114,14 @@ class Walk {
     const float cosine = glm::dot(surface.normal, wo);
     const Vec3 specular = reflectance(surface.shade, cosine);
     const Vec3 weight = throughput_ * surface.shade.diffuse * (1 - max_component(specular));
-    if (max_component(weight) > 0 && is_usable(weight) &&
-        !(*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, distance, weight}))
-      return true;
+    std::optional<float> survival = 1.0f;
+    if (max_component(weight) > 0 && is_usable(weight))
+      survival = (*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, distance, weight});
+    if (!survival) return true;
     surface.shade.diffuse = Vec3(0);
-    // The rest goes on as often as it is bright.
-    const float q = std::min(1.0f, max_component(specular) + max_component(surface.shade.transmission));
+    // The rest goes on as often as it is bright, or as told.
+    const float often = std::max(1.0f, *survival * max_component(throughput_));
+    const float q = std::min(1.0f, max_component(specular) * often + max_component(surface.shade.transmission));
     if (!(q > 0) || sampler_.next1() >= q) return false;
     throughput_ /= q;
     return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "bake/trace/bsdf.h"
 #include "bake/trace/lights.h"
@@ -69,8 +70,9 @@ struct DiffuseVertex {
   float distance = 0;  // from where the path came last, m
   Vec3 weight{0};
 };
-// True: the caller knows the irradiance there and takes the diffuse reflection over; false: the path follows it.
-using OnDiffuse = std::function<bool(const DiffuseVertex&)>;
+// A value: the caller knows the irradiance there and takes the diffuse reflection over; from what else reflects the
+// path goes on that many times as often as that is bright, less where little of its light is left. None: it follows it.
+using OnDiffuse = std::function<std::optional<float>(const DiffuseVertex&)>;
 
 // As trace_path, but every diffuse surface on the way is told to the caller. Where that takes it over, the path goes on
 // through mirrors, glossy lobes, glass and cut-outs only. `first` is what the ray hits; bsdf_pdf as there.

@@ -10,6 +10,7 @@
 #include "bake/radiosity/cached/worst.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/gather/survival.h"
 #include "formats/core/color.h"
 
 namespace oriel {
@@ -93,6 +94,8 @@ class CachedEstimator : public LightEstimator {
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i) irradiance_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
+    ORIEL_TRY(auto survival, learn_survival(texels_, around_, order_, cached_, context_, rays_));
+    around_.set_survival(std::move(survival));
     return first_gather();
   }
 
@@ -209,7 +212,6 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
-
   // Runs a refinement, which each texel gets whole or not at all, until there is enough.
   Status refine(const std::function<Status()>& refinement) {
     const Interruptible until(context_, options_.enough);
@@ -352,12 +354,10 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
     }));
-    if (ended_early_) {
+    if (ended_early_)
       around_.set_near(before);
-      return {};
-    }
-    gathered_ = std::move(anew);
-    update_estimate();
+    else
+      gathered_ = std::move(anew), update_estimate();
     return {};
   }
 

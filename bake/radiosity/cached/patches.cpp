@@ -162,7 +162,8 @@ class Solver {
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
-      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel) link_to(i, texel, texels_.albedo[texel]);
+      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
+        link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
     }
     for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
     return batch.size() + answers.rays;

@@ -96,8 +96,8 @@ class GroupGather {
       if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel) {
         const CachedTexel& met = cached_.texels[texel];
         const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
-        light[i] += there;
-        slope = kPi * (there - met.radiance);
+        light[i] += answers_.share[i] * there;
+        slope = kPi * answers_.share[i] * (there - met.radiance);
       }
       if (!is_usable(light[i])) {
         around_.transport().accel.dropped().add(answers_.hits[i].triangle);
@@ -143,7 +143,7 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half, around.near());
+    key(light, part(g), per_half, around.near(), around.survival());
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {

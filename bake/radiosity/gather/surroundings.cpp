@@ -8,10 +8,11 @@
 namespace oriel {
 namespace {
 
-// Reflects diffusely and nothing else, lets no light through.
-bool is_matt(const SceneMaterial& m) {
-  return !m.unlit && m.alpha_mode == AlphaMode::kOpaque && m.transmission == 0 && m.metallic == 0 && m.specular == 0 &&
-         m.coat == 0 && m.metal == Metal::kNone;
+bool lets_nothing_through(const SceneMaterial& m) {
+  return !m.unlit && m.alpha_mode == AlphaMode::kOpaque && m.transmission == 0;
+}
+bool has_specular_layers(const SceneMaterial& m) {
+  return m.metallic > 0 || m.specular > 0 || m.coat > 0 || m.metal != Metal::kNone;
 }
 
 }  // namespace
@@ -21,11 +22,13 @@ Surroundings::Surroundings(const Transport& transport, const Texels& texels, boo
   side_.resize(texels.count());
   std::ranges::transform(texels.area_m2, side_.begin(), [](float area) { return std::sqrt(area); });
   const Scene& scene = transport.accel.scene();
+  survival_.assign(scene.materials.size(), 1.0f);
   kinds_.resize(scene.triangles.size());
   for (std::uint32_t t = 0; t < kinds_.size(); ++t) {
     const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[t]].material];
     const bool emits = max_component(material.emission) > 0;
-    kinds_[t] = is_matt(material) && (closed_form || !emits) ? Kind::kMatt : Kind::kOther;
+    if (lets_nothing_through(material) && (closed_form || !emits))
+      kinds_[t] = has_specular_layers(material) ? Kind::kLayered : Kind::kMatt;
   }
 }
 
@@ -33,34 +36,59 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   answers.hits.resize(rays.size());
   answers.light.assign(rays.size(), Vec3(0));
   answers.texel.assign(rays.size(), kNoTexel);
+  answers.share.assign(rays.size(), 1.0f);
   answers.links.clear();
   answers.rays = 0;
   t_.accel.intersect(rays, answers.hits);
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = answers.hits[i];
     if (!hit) {
-      answers.light[i] = sky_radiance(t_.accel.scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
+      answers.light[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       continue;
     }
-    const bool matt = kinds_[hit.triangle] == Kind::kMatt;
-    if (matt && !hit.front) continue;  // texels hold the light of fronts
-    const std::uint32_t texel = matt ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
-    if (matt && !is_near(about[i], hit.distance, texel))
-      answers.texel[i] = texel;
-    else
+    const Kind kind = kinds_[hit.triangle];
+    if (kind == Kind::kMatt && !hit.front) continue;  // texels hold the light of fronts
+    const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
+    if (kind == Kind::kOther || is_near(about[i], hit.distance, texel) ||
+        (kind == Kind::kLayered && texel == kNoTexel)) {
       follow(rays[i], about[i], hit, i, answers);
+      continue;
+    }
+    answers.texel[i] = texel;
+    if (kind == Kind::kLayered) look_through_layers(rays[i], about[i], hit, i, answers);
   }
+}
+
+// What layers leave to the texel's diffuse reflection. They themselves reflect little mostly: a path goes on from them
+// as often as they are bright, and only then are textures read.
+void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number,
+                                       Answers& answers) const {
+  const float cosine = -glm::dot(geometry_at(scene(), hit, ray.direction).normal, ray.direction);
+  const float share = texels_.diffuse_share[answers.texel[number]].at(cosine);
+  const float chance = std::min(1.0f, (1 - share) * survival_of(hit.triangle));
+  answers.share[number] = share;
+  Sampler sampler(seed_, about.stream, about.sample);
+  if (!(chance > 0) || sampler.next1() >= chance) return;
+  const std::size_t before = answers.links.size();
+  const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
+  const Vec3 light =
+      specular_light(t_, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
+  answers.light[number] = light / chance;
+  for (std::size_t i = before; i < answers.links.size(); ++i) answers.links[i].weight /= chance;
+}
+
+std::optional<float> Surroundings::link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
+                                           Answers& answers) const {
+  const std::uint32_t texel = v.front ? texels_.find(v.triangle, v.barycentric) : kNoTexel;
+  if (is_near(about, v.distance, texel)) return std::nullopt;
+  if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
+  return survival_of(v.triangle);
 }
 
 void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number,
                           Answers& answers) const {
   Sampler sampler(seed_, about.stream, about.sample);
-  const auto on_diffuse = [&](const DiffuseVertex& v) {
-    const std::uint32_t texel = v.front ? texels_.find(v.triangle, v.barycentric) : kNoTexel;
-    if (is_near(about, v.distance, texel)) return false;
-    if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
-    return true;
-  };
+  const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
   const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
   answers.light[number] =

@@ -10,8 +10,8 @@ struct GatherRay {
   float incidence = 0;       // of its direction: π times its density
   std::uint64_t stream = 0;  // of the random numbers for lobes behind the first hit
   std::uint32_t sample = 0;
-  // Texels met from nearer than Surroundings::near() of their sides, and those that something stands or hangs close to,
-  // are not asked: a path goes on from the point met.
+  // Texels met from nearer than Surroundings::near() of their sides, and further where something stands or hangs close
+  // to them, are not asked: a path goes on from the point met.
   bool near = false;
 };
 
@@ -21,11 +21,13 @@ struct Link {
   std::uint32_t texel = 0;
   Vec3 weight{0};
 };
-// The light along a ray: light + albedo(texel) * irradiance(texel) / π + Σ weight * irradiance / π over its links.
+// The light along a ray: light + share * albedo(texel) * irradiance(texel) / π + Σ weight * irradiance / π over its
+// links.
 struct Answers {
   std::vector<Hit> hits;
-  std::vector<std::uint32_t> texel;  // by ray: of the matt surface met; kNoTexel: none
-  std::vector<Link> links;           // in order of rays
+  std::vector<std::uint32_t> texel;  // by ray: of the opaque surface met; kNoTexel: none
+  std::vector<float> share;  // by ray: of light that the texel's specular layers leave to its diffuse reflection
+  std::vector<Link> links;   // in order of rays
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
   std::vector<Vec3> light;
   std::uint64_t rays = 0;  // traced, beyond the batch itself
@@ -51,27 +53,46 @@ class Surroundings {
   void set_near(float sides) { near_ = sides; }
   const Transport& transport() const { return t_; }
 
+  // By material: a path goes on from specular layers so many times as often as they are bright; 1 unless told
+  // (learn_survival). It changes what rays cost and how noisy they are, not the light that they find on average.
+  void set_survival(std::vector<float> by_material) { survival_ = std::move(by_material); }
+  const std::vector<float>& survival() const { return survival_; }
+
  private:
+  static constexpr float kCrowdedNear = 8;  // times as far
+
   // Whether the mean over a texel says too little about the point that was met: it is close by, or the texel reaches
   // under or into something and is lit elsewhere.
   bool is_near(const GatherRay& about, float distance, std::uint32_t texel) const {
-    return about.near && texel != kNoTexel && (texels_.has_many[texel] || distance < near_ * side_[texel]);
+    return about.near && texel != kNoTexel &&
+           distance < near_ * (texels_.has_many[texel] ? kCrowdedNear : 1.0f) * side_[texel];
   }
 
-  // At a surface that is more than a matt wall, or that is near.
+  // At a surface that lets light through or emits, or that is near.
   void follow(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number, Answers& answers) const;
+  // At an opaque one with specular layers, whose texel is in `answers`.
+  void look_through_layers(const Ray& ray, const GatherRay& about, const Hit& hit, std::uint32_t number,
+                           Answers& answers) const;
+  float survival_of(std::uint32_t triangle) const {
+    return survival_[scene().surfaces[scene().triangle_surface[triangle]].material];
+  }
+  std::optional<float> link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
+                               Answers& answers) const;  // as OnDiffuse
 
   // The part of the sky met that rays answer for, the rest is left to light sampling.
   float sky_weight(const Vec3& direction, const GatherRay& about) const;
 
-  enum class Kind : char { kMatt, kOther };
+  const Scene& scene() const { return t_.accel.scene(); }
+
+  enum class Kind : char { kOther, kMatt, kLayered };  // the last two are opaque, and lit by what texels hold
   const Transport& t_;
   const Texels& texels_;
   bool closed_form_;
   std::uint64_t seed_;
   float near_ = 1;
-  std::vector<Kind> kinds_;  // by triangle
-  std::vector<float> side_;  // by texel, m
+  std::vector<Kind> kinds_;      // by triangle
+  std::vector<float> survival_;  // by material
+  std::vector<float> side_;      // by texel, m
 };
 
 }  // namespace oriel

@@ -34,7 +34,7 @@ class SiteFinder {
 
   Found find(Texels& texels, std::size_t i, std::uint64_t& rays) const {
     const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | texels.index[i];
-    Vec3 albedo(0);
+    std::vector<ShadePoint> shade;
     int buried = 0;
     bool crowded = false;
     for (int k = 0; k < kSites; ++k) {
@@ -43,9 +43,9 @@ class SiteFinder {
       texels.site[i][k] = site_of(surface);
       buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
       crowded = crowded || meets_near(texels, i, k, stream, rays);
-      if (turn < kColored) albedo += albedo_at(surface);
+      if (turn < kColored) shade.push_back(shade_at(surface));
     }
-    texels.albedo[i] = albedo / static_cast<float>(kHalves * kColored);
+    keep_means(shade, texels, i);
     texels.visible[i] = 1;
     Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], rays), {}};
     if (found.part.covered())
@@ -60,7 +60,7 @@ class SiteFinder {
   // Again, with many points: their share, and those that are left.
   void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint32_t points, Found& found,
                      std::uint64_t& rays) const {
-    Vec3 albedo(0);
+    std::vector<ShadePoint> shade;
     std::uint32_t tried = 0, total = 0;
     Onlookers::Nearest eyes;
     // A handful of points that escaped the probes do not make a texel visible.
@@ -73,12 +73,12 @@ class SiteFinder {
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
           !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, eyes, rays))
         continue;
-      albedo += albedo_at(surface);
+      shade.push_back(shade_at(surface));
       found.many[half].push_back(site_of(surface));
       ++total;
     }
     texels.visible[i] = enough() ? static_cast<float>(total) / static_cast<float>(tried) : 0.0f;
-    if (total > 0) texels.albedo[i] = albedo / static_cast<float>(total);
+    if (total > 0) keep_means(shade, texels, i);
     if (!enough()) found.many = {};
     for (std::size_t k = 0; enough() && k < kSites; ++k) {
       const auto& many = found.many[k / kSitesPerHalf];
@@ -90,8 +90,12 @@ class SiteFinder {
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     return texel_candidate(t_, atlas_, maps_, texels, i, half, k, seed_);
   }
-  Vec3 albedo_at(const SurfacePoint& s) const {
-    return shade_point(t_.accel.scene(), s.triangle, s.barycentric).diffuse;
+  ShadePoint shade_at(const SurfacePoint& s) const { return shade_point(t_.accel.scene(), s.triangle, s.barycentric); }
+  static void keep_means(std::span<const ShadePoint> points, Texels& texels, std::size_t i) {
+    Vec3 albedo(0);
+    for (const ShadePoint& point : points) albedo += point.diffuse;
+    texels.albedo[i] = albedo / static_cast<float>(points.size());
+    texels.diffuse_share[i] = DiffuseShare(points);
   }
 
   // Whether a ray from a site finds something nearer than a texel's side.
@@ -187,7 +191,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   }
   const std::size_t n = texels.count();
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
-      texels.has_many.resize(n), texels.is_cut.resize(n);
+      texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
   const SiteFinder finder(t, atlas, texel_map, texels.eyes, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
@@ -207,7 +211,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   };
   loop.results = [&](std::size_t run, Archive& archive) {
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i)
-      archive(texels.site[i], texels.visible[i], texels.area_m2[i], texels.albedo[i]);
+      archive(texels.site[i], texels.visible[i], texels.area_m2[i], texels.albedo[i], texels.diffuse_share[i]);
     std::uint64_t count = hidden[run].size();
     archive(count);
     while (hidden[run].size() < std::min<std::uint64_t>(count, kRun))

@@ -8,6 +8,7 @@
 
 #include "bake/atlas/texel_map.h"
 #include "bake/direct/polygon_light.h"
+#include "bake/radiosity/texels/diffuse_share.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/trace/path.h"
 
@@ -51,6 +52,7 @@ struct Texels {
   std::vector<float> covered;  // share of the texel that has a surface
   std::vector<float> area_m2;
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
+  std::vector<DiffuseShare> diffuse_share;
 
   std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (direct/onlookers.h)
 

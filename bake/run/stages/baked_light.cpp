@@ -48,10 +48,10 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
   const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
   Vec3 sum(0);
   const OnDiffuse add = [&](const DiffuseVertex& v) {
-    if (!v.front) return true;
+    if (!v.front) return 1.0f;
     const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
     sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, v.triangle, v.barycentric, normal, normal);
-    return true;
+    return 1.0f;
   };
   for (std::uint32_t i = 0; i < paths; ++i) {
     Sampler sampler(seed, stream, i);
