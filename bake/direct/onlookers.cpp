@@ -27,11 +27,10 @@ bool Onlookers::in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t
   return true;
 }
 
-std::vector<Vec3> Onlookers::nearest_to(const SurfacePoint& surface) const {
+std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal) const {
   std::vector<std::pair<float, std::uint32_t>> before;  // squared distance, eye
   for (std::uint32_t e = 0; e < eyes_.size(); ++e)
-    if (const Vec3 way = eyes_[e] - surface.position; glm::dot(way, surface.geometric_normal) > 0)
-      before.emplace_back(glm::dot(way, way), e);
+    if (const Vec3 way = eyes_[e] - point; glm::dot(way, normal) > 0) before.emplace_back(glm::dot(way, way), e);
   const std::size_t count = std::min(before.size(), kNearest);
   std::partial_sort(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(count), before.end());
   std::vector<Vec3> eyes;
@@ -42,11 +41,14 @@ std::vector<Vec3> Onlookers::nearest_to(const SurfacePoint& surface) const {
 bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
                     std::uint32_t sample, Nearest& nearest, std::uint64_t& rays) const {
   if (eyes_.empty() || !in_gap(surface, reach_m, seed, stream, sample, rays)) return true;
-  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
-  if (!nearest) nearest = nearest_to(surface);
+  return in_sight(spawn_origin(surface, surface.geometric_normal), surface.geometric_normal, nearest, rays);
+}
+
+bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const {
+  if (!nearest) nearest = nearest_to(origin, normal);
   for (const Vec3& eye : *nearest) {
     const float distance = glm::distance(eye, origin);
-    if (distance > 0 && glm::dot(eye - origin, surface.geometric_normal) <= 0) continue;
+    if (distance > 0 && glm::dot(eye - origin, normal) <= 0) continue;
     ++rays;
     if (!(distance > 0) || max_component(accel_.transmittance({origin, (eye - origin) / distance, distance})) > 0)
       return true;

@@ -22,12 +22,15 @@ class Onlookers {
   // nearest eyes has a line of sight to it. Most points take two rays. The same for the same seed, stream and sample.
   bool see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample,
            Nearest& nearest, std::uint64_t& rays) const;
+  // Whether one of the nearest eyes has a line of sight to a point off the surface, of that normal.
+  bool in_sight(const Vec3& point, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const;
+  bool any() const { return !eyes_.empty(); }
 
  private:
   bool in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
               std::uint32_t sample, std::uint64_t& rays) const;
 
-  std::vector<Vec3> nearest_to(const SurfacePoint& surface) const;
+  std::vector<Vec3> nearest_to(const Vec3& point, const Vec3& normal) const;
 
   const Accel& accel_;
   std::span<const Vec3> eyes_;

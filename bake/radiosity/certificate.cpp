@@ -78,12 +78,12 @@ std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const
 
 class Verifier {
  public:
-  Verifier(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> map, Ask what, double asked,
-           std::uint64_t rays_at_most, Context& context)
+  Verifier(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> map, Ask what,
+           std::span<const Vec3> eyes, double asked, std::uint64_t rays_at_most, Context& context)
       : t_(transport), map_(map), what_(what), asked2_(asked * asked), rays_at_most_(rays_at_most), context_(context) {
     of_texels_.reserve(seeds_.size());
     for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + seeds::kCertificate + k);
-    for (const Context& own : seeds_) of_texels_.emplace_back(transport, atlas, false, own);
+    for (const Context& own : seeds_) of_texels_.emplace_back(transport, atlas, eyes, false, own);
   }
 
   // How many paths an estimate may have, so that a batch stays within the rays.
@@ -201,10 +201,10 @@ double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& es
 
 Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                             std::span<const LightmapPage> pages, std::span<const FramePixel> pixels, Ask what,
-                            double asked, std::uint64_t rays_at_most, Context& context) {
+                            double asked, std::uint64_t rays_at_most, Context& context, std::span<const Vec3> eyes) {
   Certificate c;
   std::vector<HeldOut> held_out = hold_out(texel_map, pages, pixels, what);
-  Verifier verifier(transport, atlas, texel_map, what, asked, rays_at_most, context);
+  Verifier verifier(transport, atlas, texel_map, what, eyes, asked, rays_at_most, context);
   std::span<const HeldOut> compared;
   while (compared.size() < held_out.size()) {
     const auto batch =

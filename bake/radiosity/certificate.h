@@ -27,9 +27,10 @@ enum class Ask {
 // numbers of their own, thrice each (squared_error). Noisy pixels get more paths, as a few of their own foretell. More
 // pixels are asked, in their order, until the squared error is known to a fifth of what was asked for, or
 // `rays_at_most` are traced; at least 64 are. Nothing depends on threads or the clock. pages: filled, dilated and
-// stitched. Stage name "certificate"; error kStopped.
+// stitched. eyes: those that the texels were listed for. Stage name "certificate"; error kStopped.
 Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                             std::span<const LightmapPage> pages, std::span<const FramePixel> pixels, Ask what,
-                            double asked, std::uint64_t rays_at_most, Context& context);
+                            double asked, std::uint64_t rays_at_most, Context& context,
+                            std::span<const Vec3> eyes = {});
 
 }  // namespace oriel

@@ -140,8 +140,10 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
 Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const FramePixel> held_out,
                         const Radiosity& light) {
   const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.rays));
-  const double goal = task.options.error > 0 ? task.options.error : light.report.relative_error;
-  auto c = certify(task.transport, task.atlas, task.map, light.pages, held_out, what, goal, at_most, task.context);
+  const RadiosityOptions& options = task.options;
+  const double goal = options.error > 0 ? options.error : light.report.relative_error;
+  auto c = certify(task.transport, task.atlas, task.map, light.pages, held_out, what, goal, at_most, task.context,
+                   options.eyes);
   if (c) task.rays += c->rays;
   return c;
 }

@@ -37,7 +37,7 @@ std::optional<std::array<Vec3, 4>> corners_of(const Scene& scene, const Atlas& a
 }  // namespace
 
 TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-                     std::uint64_t& rays)
+                     const Onlookers& onlookers, std::uint64_t& rays)
     : accel_(transport.accel) {
   const Scene& scene = accel_.scene();
   const auto corners = corners_of(scene, atlas, map, texel);
@@ -67,10 +67,16 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     if (!is_covered(p, k)) left.push_back(lifted(p));
   }
   covered_ = any && left.empty();
-  for (std::size_t most = 0; left.size() > most;) {
-    Side side = take_side(left, rays);
-    if (side.points > most) anchors_ = std::move(side.anchors), most = side.points;
-  }
+  std::vector<Side> sides;
+  while (!left.empty()) sides.push_back(take_side(left, rays));
+  Onlookers::Nearest eyes;
+  for (Side& side : sides)
+    for (const Vec3& p : side.points)
+      side.seen += sides.size() > 1 && onlookers.any() && onlookers.in_sight(p, middle.geometric_normal, eyes, rays);
+  Side best;
+  for (Side& side : sides)
+    if (side.is_before(best)) best = std::move(side);
+  anchors_ = std::move(best.anchors);
 }
 
 // Points that see one another, directly or by way of others (around a corner of the wall), stand on one side.
@@ -85,7 +91,7 @@ TexelPart::Side TexelPart::take_side(std::vector<Vec3>& left, std::uint64_t& ray
     reached.insert(reached.end(), seen, left.end());
     left.erase(seen, left.end());
   }
-  side.points = reached.size();
+  side.points = std::move(reached);
   return side;
 }
 

@@ -4,22 +4,24 @@
 #include <optional>
 
 #include "bake/atlas/texel_map.h"
+#include "bake/direct/onlookers.h"
 #include "bake/trace/path.h"
 #include "formats/core/archive.h"
 
 namespace oriel {
 
 // A texel under a thin wall sees light on both of the wall's sides; the mean of both would leak into the dark room. It
-// gets the light of the side on which most of it lies: of those points that see one of its anchors, along segments a
-// tenth of a texel above the surface, so that thresholds and carpets are no walls. What lies lower still under another
-// body is no side: nobody looks in there. Which side is taken depends on the texel alone, not on seeds or estimators:
+// gets the light of the side of which eyes see most, or else of that on which most of it lies: of those points that see
+// one of its anchors, along segments a tenth of a texel above the surface, so that thresholds and carpets are no walls.
+// So the floor before a hollow plinth is not that inside. What lies lower still under another body is no side: nobody
+// looks in there. Which side is taken depends on the texel and on where people look alone, not on seeds or estimators:
 // all of them speak of the same light.
 class TexelPart {
  public:
   // The whole texel where nothing stands on its diagonals nor lies on its middle: a few rays. texel: as
   // TexelMapPage::texel[texel]. Adds to rays.
   TexelPart(const Transport& transport, const Atlas& atlas, const TexelMapPage& map, std::size_t texel,
-            std::uint64_t& rays);
+            const Onlookers& onlookers, std::uint64_t& rays);
 
   // All of a texel, for fields() to fill.
   explicit TexelPart(const Accel& accel) : accel_(accel) {}
@@ -34,8 +36,11 @@ class TexelPart {
   friend void fields(Archive& archive, TexelPart& part) { archive(part.lift_, part.anchors_); }
 
   struct Side {
-    std::vector<Vec3> anchors;
-    std::size_t points = 0;
+    std::vector<Vec3> anchors, points;
+    std::size_t seen = 0;  // points that eyes see
+    bool is_before(const Side& other) const {
+      return std::pair(seen, points.size()) > std::pair(other.seen, other.points.size());
+    }
   };
   // Takes one side's points from those left (at least one).
   Side take_side(std::vector<Vec3>& left, std::uint64_t& rays) const;

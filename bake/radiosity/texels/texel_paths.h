@@ -39,9 +39,10 @@ inline void fields(Archive& archive, TexelSums& s) {
 
 class TexelPaths {
  public:
-  // directional: sample so that IrradianceSample's moments are known, too.
-  TexelPaths(const Transport& transport, const Atlas& atlas, bool directional, const Context& context)
-      : t_(transport), atlas_(atlas), directional_(directional), context_(context) {}
+  // directional: sample so that IrradianceSample's moments are known, too. eyes: as list_texels().
+  TexelPaths(const Transport& transport, const Atlas& atlas, std::span<const Vec3> eyes, bool directional,
+             const Context& context)
+      : t_(transport), atlas_(atlas), eyes_(eyes), directional_(directional), context_(context) {}
 
   // Paths number first to last of texel i of a page. Points inside other geometry (independent probes meet little but
   // back faces of one-sided materials) are left out, and so is what a thin wall cuts off the texel. Adds to rays.
@@ -54,6 +55,7 @@ class TexelPaths {
 
   const Transport& t_;
   const Atlas& atlas_;
+  std::span<const Vec3> eyes_;
   bool directional_;
   const Context& context_;
 };

@@ -47,7 +47,7 @@ class SiteFinder {
     }
     keep_means(shade, texels, i);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], rays), {}};
+    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], onlookers_, rays), {}};
     if (found.part.covered())
       texels.visible[i] = 0;
     else if (buried > 0 || !found.part.whole())
