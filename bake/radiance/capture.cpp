@@ -24,7 +24,7 @@ bool has_image(const SceneMaterial& material) {
 }  // namespace
 
 SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction) {
+              const Vec3& from, const Vec3& direction, std::uint32_t looks) {
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
   std::uint64_t lobe_rays = 0;
@@ -32,6 +32,7 @@ SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance&
     const Scene& scene = surroundings.accel().scene();
     seen.textured |= has_image(scene.materials[scene.surfaces[scene.triangle_surface[surface.hit.triangle]].material]);
     surface.rays = &lobe_rays;
+    surface.looks = looks;
     // The closed form shows the lamp itself; its images in other mirrors are here alone.
     surface.emission =
         surface.mirrors_passed > 0 || !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
@@ -82,20 +83,20 @@ CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const
 MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                        const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
   const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
-  const auto look = [&](const Vec2& place) {
+  const auto look = [&](const Vec2& place, std::uint32_t looks) {
     const CaptureRay ray = capture_ray(reflector, map, place);
-    SeenAt seen{see(surroundings, outgoing, map.reflector, ray.from, ray.direction)};
+    SeenAt seen{see(surroundings, outgoing, map.reflector, ray.from, ray.direction, looks)};
     seen.at = ray.from + seen.light.sight.offset;
     rays += seen.light.rays;
     return seen;
   };
   const Vec2 middle = Vec2(x, y) + 0.5f;
-  const SeenAt centre = look(middle);
+  const SeenAt centre = look(middle, 1);
   const Sight& sight = centre.light.sight;
   Vec3 light = centre.light.radiance;
   float count = 1;
   for (std::size_t i = 0; centre.light.textured && i < kPlaces.size(); ++i) {
-    const SeenAt beside = look(middle + kPlaces[i]);
+    const SeenAt beside = look(middle + kPlaces[i], kPlaces.size());
     if (same_surface(centre, beside)) light += beside.light.radiance, ++count;
   }
   const bool has_depth = sight.state == Sight::kSurface || sight.back;

@@ -22,8 +22,9 @@ struct SeenLight {
   bool textured = false;  // part of it comes from a surface whose colour or lobe an image tells
   std::uint64_t rays = 0;
 };
+// looks: SeenSurface::looks.
 SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction);
+              const Vec3& from, const Vec3& direction, std::uint32_t looks = 1);
 
 // A pixel of a radiance map, as its members have it.
 struct MapPixel {

@@ -28,6 +28,7 @@ struct SeenSurface {
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
   bool planar = false;               // of a planar reflector
   bool glossy = false;  // its lobe is too wide to be followed but narrow enough that what it shows depends on the eye
+  std::uint32_t looks = 1;        // so many with other rays, whose mean counts: each needs that much fewer paths
   std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 

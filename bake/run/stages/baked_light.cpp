@@ -96,7 +96,8 @@ Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen,
                                std::uint64_t seed, std::uint64_t& rays) {
   const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye);
   if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
-  if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
+  if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths /= kFewerForMirrors;
+  paths = std::max(1u, paths / seen.looks);
   return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, paths, seed, rays);
 }
 
