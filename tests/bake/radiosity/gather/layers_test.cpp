@@ -84,7 +84,7 @@ TEST(Surroundings, GlossInAFurnaceWhateverTheSurvival) {
     }
 }
 
-// Two floors under a ceiling with a window: one shows the window to the walls, the other is too rough to show anything.
+// A polished floor before a window, once far brighter than what else there is, once far darker.
 TEST(Survival, IsHigherWhereLayersReflectBrightThings) {
   const auto learnt = [](float window) {
     SceneParts parts;
