@@ -27,7 +27,7 @@ std::optional<double> texel_relrmse(const Measures& m) {
 }
 
 std::optional<double> frame_relrmse(const Measures& m) {
-  return frame_error(m, &FrameError::sum);
+  return frame_error(m, &CameraError::sum);
 }
 
 constexpr std::array<FrontKind, 4> kKinds = {{

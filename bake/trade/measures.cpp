@@ -32,7 +32,7 @@ double without(double square, double noise_square) {
   return std::sqrt(std::max(0.0, square - noise_square));
 }
 
-Json frame_json(const FrameError& f) {
+Json frame_json(const CameraError& f) {
   Json json = {{"camera", f.camera}, {"sum", f.sum}, {"D", f.diffuse}};
   if (f.specular) json["S"] = *f.specular;
   json["noise"] = f.noise;
@@ -41,8 +41,8 @@ Json frame_json(const FrameError& f) {
   return json;
 }
 
-FrameError frame_from(const Json& json) {
-  FrameError f{json.at("camera"), json.at("sum"), json.at("D"), {}, json.at("noise"), json.at("flip"), json.at("mse")};
+CameraError frame_from(const Json& json) {
+  CameraError f{json.at("camera"), json.at("sum"), json.at("D"), {}, json.at("noise"), json.at("flip"), json.at("mse")};
   if (json.contains("S")) f.specular = json["S"].get<double>();
   return f;
 }
@@ -67,16 +67,16 @@ Measures measures_from(const Json& json) {
 
 }  // namespace
 
-std::optional<double> frame_error(const Measures& measures, double FrameError::*error) {
+std::optional<double> frame_error(const Measures& measures, double CameraError::*error) {
   if (measures.frames.empty()) return {};
   double squares = 0;
-  for (const FrameError& frame : measures.frames) squares += frame.*error * (frame.*error);
+  for (const CameraError& frame : measures.frames) squares += frame.*error * (frame.*error);
   return std::sqrt(squares / static_cast<double>(measures.frames.size()));
 }
 
 std::optional<double> specular_error(const Measures& measures) {
   double squares = 0, count = 0;
-  for (const FrameError& frame : measures.frames)
+  for (const CameraError& frame : measures.frames)
     if (frame.specular) squares += *frame.specular * *frame.specular, ++count;
   if (count == 0) return {};
   return std::sqrt(squares / count);
@@ -85,14 +85,14 @@ std::optional<double> specular_error(const Measures& measures) {
 std::optional<double> mean_flip(const Measures& measures) {
   if (measures.frames.empty()) return {};
   double sum = 0;
-  for (const FrameError& frame : measures.frames) sum += frame.flip;
+  for (const CameraError& frame : measures.frames) sum += frame.flip;
   return sum / static_cast<double>(measures.frames.size());
 }
 
 std::optional<double> psnr(const Measures& measures) {
   if (measures.frames.empty()) return {};
   double sum = 0;
-  for (const FrameError& frame : measures.frames) sum += frame.mse;
+  for (const CameraError& frame : measures.frames) sum += frame.mse;
   return psnr_db(sum / static_cast<double>(measures.frames.size()));
 }
 
@@ -123,8 +123,8 @@ Result<TexelError> texel_error(const Pack& pack, const Pack& reference) {
   return e;
 }
 
-FrameError frame_error_of(const std::string& camera, const Comparison& comparison) {
-  FrameError e;
+CameraError frame_error_of(const std::string& camera, const Comparison& comparison) {
+  CameraError e;
   e.camera = camera;
   for (const RegionComparison& region : comparison.regions) {
     if (region.name == "frame") {
@@ -139,16 +139,16 @@ FrameError frame_error_of(const std::string& camera, const Comparison& compariso
   return e;
 }
 
-Result<FrameError> read_comparison(const std::string& camera, const std::string& json) {
+Result<CameraError> read_comparison(const std::string& camera, const std::string& json) {
   return parsed(json, "oriel-play --json", [&](const Json& all) {
     const Json& frame = all.at("regions").at("frame");
-    FrameError e{camera,
-                 frame.at("sum").at("net"),
-                 frame.at("D").at("net"),
-                 {},
-                 frame.at("sum").at("noise"),
-                 frame.at("flip"),
-                 frame.at("mse")};
+    CameraError e{camera,
+                  frame.at("sum").at("net"),
+                  frame.at("D").at("net"),
+                  {},
+                  frame.at("sum").at("noise"),
+                  frame.at("flip"),
+                  frame.at("mse")};
     if (all["regions"].contains("reflectors"))
       e.specular = all["regions"]["reflectors"].at("S").at("net").get<double>();
     return e;
@@ -186,7 +186,7 @@ Json as_json(const Measures& m) {
                       {"nRMSE", m.texels->n_rmse},
                       {"bias", m.texels->bias},
                       {"noise", m.texels->noise}};
-  for (const FrameError& frame : m.frames) json["frames"].push_back(frame_json(frame));
+  for (const CameraError& frame : m.frames) json["frames"].push_back(frame_json(frame));
   return json;
 }
 

@@ -26,7 +26,7 @@ struct TexelError {
 };
 
 // A frame beside its path-traced reference; relRMSE net of that one's noise.
-struct FrameError {
+struct CameraError {
   std::string camera;
   double sum = 0, diffuse = 0;
   std::optional<double> specular;  // over the pixels that show reflected images, if there are any
@@ -40,13 +40,13 @@ struct Measures {
   std::optional<double> frame_ms;  // mean over the cameras
   std::string renderer;            // that took them: the OpenGL device; empty for traced frames
   std::optional<TexelError> texels;
-  std::vector<FrameError> frames;  // by camera
+  std::vector<CameraError> frames;  // by camera
 
   bool empty() const { return !bake && !frame_ms && !texels && frames.empty(); }
 };
 
 // Over the cameras; nothing where there is none. Errors are root mean squares, FLIP is a mean.
-std::optional<double> frame_error(const Measures& measures, double FrameError::*error);
+std::optional<double> frame_error(const Measures& measures, double CameraError::*error);
 std::optional<double> specular_error(const Measures& measures);
 std::optional<double> mean_flip(const Measures& measures);
 std::optional<double> psnr(const Measures& measures);
@@ -54,9 +54,9 @@ std::optional<double> psnr(const Measures& measures);
 // Error kInvalid where the packs' lightmaps are not on the same pages or share no baked texel.
 Result<TexelError> texel_error(const Pack& pack, const Pack& reference);
 // What formats/metrics says of the whole frame, S of its reflectors.
-FrameError frame_error_of(const std::string& camera, const Comparison& comparison);
+CameraError frame_error_of(const std::string& camera, const Comparison& comparison);
 // The same from what `oriel-play --compare --json` wrote. Error kInvalid.
-Result<FrameError> read_comparison(const std::string& camera, const std::string& json);
+Result<CameraError> read_comparison(const std::string& camera, const std::string& json);
 // Sets the mean of the frames' times and the renderer from what `oriel-play --stats` wrote. Error kInvalid.
 Status read_frame_times(const std::string& json, Measures& measures);
 // Seconds of all stages from what `oriel-bake --report` wrote. Error kInvalid.

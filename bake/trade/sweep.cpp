@@ -210,7 +210,7 @@ class Sweep {
                         "--size", size, "--json", numbers.string(), "-o", picture(key, i).string()});
       ORIEL_TRY_VOID(run_program(comparing, log(key), context_.stop));
       ORIEL_TRY(const std::string json, read_text(numbers));
-      ORIEL_TRY(FrameError frame, read_comparison(trade_.facts.cameras[i], json));
+      ORIEL_TRY(CameraError frame, read_comparison(trade_.facts.cameras[i], json));
       measures.frames.push_back(std::move(frame));
     }
     std::error_code ignored;

@@ -66,7 +66,7 @@ class CachedEstimator : public LightEstimator {
     report.filter_drift = estimate_.energy_drift;
     report.ended_early = ended_early_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
-    const std::vector<Vec3> of_direct = direct_variance();
+    const std::vector<Vec3> of_direct = variance_of(direct_, texels_, graph_, context_);
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       LightmapPage& page = light.pages[texels_.page[i]];
@@ -203,15 +203,8 @@ class CachedEstimator : public LightEstimator {
     return list;
   }
 
-  std::vector<Vec3> direct_variance() const {
-    std::vector<Vec3> variance(texels_.count());
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = direct_.sampled[i] + direct_.uneven[i];
-    variance = pooled_errors(texels_, graph_, std::move(variance), direct_.value, context_);
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += direct_.variance[i];
-    return variance;
-  }
-
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
+
   // Runs a refinement, which each texel gets whole or not at all, until there is enough.
   Status refine(const std::function<Status()>& refinement) {
     const Interruptible until(context_, options_.enough);
@@ -332,7 +325,7 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
     for (;;) {
       const double goal = kDirectShare * error * error;
-      double now = mean_squares(direct_variance());
+      double now = mean_squares(variance_of(direct_, texels_, graph_, context_));
       now -= out_of_reach(goal, most, direct_.per_half);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
@@ -354,10 +347,12 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
     }));
-    if (ended_early_)
+    if (ended_early_) {
       around_.set_near(before);
-    else
-      gathered_ = std::move(anew), update_estimate();
+      return {};
+    }
+    gathered_ = std::move(anew);
+    update_estimate();
     return {};
   }
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bake/jobs/units.h"
+#include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -266,6 +267,14 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     }
   };
   return parallel_units(context, loop, &rays);
+}
+
+std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, const TexelGraph& graph, Context& context) {
+  std::vector<Vec3> variance(texels.count());
+  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = sums.sampled[i] + sums.uneven[i];
+  variance = pooled_errors(texels, graph, std::move(variance), sums.value, context);
+  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += sums.variance[i];
+  return variance;
 }
 
 }  // namespace oriel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/radiosity/texels/more_sites.h"
+#include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
 
@@ -28,6 +29,9 @@ struct DirectSums {
     per_half[i] = from.per_half[k];
   }
 };
+
+// Squared errors by texel, lux²; what one difference of halves tells is pooled over neighbours.
+std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, const TexelGraph& graph, Context& context);
 
 class DirectLight {
  public:

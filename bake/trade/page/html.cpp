@@ -63,7 +63,7 @@ struct Column {
   std::optional<double> (*value)(const Measures&);
 };
 
-template <double FrameError::*kError>
+template <double CameraError::*kError>
 std::optional<double> of_frames(const Measures& m) {
   return frame_error(m, kError);
 }
@@ -99,10 +99,10 @@ constexpr std::array<Column, 14> kColumns = {{
     {"texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
     {"texels bias %", "{:+.2f}", 100, "", of_texels<&TexelError::bias>},
     {"texels noise %", "{:.2f}", 100, "", of_texels<&TexelError::noise>},
-    {"frames relRMSE %", "{:.2f}", 100, "", of_frames<&FrameError::sum>},
-    {"D %", "{:.2f}", 100, "", of_frames<&FrameError::diffuse>},
+    {"frames relRMSE %", "{:.2f}", 100, "", of_frames<&CameraError::sum>},
+    {"D %", "{:.2f}", 100, "", of_frames<&CameraError::diffuse>},
     {"S %", "{:.2f}", 100, "", specular_error},
-    {"frames noise %", "{:.2f}", 100, "", of_frames<&FrameError::noise>},
+    {"frames noise %", "{:.2f}", 100, "", of_frames<&CameraError::noise>},
     {"FLIP", "{:.4f}", 1, "", mean_flip},
     {"PSNR dB", "{:.1f}", 1, "", psnr},
 }};

@@ -16,10 +16,10 @@ Json summary_json(const Measures& m) {
   const auto put = [&](const char* name, const std::optional<double>& value) {
     if (value) json[name] = *value;
   };
-  put("sum", frame_error(m, &FrameError::sum));
-  put("D", frame_error(m, &FrameError::diffuse));
+  put("sum", frame_error(m, &CameraError::sum));
+  put("D", frame_error(m, &CameraError::diffuse));
   put("S", specular_error(m));
-  put("noise", frame_error(m, &FrameError::noise));
+  put("noise", frame_error(m, &CameraError::noise));
   put("flip", mean_flip(m));
   put("psnr_db", psnr(m));
   return json;
@@ -70,8 +70,8 @@ std::string csv_row(const Row& row) {
                         m.texels->bias, m.texels->noise);
   else
     line += ",,,,,";
-  for (const auto& value : {frame_error(m, &FrameError::sum), frame_error(m, &FrameError::diffuse), specular_error(m),
-                            frame_error(m, &FrameError::noise), mean_flip(m), psnr(m)})
+  for (const auto& value : {frame_error(m, &CameraError::sum), frame_error(m, &CameraError::diffuse), specular_error(m),
+                            frame_error(m, &CameraError::noise), mean_flip(m), psnr(m)})
     line += fmt::format(",{}", number(value));
   std::string fronts;
   for (const std::string& front : row.fronts) fronts += fmt::format("{}{}", fronts.empty() ? "" : " ", front);

@@ -179,6 +179,25 @@ TEST(Capture, TexturesFinerThanAPixelDoNotAlias) {
       << "three standard deviations: E x^4 = 2.6 / 400";
 }
 
+TEST(Capture, LooksThatAreAveragedShareTheirPaths) {
+  for (const std::int32_t image : {-1, 0}) {
+    std::atomic<int> first{0}, beside{0};
+    const RadianceMap map = one_map(
+        [&](test::SceneParts& parts) {
+          SceneMaterial material;
+          material.base_color_texture.image = image;
+          parts.quad("wall", parts.add(material), {20, -20, 4}, {-40, 0, 0}, {0, 40, 0});
+        },
+        [&](const SeenSurface& seen) {
+          ++(seen.looks == 1 ? first : beside);
+          EXPECT_TRUE(seen.looks == 1 || seen.looks == 4);
+          return Vec3(1);
+        });
+    EXPECT_EQ(beside, image < 0 ? 0 : 4 * first);
+    EXPECT_GT(first, 0);
+  }
+}
+
 TEST(Capture, BacksOfOneSidedSurfacesAreSeenButNotValid) {
   const auto wall = [](const Vec3& u, const Vec3& v) {
     return [u, v](test::SceneParts& p) { p.quad("wall", 1, {-30, -30, 2}, u, v); };

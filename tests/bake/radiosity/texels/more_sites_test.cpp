@@ -50,6 +50,30 @@ TEST(MoreSites, LieInThePartThatSeesLight) {
   }
 }
 
+// A floor of one texel, of which all but the strip x > 0.8 m lies inside a hollow plinth under a board: from in there
+// rays meet the board's front, not backs.
+Scene hollow_plinth() {
+  SceneParts parts;
+  const auto paint = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", paint, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+  parts.box("board", paint, {-2, 0.3f, -2}, {0.85f, 0.5f, 3});
+  parts.quad("plinth, front", paint, {0.8f, 0, -2}, {0, 0.3f, 0}, {0, 0, 5});
+  return parts.finish();
+}
+
+TEST(TexelPart, IsTheSideThatEyesSee) {
+  Listed listed(hollow_plinth(), 1);
+  const std::uint32_t floor = listed.floor.back();
+  std::atomic<std::uint64_t> rays{0};
+  const std::vector<Vec3> eyes = {{4, 1.6f, 0.5f}, {5, 1.6f, 1}};
+  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, rays, eyes);
+  ASSERT_GT(listed.texels.visible[floor], 0);
+  ASSERT_GT(seen.visible[floor], 0);
+  for (const TexelSite& site : listed.texels.site[floor]) EXPECT_LT(site.origin.x, 0.8f) << "most of it";
+  for (const TexelSite& site : seen.site[floor]) EXPECT_GT(site.origin.x, 0.8f) << "what is seen of it";
+  EXPECT_NEAR(seen.visible[floor], 0.2, 0.1);
+}
+
 constexpr double kHeight = 1.05, kHole = 0.15;  // m; of the hole half its side
 
 // A floor of 1 m, 1.05 m under a black ceiling with a hole of 0.3 m through which a sky of 1 cd/m² shines: light that
