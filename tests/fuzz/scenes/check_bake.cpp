@@ -23,6 +23,7 @@ namespace {
 constexpr double kMostBounces = 4096;  // after which paths and sweeps give up (bake/trace/path.h)
 constexpr double kGrazing = 4;         // more is reflected at grazing angles than straight on
 constexpr double kNoise = 64;          // few samples a texel
+constexpr double kDetail = 0.1;        // side of what parts have many of, in units of theirs
 
 double series(double albedo) {
   return std::min(kMostBounces, 1 / std::max(1 - albedo, 1e-9));
@@ -58,8 +59,9 @@ std::vector<std::string> check_files(const std::filesystem::path& pack, const st
   const auto read = read_pack(pack);  // with every rule of the format, which want finite numbers
   if (!read) wrong.push_back(read.error().text());
   if (read && !json.is_discarded()) {
-    const double texel_m = json.value("/plan/atlas/texel_m"_json_pointer, 1e-3);
-    const double bound = irradiance_bound(scene.sources, texel_m / unit_of(*read, scene.area_m2));
+    // Beside a dome of many kilometres texels are larger than whole parts, and hold only what there is of these.
+    const double texel_m = json.value("/plan/atlas/texel_m"_json_pointer, 1e-3) / unit_of(*read, scene.area_m2);
+    const double bound = irradiance_bound(scene.sources, std::min(texel_m, kDetail * scene.scale));
     const auto more = check_pack_numbers(*read, bound);
     wrong.insert(wrong.end(), more.begin(), more.end());
   }
