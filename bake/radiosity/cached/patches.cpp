@@ -183,15 +183,34 @@ class Solver {
     links.shrink_to_fit();
   }
 
-  // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond 1 is their noise. Over a
+  // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond that is their noise. Over a
   // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
-  // to sweep. Whether there was one.
-  static bool bound(std::vector<PatchLink>& links) {
+  // to sweep. What is reflected there is told by what the patches beside it and those that it sees hand on, on average;
+  // more than they get they never do.
+  static DVec3 handed_on(const Patch& patch) {
     DVec3 sum(0);
-    for (const PatchLink& link : links) sum += DVec3(link.weight);
-    if (std::max({sum.r, sum.g, sum.b}) <= kWhole) return false;
-    const Vec3 share(1.0 / glm::max(sum, DVec3(1)));
-    for (PatchLink& link : links) link.weight *= share;
+    for (const PatchLink& link : patch.links) sum += DVec3(link.weight);
+    return sum;
+  }
+  DVec3 most_handed_on(std::size_t p, const std::vector<DVec3>& sums) const {
+    DVec3 sum(0);
+    double count = 0;
+    for (const PatchLink& link : patches_[p].links)
+      if (link.patch != p) sum += sums[link.patch], ++count;
+    for (const std::uint32_t beside : patches_[p].beside) sum += sums[beside], ++count;
+    return glm::min(sum / std::max(1.0, count), DVec3(1));
+  }
+  std::vector<DVec3> all_handed_on() const {
+    std::vector<DVec3> sums;
+    for (const Patch& patch : patches_) sums.push_back(handed_on(patch));
+    return sums;
+  }
+  // Whether it had to be.
+  static bool bound(Patch& patch, const DVec3& most) {
+    const DVec3 sum = handed_on(patch);
+    if (!glm::any(glm::greaterThan(sum, kWhole * most))) return false;
+    const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
+    for (PatchLink& link : patch.links) link.weight *= share;
     return true;
   }
 
@@ -287,10 +306,12 @@ std::size_t Solver::bound_growing(Context& context) {
   std::vector<Vec3> now(patches_.size()), next(patches_.size());
   (void)sweep_once(context, solution_, 0, now);
   (void)sweep_once(context, now, 0, next);
+  const std::vector<DVec3> sums = all_handed_on();
   std::size_t bounded = 0;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);
-    if (!(is.r + is.g + is.b < was.r + was.g + was.b)) bounded += bound(patches_[p].links);  // of no numbers, too
+    if (!(is.r + is.g + is.b < was.r + was.g + was.b))  // of no numbers, too
+      bounded += bound(patches_[p], most_handed_on(p, sums));
   }
   return bounded;
 }
@@ -301,7 +322,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
   for (int round = 1; end == End::kGrows; ++round) {
     const std::size_t bounded = round < kRounds ? bound_growing(context) : 0;
     if (bounded == 0)
-      for (Patch& patch : patches_) result.bounded += bound(patch.links);
+      for (Patch& patch : patches_) result.bounded += bound(patch, DVec3(1));
     result.bounded += bounded;
     end = run(context, bounded > 0, result);
   }

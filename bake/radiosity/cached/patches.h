@@ -35,9 +35,10 @@ struct Sweeps {
 // Jacobi sweeps run over what they found, until the geometric bound on the rest, |ΔB| q/(1 - q) with q the ratio of
 // successive changes, is below tolerance, for all light and for each patch beside its own. Where the changes grow
 // instead, noise of few rays makes patches hand on more than they get: those whose light grows get weights that sum to
-// at most 1, and in the end all do, so that no sweep adds more than the one before: with direct light E₀ the result is
-// at most (count + 1) max E₀. Where light does not die away (a closed scene that absorbs nothing) as many bounces are
-// added up as paths follow, and a warning tells the energy balance. Error kStopped.
+// no more than those of their surroundings, and in the end all sum to at most 1, so that no sweep adds more than the
+// one before: with direct light E₀ the result is at most (count + 1) max E₀. Where light does not die away (a closed
+// scene that absorbs nothing) as many bounces are added up as paths follow, and a warning tells the energy balance.
+// Error kStopped.
 Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
                      std::span<const Vec3> direct, const SweepOptions& options, Context& context,
                      std::atomic<std::uint64_t>& rays);
