@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/atlas/atlas.h"
-#include "bake/ledger/emission.h"
+#include "bake/trace/particles/emission.h"
 #include "bake/trace/path.h"
 
 namespace oriel {

@@ -120,7 +120,9 @@ LightSample LightSet::sample(const Vec3& p, float u, const Vec2& v) const {
 LightSample LightSet::sample_near(const Vec3& p, float u, const Vec2& v) const {
   const LightTree::Pick pick = tree_.pick(p, u);
   const Near& near = near_[pick.light];
-  return chosen_with(near.punctual ? sample_light(near.index, p, v) : sample_triangle(near, p, v), pick.probability);
+  LightSample sample = near.punctual ? sample_light(near.index, p, v) : sample_triangle(near, p, v);
+  sample.near = true;
+  return chosen_with(sample, pick.probability);
 }
 
 LightSample LightSet::sample_directional(const Vec3& p, float u, const Vec2& v) const {

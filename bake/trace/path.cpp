@@ -14,30 +14,34 @@ float balance(float pdf, float other) {
 
 // Incident light from one sampled emitter, times f·cosθ as `reflect(wi)` gives it; `pdf_of(wi)` is the density with
 // which the other strategy would have chosen that direction.
+struct FromEmitter {
+  Vec3 light{0};
+  bool near = false;  // LightSample::near
+};
 template <class Reflect, class Pdf>
-Vec3 sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
-                   const Reflect& reflect, const Pdf& pdf_of) {
+FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
+                          const Reflect& reflect, const Pdf& pdf_of) {
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
-  if (t.lights.empty()) return Vec3(0);
+  if (t.lights.empty()) return {};
   // Sampled from where the shadow ray starts: close to a lamp over a large floor the offset is not small.
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
   const LightSample light = t.lights.sample(origin, u, v);
-  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return Vec3(0);
+  if (max_component(light.estimate) <= 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return {};
   Vec3 value = light.estimate * reflect(light.direction);
-  if (max_component(value) <= 0) return Vec3(0);
+  if (max_component(value) <= 0) return {};
   if (light.pdf > 0) value *= balance(light.pdf, pdf_of(light.direction));
   if (!is_usable(value)) {
     t.accel.dropped().add(surface.triangle);
-    return Vec3(0);
+    return {};
   }
-  if (!(light.distance > 0)) return value;  // touching
+  if (!(light.distance > 0)) return {value, light.near};  // touching
   ++rays;
-  return value * t.accel.transmittance({origin, light.direction, light.distance});
+  return {value * t.accel.transmittance({origin, light.direction, light.distance}), light.near};
 }
 
-Vec3 sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading, Sampler& sampler,
-                        std::uint64_t& rays) {
+FromEmitter sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading,
+                               Sampler& sampler, std::uint64_t& rays) {
   return sample_lights(
       t, surface, sampler, rays, [&](const Vec3& wi) { return shading.eval(wi); },
       [&](const Vec3& wi) { return shading.pdf(wi); });
@@ -47,7 +51,7 @@ Vec3 sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const S
 class Walk {
  public:
   Walk(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
-      : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse) {}
+      : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
   PathLight follow(const Ray& ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
     ++rays_;
@@ -56,7 +60,8 @@ class Walk {
 
   PathLight follow_from(const Ray& ray, const Hit& hit, float bsdf_pdf, int bounce, const Vec3& throughput) {
     const PathLight light = walk(ray, hit, bsdf_pdf, bounce, throughput);
-    if (is_usable(light.emitted) && is_usable(light.sky) && is_usable(light.scattered)) return light;
+    if (is_usable(light.emitted) && is_usable(light.sky) && is_usable(light.scattered) && is_usable(light.lamps))
+      return light;
     t_.accel.dropped().add(hit.triangle);
     return {.back_face = light.back_face};
   }
@@ -72,7 +77,6 @@ class Walk {
     int passes = 0;
     bool first = true;
     for (; passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
-      Vec3& sink = first ? light.emitted : light.scattered;
       if (!hit) {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
         (first ? light.sky : light.scattered) += throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
@@ -88,7 +92,9 @@ class Walk {
         const float weight =
             pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal))
                      : 1.0f;
-        sink += throughput_ * surface.shade.emission * weight;
+        (first       ? light.emitted
+         : mirrored_ ? light.lamps
+                     : light.scattered) += throughput_ * surface.shade.emission * weight;
       }
       if (!surface.reflects) {
         light.back_face = first && passes == 0;
@@ -117,7 +123,10 @@ class Walk {
     std::optional<float> survival = 1.0f;
     if (max_component(weight) > 0 && is_usable(weight))
       survival = (*on_diffuse_)({surface.triangle, surface.barycentric, surface.front, distance, weight});
-    if (!survival) return true;
+    if (!survival) {
+      mirrored_ = false;
+      return true;
+    }
     surface.shade.diffuse = Vec3(0);
     // The rest goes on as often as it is bright, or as told.
     const float often = std::max(1.0f, *survival * max_component(throughput_));
@@ -131,7 +140,8 @@ class Walk {
   Step scatter(SurfacePoint& surface, Ray& ray, float distance, PathLight& light) {
     if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
-    light.scattered += throughput_ * sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
+    const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
+    (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
     const float u = sampler_.next1();
     const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler_.next2());
     if (!sample) return Step::kEnd;
@@ -158,6 +168,7 @@ class Walk {
   Sampler& sampler_;
   std::uint64_t& rays_;
   const OnDiffuse* on_diffuse_;
+  bool mirrored_;  // no diffuse vertex so far was followed
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
@@ -181,11 +192,13 @@ Vec3 wide_direction(const Scene& scene, const Hit& hit, const SceneMaterial& mat
 }
 
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
-Vec3 reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                   std::uint64_t& rays, const OnDiffuse* on_diffuse) {
-  if (!surface.reflects) return Vec3(0);
+PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                        std::uint64_t& rays, const OnDiffuse* on_diffuse) {
+  PathLight light;
+  if (!surface.reflects) return light;
   const Shading shading(surface, wo);
-  Vec3 light = sample_lights_bsdf(t, surface, shading, sampler, rays);
+  const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
+  (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
   const float u = sampler.next1();
   const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
   if (!sample || sample->lobe == Lobe::kTransmission) return light;
@@ -193,7 +206,10 @@ Vec3 reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& 
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   const PathLight rest = Walk(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
-  return light + rest.emitted + rest.sky + rest.scattered;
+  (on_diffuse ? light.lamps : light.scattered) += rest.emitted;
+  light.scattered += rest.sky + rest.scattered;
+  light.lamps += rest.lamps;
+  return light;
 }
 
 }  // namespace
@@ -248,11 +264,11 @@ PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first,
 
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
-  return reflect_light(t, surface, wo, sampler, rays, nullptr);
+  return reflect_light(t, surface, wo, sampler, rays, nullptr).scattered;
 }
 
-Vec3 specular_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                    std::uint64_t& rays, const OnDiffuse& on_diffuse) {
+PathLight specular_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                         std::uint64_t& rays, const OnDiffuse& on_diffuse) {
   SurfacePoint specular = surface;
   specular.shade.diffuse = specular.shade.transmission = Vec3(0);
   return reflect_light(t, specular, wo, sampler, rays, &on_diffuse);
@@ -274,13 +290,14 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
   Vec3 towards(0);
   float light_cosine = 0;
   s.direct = sample_lights(
-      t, surface, sampler, rays,
-      [&](const Vec3& wi) {
-        towards = wi;
-        light_cosine = shading.cosine(wi);
-        return Vec3(light_cosine);
-      },
-      density);
+                 t, surface, sampler, rays,
+                 [&](const Vec3& wi) {
+                   towards = wi;
+                   light_cosine = shading.cosine(wi);
+                   return Vec3(light_cosine);
+                 },
+                 density)
+                 .light;
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
   const Vec2 u = sampler.next2();
   const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));

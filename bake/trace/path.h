@@ -52,9 +52,11 @@ inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {
 }
 
 struct PathLight {
-  Vec3 emitted{0};         // by surfaces met directly, through glass and cut-outs only
-  Vec3 sky{0};             // met so
-  Vec3 scattered{0};       // after one reflection or more
+  Vec3 emitted{0};    // by surfaces met directly, through glass and cut-outs only
+  Vec3 sky{0};        // met so
+  Vec3 scattered{0};  // after one reflection or more
+  Vec3 lamps{0};  // where diffuse vertices are told: of near lights (LightSample::near) after reflections that were all
+                  // specular; not in `scattered`
   bool back_face = false;  // the first surface met was the back of a one-sided one
 };
 
@@ -85,9 +87,9 @@ Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, co
                      std::uint64_t& rays);
 
 // The part of it that leaves by specular lobes. Diffuse reflection met on the way is left to the caller as in
-// trace_to_diffuse(); the surface's own is not told.
-Vec3 specular_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
-                    std::uint64_t& rays, const OnDiffuse& on_diffuse);
+// trace_to_diffuse(); the surface's own is not told. All of it is `scattered` or of `lamps`.
+PathLight specular_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                         std::uint64_t& rays, const OnDiffuse& on_diffuse);
 
 // One estimate of the irradiance at a point, lux: light sampling and a cosine-distributed ray, combined by MIS.
 struct IrradianceSample {

@@ -5,6 +5,7 @@
 
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
+#include "bake/radiosity/cached/lamp_light.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
 #include "bake/radiosity/cached/worst.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr std::uint32_t kFirstDirect = 2;                // samples a half, texel and light, before any refinement
 constexpr std::uint32_t kCrowdedDirect = 16;             // where something is close by
 constexpr int kDirectRounds = 2;                         // of four times the samples, where that leaves doubt
-constexpr float kUncertain = 0.1f, kUneven = 0.02f;      // of the direct light
+constexpr float kUncertain = 0.1f;                       // of the direct light
 constexpr std::uint32_t kFirstGather = 4;                // rays a half and texel
 constexpr std::uint32_t kFirstCrowded = 32;              // where something is close by
 constexpr std::uint32_t kMostDark = 512;                 // the same, where these find next to no light:
@@ -51,7 +52,7 @@ class CachedEstimator : public LightEstimator {
 
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
-    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
+    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further(goal.error));
     ORIEL_TRY_VOID(gather_to(goal.error));
     ORIEL_TRY_VOID(refine_direct(goal.error));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
@@ -89,8 +90,10 @@ class CachedEstimator : public LightEstimator {
     little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
     recall();
     ORIEL_TRY_VOID(first_direct());
-    if (options_.bounces != 1) ORIEL_TRY_VOID(bounce(goal.error));  // the gather itself is one
+    ORIEL_TRY_VOID(follow_lamps(goal.error, gathered_));
     irradiance_ = direct_.value;
+    for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
+    if (options_.bounces != 1) ORIEL_TRY_VOID(bounce(goal.error));  // the gather itself is one
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i) irradiance_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
@@ -99,13 +102,19 @@ class CachedEstimator : public LightEstimator {
     return first_gather();
   }
 
+  Status follow_lamps(double error, HalfSums& sums) {
+    return refine([&] {
+      return oriel::follow_lamps(texels_, around_, direct_.value, frames_, error, options_, context_, sums, rays_);
+    });
+  }
+
   Status bounce(double error) {
     SweepOptions how{.most = std::max(0, options_.bounces - 1), .enough = options_.enough};
     how.tolerance = kTailShare * std::max(error, 1e-3);
     if (options_.left) how.seconds = kBouncesTime * options_.left();
     how.side = error >= kCoarseTarget ? 2 : 1;
     while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
-    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, direct_.value, how, context_, rays_));
+    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
     return {};
   }
 
@@ -176,31 +185,15 @@ class CachedEstimator : public LightEstimator {
       per_half *= 4;
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
-      std::vector<std::uint32_t> list = uncertain_direct(round == 0 ? 0 : kUncertain);
-      std::erase_if(list, [&](std::uint32_t i) { return direct_.per_half[i] >= per_half; });
+      std::vector<std::uint32_t> list = order_;
+      std::erase_if(list, [&](std::uint32_t i) {
+        return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
+      });
+      keep_uncertain(direct_, graph_, round == 0 ? 0 : kUncertain, list);
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
     known_now_.first_direct = direct_.value;
     return {};
-  }
-
-  // Texels whose direct light, or a neighbour's, is uncertain by more than that share of it.
-  std::vector<std::uint32_t> uncertain_direct(float share) const {
-    const auto uncertain = [&](std::uint32_t i) {
-      const Vec3 error = direct_.variance[i] + direct_.sampled[i] + direct_.uneven[i];
-      const Vec3 bound = share * share * direct_.value[i] * direct_.value[i];
-      const float least = std::max(share, kUneven);  // light that is merely uneven over a texel is known well enough
-      return max_component(direct_.variance[i] + direct_.sampled[i] - bound) > 0 ||
-             max_component(error - least * least * direct_.value[i] * direct_.value[i]) > 0;
-    };
-    std::vector<std::uint32_t> list;
-    for (const std::uint32_t i : order_) {
-      if (little_seen_[i] || (reuse_ && known_direct_[i])) continue;
-      bool any = uncertain(i);
-      for (const std::uint32_t j : graph_.of(i)) any |= uncertain(j);
-      if (any) list.push_back(i);
-    }
-    return list;
   }
 
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
@@ -275,7 +268,7 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(gather_list(per_half));
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
-        gathered_.assume(i, irradiance_[i] - direct_.value[i], kCoarseError);
+        gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError);
     std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
@@ -338,12 +331,13 @@ class CachedEstimator : public LightEstimator {
   }
 
   // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
-  Status gather_from_further() {
+  Status gather_from_further(double error) {
     const float before = around_.near();
     around_.set_near(kFurther * before);
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
     for (const std::uint32_t i : list) anew.forget(i);
+    ORIEL_TRY_VOID(follow_lamps(error, anew));
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
     }));

@@ -1,5 +1,6 @@
 #include "bake/radiosity/cached/direct_light.h"
 
+#include <algorithm>
 #include <array>
 
 #include "bake/jobs/units.h"
@@ -275,6 +276,20 @@ std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, cons
   variance = pooled_errors(texels, graph, std::move(variance), sums.value, context);
   for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += sums.variance[i];
   return variance;
+}
+
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list) {
+  constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
+  const float least = std::max(share, kUneven);
+  const auto uncertain = [&](std::uint32_t i) {
+    const Vec3 noise = sums.variance[i] + sums.sampled[i], light2 = sums.value[i] * sums.value[i];
+    return max_component(noise - share * share * light2) > 0 ||
+           max_component(noise + sums.uneven[i] - least * least * light2) > 0;
+  };
+  std::erase_if(list, [&](std::uint32_t i) {
+    const auto beside = graph.of(i);
+    return !uncertain(i) && std::none_of(beside.begin(), beside.end(), uncertain);
+  });
 }
 
 }  // namespace oriel

@@ -33,6 +33,9 @@ struct DirectSums {
 // Squared errors by texel, lux²; what one difference of halves tells is pooled over neighbours.
 std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, const TexelGraph& graph, Context& context);
 
+// Keeps those of the list whose direct light, or a neighbour's, is uncertain by more than that share of it.
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list);
+
 class DirectLight {
  public:
   DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed);

@@ -103,7 +103,7 @@ std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
   std::vector<Vec4> moments = sums.moments;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    moments[i] /= static_cast<float>(kHalves * std::max(1u, sums.samples[i]));
+    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.beside_moments[i];
   return pooled(graph, std::move(moments), 1, context);
 }
 

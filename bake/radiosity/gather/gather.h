@@ -13,13 +13,18 @@ struct HalfSums {
   std::array<std::vector<Vec3>, kHalves> sum;    // lux * samples
   std::array<std::vector<Vec3>, kHalves> slope;  // the part of it that CachedTexel's slopes brought
   std::vector<std::uint32_t> samples;            // of each half
+  // Light that no gather ray looks for (lamp_paths.h), lux, and the mean of its moments.
+  std::array<std::vector<Vec3>, kHalves> beside;
+  std::vector<Vec4> beside_moments;
   // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
   // samples. Empty unless asked for.
   std::vector<Vec4> moments;
 
-  HalfSums(std::size_t texels, bool directional) : samples(texels), moments(directional ? texels : 0) {
+  HalfSums(std::size_t texels, bool directional)
+      : samples(texels), beside_moments(directional ? texels : 0), moments(directional ? texels : 0) {
     for (auto& s : sum) s.resize(texels);
     for (auto& s : slope) s.resize(texels);
+    for (auto& b : beside) b.resize(texels);
   }
   void forget(std::size_t i) {
     for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
@@ -27,8 +32,9 @@ struct HalfSums {
     samples[i] = 0;
   }
   void take(std::size_t i, const HalfSums& from, std::size_t k) {
-    for (int h = 0; h < kHalves; ++h) sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k];
-    if (!from.moments.empty()) moments[i] = from.moments[k];
+    for (int h = 0; h < kHalves; ++h)
+      sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k], beside[h][i] = from.beside[h][k];
+    if (!from.moments.empty()) moments[i] = from.moments[k], beside_moments[i] = from.beside_moments[k];
     samples[i] = from.samples[k];
   }
   // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it.
@@ -36,7 +42,9 @@ struct HalfSums {
     sum[0][i] = (1 + uncertain) * light, sum[1][i] = (1 - uncertain) * light;
     samples[i] = 1;
   }
-  Vec3 half(int h, std::size_t i) const { return samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0); }
+  Vec3 half(int h, std::size_t i) const {
+    return beside[h][i] + (samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0));
+  }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
 };
 

@@ -71,9 +71,11 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
   if (!(chance > 0) || sampler.next1() >= chance) return;
   const std::size_t before = answers.links.size();
   const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
-  const Vec3 light =
+  const PathLight light =
       specular_light(t_, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
-  answers.light[number] = light / chance;
+  // Of surfaces too near for particles, too.
+  const bool lamps = lamps_ || goes_on(hit.distance, answers.texel[number]);
+  answers.light[number] = (light.scattered + (lamps ? light.lamps : Vec3(0))) / chance;
   for (std::size_t i = before; i < answers.links.size(); ++i) answers.links[i].weight /= chance;
 }
 
@@ -91,8 +93,8 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
   const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
   const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
-  answers.light[number] =
-      light.scattered + (closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted);
+  answers.light[number] = light.scattered + (lamps_ ? light.lamps : Vec3(0)) +
+                          (closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted);
 }
 
 float Surroundings::sky_weight(const Vec3& direction, const GatherRay& about) const {

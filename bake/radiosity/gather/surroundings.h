@@ -52,6 +52,14 @@ class Surroundings {
   float near() const { return near_; }
   void set_near(float sides) { near_ = sides; }
   const Transport& transport() const { return t_; }
+  // Whether a path goes on from a texel that is met from that far, all light in it.
+  bool goes_on(float distance, std::uint32_t texel) const {
+    return texel != kNoTexel && distance < near_ * (texels_.has_many[texel] ? kCrowdedNear : 1.0f) * side_[texel];
+  }
+
+  // Light of near lamps that comes by way of specular reflections alone is left out of answers: somebody else follows
+  // it (lamp_paths.h).
+  void leave_out_lamps() { lamps_ = false; }
 
   // By material: a path goes on from specular layers so many times as often as they are bright; 1 unless told
   // (learn_survival). It changes what rays cost and how noisy they are, not the light that they find on average.
@@ -64,8 +72,7 @@ class Surroundings {
   // Whether the mean over a texel says too little about the point that was met: it is close by, or the texel reaches
   // under or into something and is lit elsewhere.
   bool is_near(const GatherRay& about, float distance, std::uint32_t texel) const {
-    return about.near && texel != kNoTexel &&
-           distance < near_ * (texels_.has_many[texel] ? kCrowdedNear : 1.0f) * side_[texel];
+    return about.near && goes_on(distance, texel);
   }
 
   // At a surface that lets light through or emits, or that is near.
@@ -90,6 +97,7 @@ class Surroundings {
   bool closed_form_;
   std::uint64_t seed_;
   float near_ = 1;
+  bool lamps_ = true;
   std::vector<Kind> kinds_;      // by triangle
   std::vector<float> survival_;  // by material
   std::vector<float> side_;      // by texel, m

@@ -55,7 +55,8 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
   };
   for (std::uint32_t i = 0; i < paths; ++i) {
     Sampler sampler(seed, stream, i);
-    sum += specular_light(transport, surface, towards_eye, sampler, rays, add);
+    const PathLight light = specular_light(transport, surface, towards_eye, sampler, rays, add);
+    sum += light.scattered + light.lamps;
   }
   return sum / static_cast<float>(paths);
 }

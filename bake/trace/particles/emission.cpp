@@ -1,4 +1,4 @@
-#include "bake/ledger/emission.h"
+#include "bake/trace/particles/emission.h"
 
 #include <algorithm>
 
@@ -84,7 +84,7 @@ Particle Sources::emit_punctual(const Light& light, const Vec2& v) const {
   const bool cone = light.type == LightType::kSpot && light.profile < 0;
   const Vec3 direction = cone ? sample_cone(light.direction, light.outer_cone_rad, v) : square_to_sphere(v);
   const float solid_angle = cone ? 2 * kPi * (1 - std::cos(light.outer_cone_rad)) : 4 * kPi;
-  return {{light.position, direction}, punctual_intensity(scene_, light, direction) * solid_angle};
+  return {{light.position, direction}, punctual_intensity(scene_, light, direction) * solid_angle, true};
 }
 
 // irradiance: on a plane that faces the source.
@@ -94,7 +94,7 @@ Particle Sources::from_afar(const Vec3& to_source, const Vec3& irradiance, const
   const Vec2 disk = square_to_disk(v);
   const Vec3 centre = 0.5f * (scene_.lower + scene_.upper);
   const Vec3 origin = centre + radius * (frame_from_normal(to_source) * Vec3(disk, 1));
-  return {{origin, -to_source}, irradiance * (kPi * radius * radius), true};
+  return {{origin, -to_source}, irradiance * (kPi * radius * radius), false, true};
 }
 
 }  // namespace oriel

@@ -10,6 +10,7 @@ namespace oriel {
 struct Particle {
   Ray ray;
   Vec3 power{0};           // lm
+  bool punctual = false;   // from a point or spot light
   bool from_afar = false;  // by the sky or a directional light, through a disk as large as the scene
 };
 

@@ -1,0 +1,182 @@
+#include "bake/radiosity/gather/lamp_paths.h"
+
+#include <algorithm>
+
+#include "bake/jobs/units.h"
+#include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/texels/seeds.h"
+#include "bake/trace/particles/emission.h"
+#include "bake/trace/shading.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint64_t kUnit = 8192;  // particles
+constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
+constexpr float kOften = 4;            // times as often as they are bright, further reflections are followed
+
+struct Arrival {
+  std::uint32_t texel = 0;
+  Vec3 light{0};  // lux
+  Vec3 from{0};   // unit
+};
+void fields(Archive& archive, Arrival& a) {
+  archive(a.texel, a.light, a.from);
+}
+
+// One particle, from its lamp on.
+class LampWalk {
+ public:
+  LampWalk(const Texels& texels, const Surroundings& around, Sampler& sampler, std::vector<Arrival>& arrivals)
+      : texels_(texels), around_(around), t_(around.transport()), sampler_(sampler), arrivals_(arrivals) {}
+
+  // Returns the rays traced.
+  std::uint64_t run(const Particle& particle) {
+    ray_ = particle.ray, power_ = particle.power, punctual_ = particle.punctual;
+    std::uint64_t rays = 0;
+    int passes = 0;
+    while (max_component(power_) > 0 && passes < kMaxPasses) {
+      const Hit hit = t_.accel.intersect(ray_);
+      ++rays;
+      if (!hit || (leaves_ != kNoTexel && around_.goes_on(hit.distance, leaves_))) break;
+      leaves_ = kNoTexel;
+      if (bounces_ > 0 && !arrive(hit)) break;
+      SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
+      const bool passes_by = surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage;
+      if (!passes_by && (!surface.reflects || bounces_ >= t_.options.max_bounces)) break;
+      const int before = bounces_;
+      if (passes_by)
+        ray_.origin = spawn_origin(surface, ray_.direction);
+      else
+        scatter(hit, surface);
+      passes = bounces_ > before ? 0 : passes + 1;
+    }
+    return rays;
+  }
+
+ private:
+  // Whether the particle goes on.
+  bool arrive(const Hit& hit) {
+    const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
+    if (texel == kNoTexel) return true;
+    const SurfacePoint on_texel = point_on_side(t_.accel.scene(), hit.triangle, hit.barycentric);
+    const Vec3 from = -ray_.direction;
+    const float cosine = glm::dot(on_texel.geometric_normal, from);
+    if (cosine > 0 && texels_.visible[texel] > 0 && texels_.area_m2[texel] > 0) {
+      // Irradiance goes by the interpolated normal.
+      const float tilt = Shading(on_texel, on_texel.normal).cosine(from) / cosine;
+      const Vec3 light = power_ * (tilt / (texels_.area_m2[texel] * texels_.visible[texel]));
+      if (is_usable(light)) arrivals_.push_back({texel, light, from});
+    }
+    // Textures are read only as often as what is reflected once more is worth it.
+    const SceneMaterial& material = material_of(hit.triangle);
+    if (material.alpha_mode != AlphaMode::kOpaque || material.transmission > 0) return true;
+    const float q = std::min(1.0f, kOften * (1 - texels_.diffuse_share[texel].at(cosine)));
+    if (!(q > 0) || sampler_.next1() >= q) return false;
+    power_ /= q;
+    return true;
+  }
+  const SceneMaterial& material_of(std::uint32_t triangle) const {
+    const Scene& scene = t_.accel.scene();
+    return scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
+  }
+
+  // The next ray, by all lobes but the diffuse one; weighted as paths weigh it that come the other way.
+  void scatter(const Hit& hit, SurfacePoint& surface) {
+    const Vec3 wi = -ray_.direction;
+    const float kept = 1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wi)));
+    if (surface.front && kept * max_component(surface.shade.diffuse) > 0)
+      leaves_ = texels_.find(surface.triangle, surface.barycentric);
+    surface.shade.diffuse = Vec3(0);
+    const Shading shading(surface, wi);
+    const float u = sampler_.next1();
+    const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler_.next2());
+    const float cos_i = glm::dot(surface.geometric_normal, wi);
+    if (!sample || !(cos_i > 0)) {
+      power_ = Vec3(0);
+      return;
+    }
+    if (sample->lobe == Lobe::kTransmission) {
+      power_ *= sample->weight;
+    } else {
+      const Vec3 wo = shading.above(sample->wi);
+      power_ *= weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
+      if (bounces_++ == 0) {
+        first_ = max_component(power_);
+        if (punctual_ && sample->delta) power_ = Vec3(0);
+      } else {
+        survive();
+      }
+      ray_.direction = wo;
+    }
+    ray_.origin = spawn_origin(surface, ray_.direction);
+    if (!is_usable(power_)) power_ = Vec3(0);
+  }
+
+  Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
+    if (sample.delta) return sample.weight;
+    SurfacePoint seen = surface_at(t_.accel.scene(), hit, -wo);
+    seen.shade.diffuse = Vec3(0);
+    const float pdf = chosen.pdf(wo);
+    return pdf > 0 ? Shading(seen, wo).eval(wi) / pdf : Vec3(0);
+  }
+
+  // The first reflection is never ended by chance: all that arrive are faint, and alike.
+  void survive() {
+    const float q = first_ > 0 ? std::min(1.0f, max_component(power_) / first_) : 0;
+    power_ = q > 0 && sampler_.next1() < q ? power_ / q : Vec3(0);
+  }
+
+  const Texels& texels_;
+  const Surroundings& around_;
+  const Transport& t_;
+  Sampler& sampler_;
+  std::vector<Arrival>& arrivals_;
+  Ray ray_;
+  Vec3 power_{0};
+  float first_ = 0;  // after the first reflection
+  bool punctual_ = false;
+  int bounces_ = 0;
+  std::uint32_t leaves_ = kNoTexel;  // of the diffuse surface that the particle just left
+};
+
+}  // namespace
+
+Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, Context& context,
+                   LampLight& light, std::atomic<std::uint64_t>& rays) {
+  const Transport& t = around.transport();
+  const Sources sources(t.accel.scene(), t.lights);
+  if (std::ranges::find(sources.kinds(), SourceKind::kNear) == sources.kinds().end()) return {};
+  while (light.particles < per_half) {
+    const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));
+    const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
+    std::vector<std::vector<Arrival>> arrivals(units * kHalves);
+    UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
+    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near()); };
+    loop.compute = [&](std::size_t u) {
+      std::uint64_t traced = 0;
+      const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);
+      for (std::uint64_t k = from; k < to; ++k) {
+        Sampler sampler(context.seed + seeds::kLampPaths, u % kHalves, static_cast<std::uint32_t>(k));
+        const Particle particle = sources.emit(SourceKind::kNear, sampler);
+        traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
+      }
+      return traced;
+    };
+    loop.results = [&](std::size_t u, Archive& archive) { archive(arrivals[u]); };
+    ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+    for (std::size_t u = 0; u < arrivals.size(); ++u)
+      for (const Arrival& a : arrivals[u]) {
+        light.sum[u % kHalves][a.texel] += a.light;
+        if (light.moments.empty()) continue;
+        const TexelSite& site = texels.site[a.texel][0];
+        const float cosine = std::max(glm::dot(site.normal, a.from), kLeastCosine);
+        light.moments[a.texel] += moments_of(luminance(a.light) / cosine, a.from);
+      }
+    light.particles += count;
+  }
+  return {};
+}
+
+}  // namespace oriel
