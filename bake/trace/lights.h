@@ -40,6 +40,8 @@ class LightSet {
   // The density per steradian with which sample() chooses, from p, the point `on` of an emissive triangle with that
   // unit normal (either side); 0 for triangles that are not sampled.
   float pdf(const Vec3& p, std::uint32_t triangle, const Vec3& on, const Vec3& normal) const;
+  // Whether sample() ever chooses a triangle: one whose texture is black wherever it was looked at emits unsampled.
+  bool samples(std::uint32_t triangle) const { return !triangle_near_.empty() && triangle_near_[triangle] != ~0u; }
   // The density per steradian with which sample() chooses, from anywhere, a direction to the sky; 0 for a constant one.
   float pdf(const Vec3& direction) const;
 

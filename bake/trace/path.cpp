@@ -75,7 +75,7 @@ class Walk {
     from_ = ray.origin;
     pdf_ = bsdf_pdf;
     int passes = 0;
-    bool first = true;
+    bool first = bounce == 0;
     for (; passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
       if (!hit) {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
@@ -92,9 +92,8 @@ class Walk {
         const float weight =
             pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal))
                      : 1.0f;
-        (first       ? light.emitted
-         : mirrored_ ? light.lamps
-                     : light.scattered) += throughput_ * surface.shade.emission * weight;
+        const bool lamp = mirrored_ && t_.lights.samples(hit.triangle);
+        (first ? light.emitted : lamp ? light.lamps : light.scattered) += throughput_ * surface.shade.emission * weight;
       }
       if (!surface.reflects) {
         light.back_face = first && passes == 0;
@@ -138,6 +137,7 @@ class Walk {
 
   // Light sampling at the surface, then the next ray.
   Step scatter(SurfacePoint& surface, Ray& ray, float distance, PathLight& light) {
+    const bool mirrored = mirrored_;
     if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
@@ -151,7 +151,10 @@ class Walk {
     if (!(max_component(throughput_) > 0)) return Step::kEnd;
     ray = {spawn_origin(surface, direction), direction};
     // Straight transmission continues the same segment: light sampling from the last vertex sees through glass too.
-    if (passes) return Step::kPassed;
+    if (passes) {
+      mirrored_ = mirrored;
+      return Step::kPassed;
+    }
     from_ = ray.origin;
     pdf_ = sample->delta ? 0 : shading.pdf(direction);
     return Step::kBounced;
@@ -206,8 +209,7 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
   const PathLight rest = Walk(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
-  (on_diffuse ? light.lamps : light.scattered) += rest.emitted;
-  light.scattered += rest.sky + rest.scattered;
+  light.scattered += rest.scattered;
   light.lamps += rest.lamps;
   return light;
 }

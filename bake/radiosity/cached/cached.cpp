@@ -17,22 +17,19 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kFirstDirect = 2;                // samples a half, texel and light, before any refinement
-constexpr std::uint32_t kCrowdedDirect = 16;             // where something is close by
-constexpr int kDirectRounds = 2;                         // of four times the samples, where that leaves doubt
-constexpr float kUncertain = 0.1f;                       // of the direct light
-constexpr std::uint32_t kFirstGather = 4;                // rays a half and texel
-constexpr std::uint32_t kFirstCrowded = 32;              // where something is close by
-constexpr std::uint32_t kMostDark = 512;                 // the same, where these find next to no light:
-constexpr float kDark = 0.002f;                          // of the mean
-constexpr double kLittleSeen = 0.1;                      // of the squared error asked for
-constexpr double kDirectShare = 0.3;                     // of the squared error asked for
-constexpr double kTailShare = 0.05;                      // of the error asked for: what further bounces may add
-constexpr double kCoarseTarget = 0.04;                   // errors asked for from which coarser bounces do
-constexpr double kDirectTime = 0.3, kBouncesTime = 0.3;  // of what is left (RadiosityOptions::left)
-constexpr float kCoarseError = 0.25f;                    // of bounces that no gather ray refined
-constexpr std::size_t kMaxLinks = 64u << 20;             // between patches: 1 GiB
-constexpr float kFurther = 4;                            // times as far (Goal::longer_look_up)
+constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
+constexpr std::uint32_t kCrowdedDirect = 16;            // where something is close by
+constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
+constexpr float kUncertain = 0.1f;                      // of the direct light
+constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
+constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
+constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
+constexpr float kDark = 0.002f;                         // of the mean
+constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
+constexpr double kDirectShare = 0.3;                    // of the squared error asked for
+constexpr double kDirectTime = 0.3;                     // of what is left (RadiosityOptions::left)
+constexpr float kCoarseError = 0.25f;                   // of bounces that no gather ray refined
+constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
 
 class CachedEstimator : public LightEstimator {
@@ -48,11 +45,12 @@ class CachedEstimator : public LightEstimator {
         around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
         direct_(texels_.count(), options_.directional),
         gathered_(texels_.count(), options_.directional),
+        lamps_(texels_.count(), options_.directional),
         frames_(task.pixels, task.map, texels_.has_light()) {}
 
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
-    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further(goal.error));
+    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
     ORIEL_TRY_VOID(gather_to(goal.error));
     ORIEL_TRY_VOID(refine_direct(goal.error));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
@@ -90,11 +88,14 @@ class CachedEstimator : public LightEstimator {
     little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
     recall();
     ORIEL_TRY_VOID(first_direct());
-    ORIEL_TRY_VOID(follow_lamps(goal.error, gathered_));
-    irradiance_ = direct_.value;
+    // Bakes that count bounces leave it to the rays, which do.
+    if (options_.bounces == 0)
+      ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
+    irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
     if (options_.bounces != 1) ORIEL_TRY_VOID(bounce(goal.error));  // the gather itself is one
-    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i) irradiance_[i] += sweeps_.gathered[i];
+    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
+      irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
     ORIEL_TRY(auto survival, learn_survival(texels_, around_, order_, cached_, context_, rays_));
@@ -102,18 +103,17 @@ class CachedEstimator : public LightEstimator {
     return first_gather();
   }
 
-  Status follow_lamps(double error, HalfSums& sums) {
-    return refine([&] {
-      return oriel::follow_lamps(texels_, around_, direct_.value, frames_, error, options_, context_, sums, rays_);
-    });
+  // Where time ends meanwhile, those that came count; without any, rays look for that light.
+  Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
+    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, context_, lamps, rays_); }));
+    if (lamps.particles == 0) return {};
+    put_beside(lamps, sums);
+    around_.leave_out_lamps();
+    return {};
   }
 
   Status bounce(double error) {
-    SweepOptions how{.most = std::max(0, options_.bounces - 1), .enough = options_.enough};
-    how.tolerance = kTailShare * std::max(error, 1e-3);
-    if (options_.left) how.seconds = kBouncesTime * options_.left();
-    how.side = error >= kCoarseTarget ? 2 : 1;
-    while (texels_.count() / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
+    const SweepOptions how = sweep_options(options_, error, texels_.count());
     ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
     return {};
   }
@@ -122,7 +122,8 @@ class CachedEstimator : public LightEstimator {
     if (!context_.units) return;
     KnownLight known = known_now_;
     known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
-    known.coarse = irradiance_, known.direct = direct_, known.gathered = gathered_;
+    known.near = around_.near();
+    known.coarse = coarse_, known.direct = direct_, known.gathered = gathered_;
     remember_light(context_, known_name_, std::move(known));
   }
 
@@ -134,9 +135,10 @@ class CachedEstimator : public LightEstimator {
                                       context_.seed);
     // With one bounce nothing is known of gathered light before the gather.
     if (options_.reuse_error <= 0 || options_.bounces == 1) return;
-    if (auto known = recall_light(context_, known_name_, options_.directional))
+    if (auto known = recall_light(context_, known_name_, options_.directional)) {
+      around_.set_near(known->near);  // what paths found in its light, particles must not bring
       reuse_.emplace(texels_, std::move(*known));
-    else
+    } else
       context_.warning(
           "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles "
           "on as large pages: all is baked");
@@ -152,7 +154,7 @@ class CachedEstimator : public LightEstimator {
   // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
   void take_known() {
     if (!reuse_) return;
-    reuse_->compare(texels_, order_, irradiance_, options_.reuse_error);
+    reuse_->compare(texels_, order_, coarse_, options_.reuse_error);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       const std::uint32_t k = reuse_->before(i);
       if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
@@ -208,15 +210,10 @@ class CachedEstimator : public LightEstimator {
 
   // The refinement of a list's texels, those that have the same number of samples at a time.
   template <class Work>
-  Status by_samples(std::vector<std::uint32_t> list, const std::vector<std::uint32_t>& samples, const Work& work) {
-    while (!list.empty() && !ended_early_) {
-      const std::uint32_t own = samples[list.front()];
-      const auto rest =
-          std::stable_partition(list.begin(), list.end(), [&](std::uint32_t i) { return samples[i] == own; });
-      const std::vector<std::uint32_t> same(list.begin(), rest);
-      list.erase(list.begin(), rest);
-      ORIEL_TRY_VOID(refine([&] { return work(same, own); }));
-    }
+  Status by_samples(const std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& samples,
+                    const Work& work) {
+    for (const SameSamples& group : groups_of(list, samples))
+      if (!ended_early_) ORIEL_TRY_VOID(refine([&] { return work(group.texels, group.samples); }));
     return {};
   }
 
@@ -242,11 +239,15 @@ class CachedEstimator : public LightEstimator {
                         {.goal = goal, .excess = (now - goal) * baked_, .gain = gain}, context_);
   }
 
+  std::vector<Vec3> light() const {
+    std::vector<Vec3> light(direct_.value);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += estimate_.value[i];
+    return light;
+  }
+
   // The mean square over the pixels that show texels which are baked: what others keep is not theirs to make up for.
   double mean_squares(const std::vector<Vec3>& variance) {
-    std::vector<Vec3> light(texels_.count());
-    for (std::size_t i = 0; i < light.size(); ++i) light[i] = direct_.value[i] + estimate_.value[i];
-    squares_ = frames_.squares(light, variance);
+    squares_ = frames_.squares(light(), variance);
     double sum = 0;
     for (std::size_t i = 0; i < squares_.size(); ++i) sum += keeps(i) ? 0 : squares_[i];
     return baked_ > 0 ? sum / baked_ : 0;
@@ -303,6 +304,11 @@ class CachedEstimator : public LightEstimator {
       now -= out_of_reach(goal, most, gathered_.samples);
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
+      if (particles_pay(lamps_, gathered_, light(), frames_)) {
+        ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
+        update_estimate();
+        continue;
+      }
       const std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
       if (list.empty()) return {};
       ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
@@ -331,13 +337,14 @@ class CachedEstimator : public LightEstimator {
   }
 
   // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
-  Status gather_from_further(double error) {
+  Status gather_from_further() {
     const float before = around_.near();
     around_.set_near(kFurther * before);
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
     for (const std::uint32_t i : list) anew.forget(i);
-    ORIEL_TRY_VOID(follow_lamps(error, anew));
+    LampLight lamps(texels_.count(), options_.directional);
+    if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
     }));
@@ -345,7 +352,9 @@ class CachedEstimator : public LightEstimator {
       around_.set_near(before);
       return {};
     }
-    gathered_ = std::move(anew);
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if (keeps(i)) anew.take_beside(i, gathered_);
+    gathered_ = std::move(anew), lamps_ = std::move(lamps);
     update_estimate();
     return {};
   }
@@ -362,8 +371,10 @@ class CachedEstimator : public LightEstimator {
   Sweeps sweeps_;  // bounces on patches
   DirectSums direct_;
   HalfSums gathered_;
+  LampLight lamps_;
   Estimate estimate_;               // of the gathered light
   std::vector<Vec3> irradiance_;    // what gather rays find at a texel
+  std::vector<Vec3> coarse_;        // of it what is no particles'
   CachedLight cached_;              // the same, as it varies over texels
   std::optional<Reuse> reuse_;      // of the bake before
   std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before

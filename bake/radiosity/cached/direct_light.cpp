@@ -255,7 +255,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
   const std::size_t punctual = many_punctual_ ? kPicks : t_.accel.scene().lights.size();
   loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual)) * per_half;
-  loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty()); };
+  loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty(), texels_.eyes); };
   loop.compute = [&](std::size_t g) {
     DirectGroup group(*this, part(g), per_half);
     group.run(sums);

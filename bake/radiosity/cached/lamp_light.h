@@ -1,17 +1,21 @@
-// Light that lamps send by way of specular reflections, to a part of the error asked for.
+// How many particles lamps send, beside the rays of the gather.
 #pragma once
 
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/gather.h"
+#include "bake/radiosity/gather/lamp_paths.h"
 #include "bake/radiosity/radiosity.h"
 
 namespace oriel {
 
-// Fills HalfSums::beside and leaves such light out of what rays find. With as many particles as keep its noise, once
-// it is filtered, below a third of the error asked for. Without an error: one particle for
-// every eight rays. direct: lux by texel. Error kStopped; `options.enough` ends it with what there is.
-Status follow_lamps(const Texels& texels, Surroundings& around, std::span<const Vec3> direct, const FrameError& frames,
-                    double error, const RadiosityOptions& options, Context& context, HalfSums& sums,
-                    std::atomic<std::uint64_t>& rays);
+// Of each half, to begin with: eight a texel; where the rays of texels are given, one for every eight of these.
+std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& options);
+
+// Fills HalfSums::beside.
+void put_beside(const LampLight& lamps, HalfSums& sums);
+
+// Whether twice as many particles take more of the squared error of frames away, for what they cost, than twice as many
+// rays: by the noise of both before the filter, which both share. light: of texels, lux.
+bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light, const FrameError& frames);
 
 }  // namespace oriel

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kGroup = 64;   // patches whose rays of one number are traced together
 constexpr double kWhole = 1 + 1e-6;  // of the light, and what rounding adds
+constexpr double kRounding = 1e-5;   // of a patch's light: no growth yet
 constexpr double kDim = 1e-4;        // of the mean: what is darker need not be done
 constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
 constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
@@ -198,7 +199,8 @@ class Solver {
     for (const PatchLink& link : patches_[p].links)
       if (link.patch != p) sum += sums[link.patch], ++count;
     for (const std::uint32_t beside : patches_[p].beside) sum += sums[beside], ++count;
-    return glm::min(sum / std::max(1.0, count), DVec3(1));
+    if (count == 0) return DVec3(1);
+    return glm::min(sum / count, DVec3(1));
   }
   std::vector<DVec3> all_handed_on() const {
     std::vector<DVec3> sums;
@@ -310,7 +312,9 @@ std::size_t Solver::bound_growing(Context& context) {
   std::size_t bounded = 0;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);
-    if (!(is.r + is.g + is.b < was.r + was.g + was.b))  // of no numbers, too
+    const double grown = double{is.r} + is.g + is.b - was.r - was.g - was.b,
+                 light = double{now[p].r} + now[p].g + now[p].b;
+    if (!(grown <= kRounding * light))  // of no numbers, too
       bounded += bound(patches_[p], most_handed_on(p, sums));
   }
   return bounded;

@@ -7,6 +7,7 @@
 
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/radiosity.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -21,6 +22,20 @@ struct SweepOptions {
   double tolerance = 1e-3;            // of the mean: bound on what further sweeps could add
   double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
 };
+
+// For so many texels, as a part of the error asked for.
+inline SweepOptions sweep_options(const RadiosityOptions& options, double error, std::size_t texels) {
+  constexpr double kTailShare = 0.05;           // of the error: what further bounces may add
+  constexpr double kCoarseTarget = 0.04;        // errors from which coarser bounces do
+  constexpr double kTime = 0.3;                 // of what is left
+  constexpr std::size_t kMaxLinks = 64u << 20;  // 1 GiB
+  SweepOptions how{.most = std::max(0, options.bounces - 1), .enough = options.enough};
+  how.tolerance = kTailShare * std::max(error, 1e-3);
+  if (options.left) how.seconds = kTime * options.left();
+  how.side = error >= kCoarseTarget ? 2 : 1;
+  while (texels / (how.side * how.side) * how.rays_per_patch > kMaxLinks) ++how.side;
+  return how;
+}
 
 struct Sweeps {
   std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux

@@ -15,10 +15,10 @@ void fields(Archive& archive, DirectSums& s) {
   archive(s.value, s.variance, s.sampled, s.uneven, s.per_half, s.moments);
 }
 void fields(Archive& archive, HalfSums& s) {
-  archive(s.sum, s.slope, s.samples, s.beside, s.beside_moments, s.moments);
+  archive(s.sum, s.slope, s.samples, s.moments);
 }
 void fields(Archive& archive, KnownLight& k) {
-  archive(k.page, k.x, k.y, k.chart, k.glance, k.first_direct, k.coarse);
+  archive(k.page, k.x, k.y, k.chart, k.glance, k.first_direct, k.coarse, k.near);
   fields(archive, k.direct);
   fields(archive, k.gathered);
 }
@@ -31,8 +31,7 @@ bool is_whole(const KnownLight& k, bool directional) {
              k.direct.uneven, k.direct.per_half, k.gathered.samples) &&
          has(k.gathered.sum[0], k.gathered.sum[1], k.gathered.slope[0], k.gathered.slope[1], k.gathered.beside[0],
              k.gathered.beside[1]) &&
-         k.gathered.beside_moments.size() == moments && k.direct.moments.size() == moments &&
-         k.gathered.moments.size() == moments;
+         k.direct.moments.size() == moments && k.gathered.moments.size() == moments;
 }
 
 }  // namespace

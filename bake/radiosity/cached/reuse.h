@@ -13,6 +13,7 @@ struct KnownLight {
   std::vector<Vec3> glance;                      // its direct light as the first few samples saw it, lux
   std::vector<Vec3> first_direct;                // before it was refined, lux
   std::vector<Vec3> coarse;                      // all light, before the final gather, lux
+  float near = 1;                                // Surroundings::near() of its gather
   DirectSums direct{0, false};
   HalfSums gathered{0, false};
 

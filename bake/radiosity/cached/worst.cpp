@@ -33,6 +33,18 @@ std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const
   return in_order;
 }
 
+std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const std::vector<std::uint32_t>& samples) {
+  std::vector<SameSamples> groups;
+  for (const std::uint32_t i : list) {
+    const auto same = std::ranges::find(groups, samples[i], &SameSamples::samples);
+    if (same == groups.end())
+      groups.push_back({samples[i], {i}});
+    else
+      same->texels.push_back(i);
+  }
+  return groups;
+}
+
 std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& shares, double square) {
   std::vector<bool> little(shares.size());
   if (square <= 0) return little;

@@ -22,6 +22,14 @@ std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const
                                         const std::vector<std::uint32_t>& samples, const WorstOptions& options,
                                         Context& context);
 
+// Texels that have the same number of samples.
+struct SameSamples {
+  std::uint32_t samples = 0;
+  std::vector<std::uint32_t> texels;
+};
+// In the list's order, each. samples: by texel.
+std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const std::vector<std::uint32_t>& samples);
+
 // Of `texels` those that fill the least of frames, which together would add no more than `square` to the mean square
 // were all their light wrong. By texel. Bounces are carried by coarser patches with rays of their own: what these
 // texels get beside it are a few rays each. None where no error is asked for (square 0).

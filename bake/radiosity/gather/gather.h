@@ -32,10 +32,13 @@ struct HalfSums {
     samples[i] = 0;
   }
   void take(std::size_t i, const HalfSums& from, std::size_t k) {
-    for (int h = 0; h < kHalves; ++h)
-      sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k], beside[h][i] = from.beside[h][k];
-    if (!from.moments.empty()) moments[i] = from.moments[k], beside_moments[i] = from.beside_moments[k];
+    for (int h = 0; h < kHalves; ++h) sum[h][i] = from.sum[h][k], slope[h][i] = from.slope[h][k];
+    if (!from.moments.empty()) moments[i] = from.moments[k];
     samples[i] = from.samples[k];
+  }
+  void take_beside(std::size_t i, const HalfSums& from) {
+    for (int h = 0; h < kHalves; ++h) beside[h][i] = from.beside[h][i];
+    if (!beside_moments.empty()) beside_moments[i] = from.beside_moments[i];
   }
   // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it.
   void assume(std::size_t i, const Vec3& light, float uncertain) {

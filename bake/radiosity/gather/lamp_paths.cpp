@@ -16,13 +16,28 @@ constexpr std::uint64_t kUnit = 8192;  // particles
 constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
 constexpr float kOften = 4;            // times as often as they are bright, further reflections are followed
 
+// What came to a texel, of one particle or of a unit of them.
 struct Arrival {
   std::uint32_t texel = 0;
-  Vec3 light{0};  // lux
-  Vec3 from{0};   // unit
+  Vec3 light{0};    // lux
+  Vec4 moments{0};  // as HalfSums'
 };
 void fields(Archive& archive, Arrival& a) {
-  archive(a.texel, a.light, a.from);
+  archive(a.texel, a.light, a.moments);
+}
+
+// One for each texel: in metal boxes particles arrive many times.
+void add_up(std::vector<Arrival>& arrivals) {
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.texel < b.texel; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < arrivals.size(); ++i)
+    if (kept > 0 && arrivals[kept - 1].texel == arrivals[i].texel)
+      arrivals[kept - 1].light += arrivals[i].light, arrivals[kept - 1].moments += arrivals[i].moments;
+    else
+      arrivals[kept++] = arrivals[i];
+  arrivals.resize(kept);
+  arrivals.shrink_to_fit();
 }
 
 // One particle, from its lamp on.
@@ -63,11 +78,17 @@ class LampWalk {
     const SurfacePoint on_texel = point_on_side(t_.accel.scene(), hit.triangle, hit.barycentric);
     const Vec3 from = -ray_.direction;
     const float cosine = glm::dot(on_texel.geometric_normal, from);
-    if (cosine > 0 && texels_.visible[texel] > 0 && texels_.area_m2[texel] > 0) {
+    // What lies beyond a wall on its texel is answered for by others, and is no part of their surface.
+    const bool own = !texels_.parts(hit.triangle, hit.barycentric);
+    if (own && cosine > 0 && texels_.visible[texel] > 0 && texels_.area_m2[texel] > 0) {
       // Irradiance goes by the interpolated normal.
       const float tilt = Shading(on_texel, on_texel.normal).cosine(from) / cosine;
       const Vec3 light = power_ * (tilt / (texels_.area_m2[texel] * texels_.visible[texel]));
-      if (is_usable(light)) arrivals_.push_back({texel, light, from});
+      const float incidence = std::max(glm::dot(texels_.site[texel][0].normal, from), kLeastCosine);
+      if (is_usable(light))
+        arrivals_.push_back({texel, light, moments_of(luminance(light) / incidence, from)});
+      else
+        t_.accel.dropped().add(hit.triangle);
     }
     // Textures are read only as often as what is reflected once more is worth it.
     const SceneMaterial& material = material_of(hit.triangle);
@@ -86,8 +107,7 @@ class LampWalk {
   void scatter(const Hit& hit, SurfacePoint& surface) {
     const Vec3 wi = -ray_.direction;
     const float kept = 1 - max_component(reflectance(surface.shade, glm::dot(surface.normal, wi)));
-    if (surface.front && kept * max_component(surface.shade.diffuse) > 0)
-      leaves_ = texels_.find(surface.triangle, surface.barycentric);
+    const bool diffuse = surface.front && kept * max_component(surface.shade.diffuse) > 0;
     surface.shade.diffuse = Vec3(0);
     const Shading shading(surface, wi);
     const float u = sampler_.next1();
@@ -109,9 +129,12 @@ class LampWalk {
         survive();
       }
       ray_.direction = wo;
+      if (diffuse) leaves_ = texels_.find(surface.triangle, surface.barycentric);
     }
     ray_.origin = spawn_origin(surface, ray_.direction);
-    if (!is_usable(power_)) power_ = Vec3(0);
+    if (is_usable(power_)) return;
+    t_.accel.dropped().add(surface.triangle);
+    power_ = Vec3(0);
   }
 
   Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
@@ -153,7 +176,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
     std::vector<std::vector<Arrival>> arrivals(units * kHalves);
     UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
-    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near()); };
+    loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near(), texels.eyes); };
     loop.compute = [&](std::size_t u) {
       std::uint64_t traced = 0;
       const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);
@@ -162,6 +185,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
         const Particle particle = sources.emit(SourceKind::kNear, sampler);
         traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
       }
+      add_up(arrivals[u]);
       return traced;
     };
     loop.results = [&](std::size_t u, Archive& archive) { archive(arrivals[u]); };
@@ -169,10 +193,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     for (std::size_t u = 0; u < arrivals.size(); ++u)
       for (const Arrival& a : arrivals[u]) {
         light.sum[u % kHalves][a.texel] += a.light;
-        if (light.moments.empty()) continue;
-        const TexelSite& site = texels.site[a.texel][0];
-        const float cosine = std::max(glm::dot(site.normal, a.from), kLeastCosine);
-        light.moments[a.texel] += moments_of(luminance(a.light) / cosine, a.from);
+        if (!light.moments.empty()) light.moments[a.texel] += a.moments;
       }
     light.particles += count;
   }

@@ -74,7 +74,8 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
   const PathLight light =
       specular_light(t_, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
   // Of surfaces too near for particles, too.
-  const bool lamps = lamps_ || goes_on(hit.distance, answers.texel[number]);
+  const std::uint32_t texel = answers.texel[number];
+  const bool lamps = lamps_ || (max_component(texels_.albedo[texel]) > 0 && goes_on(hit.distance, texel));
   answers.light[number] = (light.scattered + (lamps ? light.lamps : Vec3(0))) / chance;
   for (std::size_t i = before; i < answers.links.size(); ++i) answers.links[i].weight /= chance;
 }

@@ -149,6 +149,15 @@ std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
   return kNoTexel;
 }
 
+bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
+  const Placement& place = placement[triangle];
+  if (place.page < 0) return false;
+  const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
+  const std::uint32_t texel = at(static_cast<std::uint32_t>(place.page), static_cast<int>(p.x), static_cast<int>(p.y));
+  std::uint64_t rays = 0;
+  return texel != kNoTexel && is_cut[texel] && !cut.at(texel).holds(triangle, b, rays);
+}
+
 // Across the border next to p, in texels of the page; the texel itself where none lies there.
 std::uint32_t Texels::nearest_neighbour(std::uint32_t texel, const Vec2& p) const {
   const Vec2 off = p - Vec2(x[texel], y[texel]) - 0.5f;

@@ -84,6 +84,8 @@ struct Texels {
   // The texel under a point of a triangle, or the one beside it where a wall parts it from the point; kNoTexel where it
   // takes no lightmap.
   std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const;
+  // Whether a wall parts that point from the texel on which it lies.
+  bool parts(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel at a place of a page; kNoTexel where none is.
   std::uint32_t at(std::uint32_t page_number, int px, int py) const;
 
