@@ -265,8 +265,10 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
     result.omissions.emplace_back("radiance maps: left out by --only");
   }
   if (!movers.empty()) {
-    ORIEL_TRY_VOID(timed(
-        "probes", [&](std::uint64_t& rays) { return bake_light_field(options, baked, movers, context, pack, rays); }));
+    const auto enough = [&] { return context.finish || deadline.left() <= bytes_of(pack, {}) / kWritten_per_s; };
+    ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
+      return bake_light_field(options, baked, movers, enough, context, pack, rays);
+    }));
   } else if (options.with_transfer) {
     result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }

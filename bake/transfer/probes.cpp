@@ -39,8 +39,14 @@ class FieldBake {
     std::size_t first = 0;
     for (int level = 1; level <= options_.levels; ++level) {
       const std::size_t cells = field_.cells.size(), probes = field_.probes.size();
+      LightField before = options_.enough ? field_ : LightField();
       refine(first, level);
-      ORIEL_TRY_VOID(measure(probes));
+      const Interruptible until(context_, options_.enough);
+      if (const Status measured = measure(probes); !measured) {
+        if (context_.stop || !options_.enough) return tl::unexpected(measured.error());
+        field_ = std::move(before);
+        break;
+      }
       first = cells;
     }
     field_.error = squared_sum_ > 0 ? static_cast<float>(std::sqrt(squared_difference_ / squared_sum_)) : 0;

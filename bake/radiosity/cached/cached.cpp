@@ -98,8 +98,7 @@ class CachedEstimator : public LightEstimator {
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
-    ORIEL_TRY(auto survival, learn_survival(texels_, around_, order_, cached_, context_, rays_));
-    around_.set_survival(std::move(survival));
+    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
     return first_gather();
   }
 

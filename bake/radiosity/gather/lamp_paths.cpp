@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kUnit = 8192;  // particles
 constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
+constexpr float kMostParticles = 16;   // that one splits into at a time
 constexpr float kOften = 4;            // times as often as they are bright, further reflections are followed
 
 // What came to a texel, of one particle or of a unit of them.
@@ -49,6 +50,11 @@ class LampWalk {
   // Returns the rays traced.
   std::uint64_t run(const Particle& particle) {
     ray_ = particle.ray, power_ = particle.power, punctual_ = particle.punctual;
+    return go_on();
+  }
+
+ private:
+  std::uint64_t go_on() {
     std::uint64_t rays = 0;
     int passes = 0;
     while (max_component(power_) > 0 && passes < kMaxPasses) {
@@ -66,11 +72,22 @@ class LampWalk {
       else
         scatter(hit, surface);
       passes = bounces_ > before ? 0 : passes + 1;
+      if (bounces_ > before) rays += split();
     }
     return rays;
   }
 
- private:
+  // As paths do: one that weighs as much as several goes on as so many.
+  std::uint64_t split() {
+    const float weight = first_ > 0 ? max_component(power_) / first_ : 0;
+    if (!(weight >= 2)) return 0;
+    const int particles = static_cast<int>(std::min(weight, kMostParticles));
+    power_ /= static_cast<float>(particles);
+    std::uint64_t rays = 0;
+    for (int k = 1; k < particles; ++k) rays += LampWalk(*this).go_on();
+    return rays;
+  }
+
   // Whether the particle goes on.
   bool arrive(const Hit& hit) {
     const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
@@ -180,7 +197,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     loop.compute = [&](std::size_t u) {
       std::uint64_t traced = 0;
       const std::uint64_t from = first + u / kHalves * kUnit, to = std::min(first + count, from + kUnit);
-      for (std::uint64_t k = from; k < to; ++k) {
+      for (std::uint64_t k = from; k < to && !context.stopped(); ++k) {
         Sampler sampler(context.seed + seeds::kLampPaths, u % kHalves, static_cast<std::uint32_t>(k));
         const Particle particle = sources.emit(SourceKind::kNear, sampler);
         traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);

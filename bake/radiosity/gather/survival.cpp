@@ -90,9 +90,8 @@ class Pilot {
 
 }  // namespace
 
-Result<std::vector<float>> learn_survival(const Texels& texels, const Surroundings& around,
-                                          std::span<const std::uint32_t> order, const CachedLight& cached,
-                                          Context& context, std::atomic<std::uint64_t>& rays) {
+Status learn_survival(const Texels& texels, Surroundings& around, std::span<const std::uint32_t> order,
+                      const CachedLight& cached, Context& context, std::atomic<std::uint64_t>& rays) {
   const std::size_t materials = around.transport().accel.scene().materials.size();
   const std::size_t count = std::min(kTexels, order.size());
   std::vector<Noise> by_texel(count, Noise(0));
@@ -111,7 +110,8 @@ Result<std::vector<float>> learn_survival(const Texels& texels, const Surroundin
     const double best = std::sqrt(all.layers[m] / (kPathCost * all.paths[m]) * all.rays / all.variance);
     survival[m] = std::clamp(static_cast<float>(std::exp2(std::round(std::log2(best)))), kLeast, kMost);
   }
-  return survival;
+  around.set_survival(std::move(survival));
+  return {};
 }
 
 }  // namespace oriel

@@ -120,13 +120,14 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
 }
 
 Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std::span<const TakenMover> taken,
-                        Context& context, Pack& pack, std::uint64_t& rays) {
+                        std::function<bool()> enough, Context& context, Pack& pack, std::uint64_t& rays) {
   const Scene& scene = baked.accel.scene();
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3& towards_eye, bool with_emission) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye, .emission = with_emission});
   };
   ProbeOptions probes = options.probes;
   probes.bands = options.transfer.bands;
+  probes.enough = std::move(enough);
   const FieldBox box = field_box(scene, pack.walk_grids, taken);
   const StageInputs inputs(context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};

@@ -24,8 +24,9 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
                                              std::uint64_t& rays);
 
 // The light field over where people walk (pack.walk_grids), or over the scene where that is not known, and over where
-// the movers' animations take them: from the pack's lightmaps. Adds to `rays`. Errors kStopped, kUsage.
+// the movers' animations take them: from the pack's lightmaps. It is refined until there is `enough`. Adds to `rays`.
+// Errors kStopped, kUsage.
 Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std::span<const TakenMover> taken,
-                        Context& context, Pack& pack, std::uint64_t& rays);
+                        std::function<bool()> enough, Context& context, Pack& pack, std::uint64_t& rays);
 
 }  // namespace oriel

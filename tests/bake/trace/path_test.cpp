@@ -186,5 +186,36 @@ TEST(Path, LightFindsItsWayOverAMirror) {
   EXPECT_NEAR(e.indirect.g / expected, 1, 0.03);
 }
 
+// Light in a closed box of perfect metal dies on the lamp alone, after hundreds of bounces: E = πL. Every sampled lobe
+// weighs a little more than it reflects (samples below the horizon are lost), and paths of so many bounces would weigh
+// nothing or thousands.
+TEST(Path, MetalBoxesLeaveNoLightToFewHeavyPaths) {
+  constexpr float kLuminance = 10;
+  SceneParts parts;
+  SceneMaterial metal;
+  metal.base_color = Vec3(1);
+  metal.metallic = 1;
+  metal.roughness = 0.6f;
+  parts.box("room", parts.add(metal), Vec3(-2), Vec3(2), true);
+  parts.box("lamp", parts.diffuse(Vec3(0), Vec3(kLuminance)), Vec3(-0.15f), Vec3(0.15f));
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  const Transport transport{accel, lights, {}};
+  const SurfacePoint p = point_on_side(scene, 0, Vec2(0.2f, 0.3f));
+  constexpr std::uint32_t kSamples = 4096;
+  double sum = 0, squares = 0;
+  std::uint64_t rays = 0;
+  for (std::uint32_t k = 0; k < kSamples; ++k) {
+    Sampler sampler(1, 0, k);
+    const IrradianceSample e = sample_irradiance(transport, p, sampler, rays);
+    const double share = (e.direct + e.indirect).g / (kPi * kLuminance);
+    sum += share, squares += share * share;
+  }
+  const double mean = sum / kSamples, deviation = std::sqrt(squares / kSamples - mean * mean);
+  EXPECT_NEAR(mean, 1, 4 * deviation / std::sqrt(kSamples));
+  EXPECT_LT(deviation, 12) << "of one sample";
+}
+
 }  // namespace
 }  // namespace oriel

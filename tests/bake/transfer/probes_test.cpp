@@ -237,5 +237,17 @@ TEST(Probes, TheirNumberIsBounded) {
               ErrorCode::kUsage);
 }
 
+// Where time is over, the level of refinement under way is left out, and what was there before stays as it was.
+TEST(Probes, RefinementEndsWhereThereIsEnough) {
+  const FieldBox box{Vec3(0), {8, 3, 2}};
+  const auto plain = field_of(two_rooms(0.2f), box, {.samples = 256, .levels = 0}, left_is_bright);
+  const auto whole = field_of(two_rooms(0.2f), box, {.samples = 256}, left_is_bright);
+  ASSERT_GT(whole.cells.size(), plain.cells.size());
+  const auto ended = field_of(two_rooms(0.2f), box, {.samples = 256, .enough = [] { return true; }}, left_is_bright);
+  ASSERT_EQ(ended.cells.size(), plain.cells.size());
+  ASSERT_EQ(ended.probes.size(), plain.probes.size());
+  for (const FieldCell& cell : ended.cells) EXPECT_EQ(cell.children, FieldCell().children);
+}
+
 }  // namespace
 }  // namespace oriel

@@ -153,5 +153,26 @@ TEST(LampPaths, AddUpWithRaysToAllLight) {
   EXPECT_LT(by_particles, 0.9) << "rays do";
 }
 
+// A closed box of perfect metal fills with light until the lamp takes in what it sends: E = πL on every wall. What
+// comes straight from the lamp is no particle's.
+TEST(LampPaths, FillABoxOfMetal) {
+  constexpr float kLuminance = 10, kLamp = 0.25f, kRoom = 2;  // half sides, m
+  SceneParts parts;
+  parts.box("room", parts.add(polished(Vec3(1), 1, 0.6f)), Vec3(-kRoom), Vec3(kRoom), true);
+  parts.box("lamp", parts.diffuse(Vec3(0), Vec3(kLuminance)), Vec3(-kLamp), Vec3(kLamp));
+  const Listed listed(parts.finish(), 0.5f);
+  std::atomic<std::uint64_t> rays{0};
+  const Transport transport = listed.transport();
+  const Surroundings around(transport, listed.texels, true, 1);
+  LampLight light(listed.texels.count(), false);
+  Context context;
+  ASSERT_TRUE(trace_lamps(listed.texels, around, 4096, context, light, rays));
+  std::vector<std::uint32_t> walls;
+  for (std::uint32_t i = 0; i < listed.texels.count(); ++i)
+    if (max_component(glm::abs(listed.texels.site[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);
+  const double straight = kLamp * kLamp / (kRoom * kRoom);
+  EXPECT_NEAR(mean_of(listed, walls, light) / (kPi * kLuminance), 1 - straight, 0.1);
+}
+
 }  // namespace
 }  // namespace oriel::test
