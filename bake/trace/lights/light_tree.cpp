@@ -167,8 +167,13 @@ double LightTree::share_of_left(std::uint32_t parent, const Vec3& p) const {
 }
 
 LightTree::Pick LightTree::pick(const Vec3& p, float u) const {
+  const double even = even_share(), each = even / static_cast<double>(leaf_.size());
+  if (u < even) {
+    const auto light = static_cast<std::uint32_t>(u / even * static_cast<double>(leaf_.size()));
+    return {light, probability(p, light)};
+  }
   std::uint32_t at = 0;
-  double rest = u, probability = 1;
+  double rest = std::min((u - even) / (1 - even), 1 - 0x1p-53), probability = 1;
   while (nodes_[at].right != 0) {
     const double left = share_of_left(at, p);
     if (rest < left) {
@@ -181,7 +186,7 @@ LightTree::Pick LightTree::pick(const Vec3& p, float u) const {
       at = nodes_[at].right;
     }
   }
-  return {nodes_[at].light, static_cast<float>(probability)};
+  return {nodes_[at].light, static_cast<float>(each + (1 - even) * probability)};
 }
 
 float LightTree::probability(const Vec3& p, std::uint32_t light) const {
@@ -191,7 +196,8 @@ float LightTree::probability(const Vec3& p, std::uint32_t light) const {
     const double left = share_of_left(parent, p);
     probability *= at == parent + 1 ? left : 1 - left;
   }
-  return static_cast<float>(probability);
+  const double even = even_share();
+  return static_cast<float>(even / static_cast<double>(leaf_.size()) + (1 - even) * probability);
 }
 
 }  // namespace oriel

@@ -90,6 +90,18 @@ TEST(LightTree, PicksAsItsProbabilitiesSay) {
   }
 }
 
+// A candle beside a window, wherever it is asked: the window may be hidden from there.
+TEST(LightTree, NoneOfAFewIsLeftToLuck) {
+  for (const std::size_t count : {2u, 12u, 64u}) {
+    std::vector<BoundedLight> lights = random_lights(count, 1);
+    lights[1].power = 1e9 * lights[0].power;
+    const LightTree tree(lights);
+    for (std::uint64_t k = 0; k < 20; ++k)
+      for (std::uint32_t i = 0; i < count; ++i)
+        EXPECT_GE(tree.probability(random_point(k), i), 0.99 * LightTree::kEven / static_cast<double>(count));
+  }
+}
+
 // What shines on a point must have a chance there, or light would be lost.
 TEST(LightTree, NoLightThatShinesIsLeftOut) {
   const std::vector<BoundedLight> lights = random_lights(300, 1);
