@@ -42,15 +42,22 @@ FacetLobe coat_lobe(const ShadePoint& point) {
   return {specular_layers(point).coat_lobe(), point.coat_alpha, point.coat_alpha};
 }
 
-// The lobes as wo sees them: probabilities in proportion to their albedo, sum 1 or all 0; and what each one leaves to
-// those below it.
-struct LobeChoice {
-  float diffuse = 0, specular = 0, coat = 0, transmission = 0;
-  float under_coat = 1;     // 1 - coat R_c
-  float diffuse_scale = 1;  // (1 - coat R_c) (1 - max R)
-};
+BsdfSample delta_sample(Lobe lobe, const Vec3& wi, const Vec3& weight) {
+  BsdfSample s;
+  s.wi = wi;
+  s.weight = weight;
+  s.delta = true;
+  s.lobe = lobe;
+  return s;
+}
 
-LobeChoice choose_lobes(const ShadePoint& point, float cos_o) {
+}  // namespace
+
+Bsdf::Bsdf(const ShadePoint& point, const Vec3& wo) : point_(point), wo_(wo) {
+  if (wo.z > 0) lobes_ = choose_lobes(point, wo.z);
+}
+
+Bsdf::LobeChoice Bsdf::choose_lobes(const ShadePoint& point, float cos_o) {
   LobeChoice c;
   c.coat = coat_reflectance(point, cos_o);
   c.under_coat = 1 - c.coat;
@@ -64,64 +71,44 @@ LobeChoice choose_lobes(const ShadePoint& point, float cos_o) {
   return c;
 }
 
-float pdf_of(const ShadePoint& point, const LobeChoice& lobes, const Vec3& wo, const Vec3& wi) {
-  float pdf = lobes.diffuse * cosine_hemisphere_pdf(wi.z);
-  if (lobes.specular > 0) pdf += lobes.specular * base_lobe(point).pdf(wo, wi);
-  if (lobes.coat > 0) pdf += lobes.coat * coat_lobe(point).pdf(wo, wi);
-  return pdf;
-}
-
-Vec3 eval_with(const ShadePoint& point, const LobeChoice& lobes, const Vec3& wo, const Vec3& wi) {
-  Vec3 f = point.diffuse * (lobes.diffuse_scale / kPi * wi.z);
-  if (lobes.specular > 0) f += lobes.under_coat * base_lobe(point).eval(wo, wi);
-  if (lobes.coat > 0) f += point.coat * coat_lobe(point).eval(wo, wi);
+Vec3 Bsdf::eval(const Vec3& wi) const {
+  if (wo_.z <= 0 || wi.z <= 0) return Vec3(0);
+  Vec3 f = point_.diffuse * (lobes_.diffuse_scale / kPi * wi.z);
+  if (lobes_.specular > 0) f += lobes_.under_coat * base_lobe(point_).eval(wo_, wi);
+  if (lobes_.coat > 0) f += point_.coat * coat_lobe(point_).eval(wo_, wi);
   return f;
 }
 
-BsdfSample delta_sample(Lobe lobe, const Vec3& wi, const Vec3& weight) {
+float Bsdf::pdf(const Vec3& wi) const {
+  if (wo_.z <= 0 || wi.z <= 0) return 0;
+  float pdf = lobes_.diffuse * cosine_hemisphere_pdf(wi.z);
+  if (lobes_.specular > 0) pdf += lobes_.specular * base_lobe(point_).pdf(wo_, wi);
+  if (lobes_.coat > 0) pdf += lobes_.coat * coat_lobe(point_).pdf(wo_, wi);
+  return pdf;
+}
+
+std::optional<BsdfSample> Bsdf::sample(float u, const Vec2& v) const {
+  if (wo_.z <= 0) return std::nullopt;
   BsdfSample s;
-  s.wi = wi;
-  s.weight = weight;
-  s.delta = true;
-  s.lobe = lobe;
-  return s;
-}
-
-}  // namespace
-
-Vec3 bsdf_eval(const ShadePoint& point, const Vec3& wo, const Vec3& wi) {
-  if (wo.z <= 0 || wi.z <= 0) return Vec3(0);
-  return eval_with(point, choose_lobes(point, wo.z), wo, wi);
-}
-
-float bsdf_pdf(const ShadePoint& point, const Vec3& wo, const Vec3& wi) {
-  if (wo.z <= 0 || wi.z <= 0) return 0;
-  return pdf_of(point, choose_lobes(point, wo.z), wo, wi);
-}
-
-std::optional<BsdfSample> bsdf_sample(const ShadePoint& point, const Vec3& wo, float u, const Vec2& v) {
-  if (wo.z <= 0) return std::nullopt;
-  const LobeChoice lobes = choose_lobes(point, wo.z);
-  BsdfSample s;
-  if (u < lobes.diffuse) {
+  if (u < lobes_.diffuse) {
     s.wi = square_to_cosine_hemisphere(v);
-  } else if (u < lobes.diffuse + lobes.specular + lobes.coat) {
-    const bool base = u < lobes.diffuse + lobes.specular;
-    const FacetLobe lobe = base ? base_lobe(point) : coat_lobe(point);
-    const float chance = base ? lobes.specular : lobes.coat, share = base ? lobes.under_coat : point.coat;
+  } else if (u < lobes_.diffuse + lobes_.specular + lobes_.coat) {
+    const bool base = u < lobes_.diffuse + lobes_.specular;
+    const FacetLobe lobe = base ? base_lobe(point_) : coat_lobe(point_);
+    const float chance = base ? lobes_.specular : lobes_.coat, share = base ? lobes_.under_coat : point_.coat;
     if (lobe.is_mirror())
-      return delta_sample(Lobe::kSpecular, Vec3(-wo.x, -wo.y, wo.z), lobe.mirror_weight(wo.z) * (share / chance));
+      return delta_sample(Lobe::kSpecular, Vec3(-wo_.x, -wo_.y, wo_.z), lobe.mirror_weight(wo_.z) * (share / chance));
     s.lobe = Lobe::kSpecular;
-    s.wi = lobe.sample(wo, v);
-  } else if (lobes.transmission > 0) {
-    return delta_sample(Lobe::kTransmission, -wo, point.transmission * (lobes.diffuse_scale / lobes.transmission));
+    s.wi = lobe.sample(wo_, v);
+  } else if (lobes_.transmission > 0) {
+    return delta_sample(Lobe::kTransmission, -wo_, point_.transmission * (lobes_.diffuse_scale / lobes_.transmission));
   } else {
     return std::nullopt;
   }
   if (s.wi.z <= 0) return std::nullopt;
-  s.pdf = pdf_of(point, lobes, wo, s.wi);
+  s.pdf = pdf(s.wi);
   if (!(s.pdf > 0)) return std::nullopt;
-  s.weight = eval_with(point, lobes, wo, s.wi) / s.pdf;
+  s.weight = eval(s.wi) / s.pdf;
   return s;
 }
 

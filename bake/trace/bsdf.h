@@ -19,12 +19,32 @@ struct BsdfSample {
   Lobe lobe = Lobe::kDiffuse;
 };
 
-// f * cos θi, delta lobes excluded. 0 where wi or wo is below the horizon.
-Vec3 bsdf_eval(const ShadePoint& point, const Vec3& wo, const Vec3& wi);
-// Density of bsdf_sample choosing wi, delta lobes excluded.
-float bsdf_pdf(const ShadePoint& point, const Vec3& wo, const Vec3& wi);
-// A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta.
-// Nothing where the surface is black or the sample falls below the horizon.
-std::optional<BsdfSample> bsdf_sample(const ShadePoint& point, const Vec3& wo, float u, const Vec2& v);
+// What a point reflects towards wo. Refers to the point; what its lobes leave to each other is found once.
+class Bsdf {
+ public:
+  Bsdf(const ShadePoint& point, const Vec3& wo);
+
+  // f * cos θi, delta lobes excluded. 0 where wi or wo is below the horizon.
+  Vec3 eval(const Vec3& wi) const;
+  // Density of sample() choosing wi, delta lobes excluded.
+  float pdf(const Vec3& wi) const;
+  // A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta.
+  // Nothing where the surface is black or the sample falls below the horizon.
+  std::optional<BsdfSample> sample(float u, const Vec2& v) const;
+
+ private:
+  // The lobes as wo sees them: probabilities in proportion to their albedo, sum 1 or all 0; and what each one leaves to
+  // those below it.
+  struct LobeChoice {
+    float diffuse = 0, specular = 0, coat = 0, transmission = 0;
+    float under_coat = 1;     // 1 - coat R_c
+    float diffuse_scale = 1;  // (1 - coat R_c) (1 - max R)
+  };
+  static LobeChoice choose_lobes(const ShadePoint& point, float cos_o);
+
+  const ShadePoint& point_;
+  Vec3 wo_;
+  LobeChoice lobes_;
+};
 
 }  // namespace oriel

@@ -160,7 +160,7 @@ class Walk {
     const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
     const float u = sampler_.next1();
-    const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler_.next2());
+    const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
     const bool passes = sample->lobe == Lobe::kTransmission;
     const Vec3 direction = passes ? ray.direction : shading.above(sample->wi);
@@ -220,7 +220,7 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
   const float u = sampler.next1();
-  const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler.next2());
+  const auto sample = shading.sample(u, sampler.next2());
   if (!sample || sample->lobe == Lobe::kTransmission) return light;
   const Vec3 direction = shading.above(sample->wi);
   const Ray ray{spawn_origin(surface, direction), direction};

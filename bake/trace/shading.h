@@ -28,12 +28,14 @@ class Shading {
   }
   // f cosθ, delta lobes excluded.
   Vec3 eval(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf_eval(surface_.shade, wo_, w); });
+    return both(wi, [&](const Vec3& w) { return bsdf().eval(w); });
   }
-  // Per steradian, of what bsdf_sample() and above() choose; delta lobes excluded.
+  // Per steradian, of what sample() and above() choose; delta lobes excluded.
   float pdf(const Vec3& wi) const {
-    return both(wi, [&](const Vec3& w) { return bsdf_pdf(surface_.shade, wo_, w); });
+    return both(wi, [&](const Vec3& w) { return bsdf().pdf(w); });
   }
+  // A local direction (Bsdf::sample).
+  std::optional<BsdfSample> sample(float u, const Vec2& v) const { return bsdf().sample(u, v); }
   static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
   float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
 
@@ -43,13 +45,18 @@ class Shading {
     const Vec3 world = glm::normalize(frame_ * w);
     return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
   }
-  const Vec3& wo() const { return wo_; }  // local
 
  private:
+  const Bsdf& bsdf() const {
+    if (!bsdf_) bsdf_.emplace(surface_.shade, wo_);
+    return *bsdf_;
+  }
+
   const SurfacePoint& surface_;
   Mat3 frame_;
-  Vec3 wo_;
+  Vec3 wo_;  // local
   bool tilted_;
+  mutable std::optional<Bsdf> bsdf_;  // once lobes are asked for: cosines need none
 };
 
 }  // namespace oriel

@@ -49,7 +49,7 @@ class Follower {
         ray.origin = spawn_origin(surface, ray.direction);
         continue;
       }
-      const auto sample = bsdf_sample(surface.shade, shading.wo(), lobe, where);
+      const auto sample = shading.sample(lobe, where);
       if (sample && sample->lobe == Lobe::kTransmission) {
         through *= sample->weight;
         ray.origin = spawn_origin(surface, ray.direction);

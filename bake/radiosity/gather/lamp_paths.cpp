@@ -128,7 +128,7 @@ class LampWalk {
     surface.shade.diffuse = Vec3(0);
     const Shading shading(surface, wi);
     const float u = sampler_.next1();
-    const auto sample = bsdf_sample(surface.shade, shading.wo(), u, sampler_.next2());
+    const auto sample = shading.sample(u, sampler_.next2());
     const float cos_i = glm::dot(surface.geometric_normal, wi);
     if (!sample || !(cos_i > 0)) {
       power_ = Vec3(0);

@@ -25,7 +25,7 @@ TEST(Anisotropy, TheLobeIsWideAlongTheTangent) {
     EXPECT_NEAR(std::abs(surface.tangent.z), turned ? 1 : 0, 1e-5);
     // Seen from above in the lobe's own frame: more light from afar along x than along y.
     const Vec3 along = glm::normalize(Vec3(0.6f, 0, 1)), across = glm::normalize(Vec3(0, 0.6f, 1)), up(0, 0, 1);
-    EXPECT_GT(bsdf_eval(surface.shade, up, along).g, 20 * bsdf_eval(surface.shade, up, across).g);
+    EXPECT_GT(Bsdf(surface.shade, up).eval(along).g, 20 * Bsdf(surface.shade, up).eval(across).g);
   }
 }
 

@@ -93,12 +93,12 @@ TEST_P(BsdfAlpha, SamplingMatchesPdf) {
   point.alpha = alpha;
   const Vec3 wo(std::sqrt(1 - cos_o * cos_o), 0, cos_o);
   const auto draw = [&](float u, const Vec2& v) -> std::optional<Vec3> {
-    const auto s = bsdf_sample(point, wo, u, v);
+    const auto s = Bsdf(point, wo).sample(u, v);
     if (!s) return std::nullopt;
-    EXPECT_NEAR(s->pdf, bsdf_pdf(point, wo, s->wi), 1e-3f * s->pdf);
+    EXPECT_NEAR(s->pdf, Bsdf(point, wo).pdf(s->wi), 1e-3f * s->pdf);
     return s->wi;
   };
-  EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return bsdf_pdf(point, wo, wi); }), 6);
+  EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return Bsdf(point, wo).pdf(wi); }), 6);
 }
 INSTANTIATE_TEST_SUITE_P(Lobes, BsdfAlpha,
                          testing::Values(std::pair{1.0f, 0.9f}, std::pair{0.4f, 0.7f}, std::pair{0.25f, 0.3f}));
@@ -119,7 +119,7 @@ TEST(Bsdf, FurnaceNeverExceedsOne) {
         for (std::uint32_t i = 0; i < kSamples; ++i) {
           Sampler sampler(5, 6, i);
           const float u = sampler.next1();
-          const auto s = bsdf_sample(point, wo, u, sampler.next2());
+          const auto s = Bsdf(point, wo).sample(u, sampler.next2());
           if (!s) continue;
           ASSERT_TRUE(is_finite(s->weight));
           sum += s->weight.g;

@@ -205,7 +205,7 @@ TEST(Reciprocity, OfTheCompensatedSpecularLobeOfPaths) {
     for (const double a : {0.05, 0.3, 0.9})
       for (const double b : {0.1, 0.5, 1.0}) {
         const Vec3 wo(direction(a, 0)), wi(direction(b, 3.1));
-        const Vec3 there = bsdf_eval(point, wo, wi) / wi.z, back = bsdf_eval(point, wi, wo) / wo.z;
+        const Vec3 there = Bsdf(point, wo).eval(wi) / wi.z, back = Bsdf(point, wi).eval(wo) / wo.z;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(there[c], back[c], 1e-5f * std::max(there[c], back[c]));
       }
   }
@@ -299,7 +299,7 @@ TEST(Bsdf, CoatOverWhiteIsAFurnace) {
     for (std::uint32_t i = 0; i < kSamples; ++i) {
       Sampler sampler(5, 6, i);
       const float u = sampler.next1();
-      if (const auto s = bsdf_sample(point, wo, u, sampler.next2())) sum += s->weight.g;
+      if (const auto s = Bsdf(point, wo).sample(u, sampler.next2())) sum += s->weight.g;
     }
     EXPECT_NEAR(sum / kSamples, 1, 0.01) << cos_o;
   }
@@ -319,10 +319,10 @@ TEST_P(BsdfOf, LayersSampleTheirPdf) {
   point.coat_alpha = 0.3f;
   const Vec3 wo(0.5f, 0.3f, std::sqrt(1 - 0.34f));
   const auto draw = [&](float u, const Vec2& v) -> std::optional<Vec3> {
-    const auto s = bsdf_sample(point, wo, u, v);
+    const auto s = Bsdf(point, wo).sample(u, v);
     return s ? std::optional(s->wi) : std::nullopt;
   };
-  EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return bsdf_pdf(point, wo, wi); }), 6);
+  EXPECT_LT(chi2_excess(draw, [&](const Vec3& wi) { return Bsdf(point, wo).pdf(wi); }), 6);
 }
 INSTANTIATE_TEST_SUITE_P(Layers, BsdfOf,
                          testing::Values(std::pair{0.7f, 0.0f}, std::pair{0.0f, 1.0f}, std::pair{0.5f, 0.6f}));
