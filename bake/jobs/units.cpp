@@ -117,7 +117,9 @@ Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::u
       const std::uint64_t traced = loop.compute(i);
       if (rays) *rays += traced;
     };
-    return parallel_for(context, loop.stage, loop.count, body, rays);
+    ORIEL_TRY_VOID(parallel_for(context, loop.stage, loop.count, body, rays));
+    // An item may have ended meanwhile with half of its work.
+    return context.stopped() ? fail(ErrorCode::kStopped, std::string(loop.stage), "stopped") : Status();
   }
   Units units(context, loop, rays);
   std::vector<std::uint8_t> finished(units.count());

@@ -265,10 +265,16 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
     result.omissions.emplace_back("radiance maps: left out by --only");
   }
   if (!movers.empty()) {
-    const auto enough = [&] { return context.finish || deadline.left() <= bytes_of(pack, {}) / kWritten_per_s; };
+    std::atomic<bool> late{false};
+    const double writing = bytes_of(pack, {}) / kWritten_per_s;
+    const auto enough = [&] {
+      if (context.finish || deadline.left() <= writing) late = true;
+      return late.load();
+    };
     ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
       return bake_light_field(options, baked, movers, enough, context, pack, rays);
     }));
+    if (late) result.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
   } else if (options.with_transfer) {
     result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
   }

@@ -120,7 +120,7 @@ class Walk {
   // bounces, few paths would bring it all. One that weighs as much as several goes on as so many.
   void split(const Ray& ray, int bounce, PathLight& light) {
     const float weight = max_component(throughput_);
-    if (!(weight >= 2)) return;
+    if (!(weight >= 2) || !is_usable(throughput_)) return;
     const int paths = static_cast<int>(std::min(weight, kMostPaths));
     throughput_ /= static_cast<float>(paths);
     for (int k = 1; k < paths; ++k) {

@@ -12,7 +12,8 @@ inline constexpr int kMaxPasses = 256;
 // it, in evaluation, pdf and sampling alike. So no energy is lost at smooth normals (a closed sphere of triangles stays
 // an exact furnace), and light never leaks through.
 //
-// Refers to the surface. wo, wi: unit, world, away from the surface on its side of wo.
+// Refers to the surface, whose shade must stay what it is once lobes were asked for. wo, wi: unit, world, away from the
+// surface on its side of wo.
 class Shading {
  public:
   Shading(const SurfacePoint& surface, const Vec3& wo_world);

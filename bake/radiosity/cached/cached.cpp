@@ -46,6 +46,7 @@ class CachedEstimator : public LightEstimator {
         direct_(texels_.count(), options_.directional),
         gathered_(texels_.count(), options_.directional),
         lamps_(texels_.count(), options_.directional),
+        keep_beside_(texels_.count()),
         frames_(task.pixels, task.map, texels_.has_light()) {}
 
   Status refine(const Goal& goal) override {
@@ -54,7 +55,7 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(gather_to(goal.error));
     ORIEL_TRY_VOID(refine_direct(goal.error));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
-    if (!ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
+    if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
   }
 
@@ -93,7 +94,10 @@ class CachedEstimator : public LightEstimator {
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
-    if (options_.bounces != 1) ORIEL_TRY_VOID(bounce(goal.error));  // the gather itself is one
+    if (options_.bounces != 1) {  // the gather itself is one
+      const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+      ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
+    }
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
@@ -106,22 +110,15 @@ class CachedEstimator : public LightEstimator {
   Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
     ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, context_, lamps, rays_); }));
     if (lamps.particles == 0) return {};
-    put_beside(lamps, sums);
+    put_beside(lamps, keep_beside_, sums);
     around_.leave_out_lamps();
     return {};
   }
 
-  Status bounce(double error) {
-    const SweepOptions how = sweep_options(options_, error, texels_.count());
-    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
-    return {};
-  }
-
   void remember() {
-    if (!context_.units) return;
     KnownLight known = known_now_;
     known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
-    known.near = around_.near();
+    known.near = around_.near(), known.lamps = lamps_.particles > 0;
     known.coarse = coarse_, known.direct = direct_, known.gathered = gathered_;
     remember_light(context_, known_name_, std::move(known));
   }
@@ -153,7 +150,7 @@ class CachedEstimator : public LightEstimator {
   // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
   void take_known() {
     if (!reuse_) return;
-    reuse_->compare(texels_, order_, coarse_, options_.reuse_error);
+    reuse_->compare(texels_, order_, coarse_, lamps_.particles > 0, options_.reuse_error);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       const std::uint32_t k = reuse_->before(i);
       if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
@@ -338,7 +335,8 @@ class CachedEstimator : public LightEstimator {
   // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
   Status gather_from_further() {
     const float before = around_.near();
-    around_.set_near(kFurther * before);
+    if (before >= kFurther) return {};  // as the bake before did, whose light is known
+    around_.set_near(kFurther);
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
     for (const std::uint32_t i : list) anew.forget(i);
@@ -352,7 +350,7 @@ class CachedEstimator : public LightEstimator {
       return {};
     }
     for (std::size_t i = 0; i < texels_.count(); ++i)
-      if (keeps(i)) anew.take_beside(i, gathered_);
+      if ((keep_beside_[i] = keeps(i))) anew.take_beside(i, gathered_);
     gathered_ = std::move(anew), lamps_ = std::move(lamps);
     update_estimate();
     return {};
@@ -371,6 +369,7 @@ class CachedEstimator : public LightEstimator {
   DirectSums direct_;
   HalfSums gathered_;
   LampLight lamps_;
+  std::vector<bool> keep_beside_;   // by texel: its rays have the light of other particles than now follow the lamps
   Estimate estimate_;               // of the gathered light
   std::vector<Vec3> irradiance_;    // what gather rays find at a texel
   std::vector<Vec3> coarse_;        // of it what is no particles'

@@ -22,11 +22,13 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
   return std::max(kLeast, of_both / kHalves);
 }
 
-void put_beside(const LampLight& lamps, HalfSums& sums) {
-  for (int h = 0; h < kHalves; ++h)
-    for (std::size_t i = 0; i < sums.beside[h].size(); ++i) sums.beside[h][i] = lamps.half(h, i);
-  for (std::size_t i = 0; i < sums.beside_moments.size(); ++i)
-    sums.beside_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
+void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums) {
+  for (std::size_t i = 0; i < sums.samples.size(); ++i) {
+    if (keep[i]) continue;
+    for (int h = 0; h < kHalves; ++h) sums.beside[h][i] = lamps.half(h, i);
+    if (!sums.beside_moments.empty())
+      sums.beside_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
+  }
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,

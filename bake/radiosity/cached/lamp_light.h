@@ -11,8 +11,8 @@ namespace oriel {
 // Of each half, to begin with: eight a texel; where the rays of texels are given, one for every eight of these.
 std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& options);
 
-// Fills HalfSums::beside.
-void put_beside(const LampLight& lamps, HalfSums& sums);
+// Fills HalfSums::beside, but of texels that keep theirs.
+void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums);
 
 // Whether twice as many particles take more of the squared error of frames away, for what they cost, than twice as many
 // rays: by the noise of both before the filter, which both share. light: of texels, lux.

@@ -94,7 +94,9 @@ class Solver {
     const Hash128 direct = context.units ? hash_of(direct_) : Hash128();
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
     loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
-    loop.inputs = [&](std::size_t g, Archive& key) { key(direct, options_.side, options_.rays_per_patch, g); };
+    loop.inputs = [&](std::size_t g, Archive& key) {
+      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps());
+    };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
       for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k)

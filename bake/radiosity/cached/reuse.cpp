@@ -18,7 +18,7 @@ void fields(Archive& archive, HalfSums& s) {
   archive(s.sum, s.slope, s.samples, s.moments);
 }
 void fields(Archive& archive, KnownLight& k) {
-  archive(k.page, k.x, k.y, k.chart, k.glance, k.first_direct, k.coarse, k.near);
+  archive(k.page, k.x, k.y, k.chart, k.glance, k.first_direct, k.coarse, k.near, k.lamps);
   fields(archive, k.direct);
   fields(archive, k.gathered);
 }
@@ -29,8 +29,7 @@ bool is_whole(const KnownLight& k, bool directional) {
   const auto has = [&](const auto&... all) { return ((all.size() == n) && ...); };
   return has(k.x, k.y, k.chart, k.glance, k.first_direct, k.coarse, k.direct.value, k.direct.variance, k.direct.sampled,
              k.direct.uneven, k.direct.per_half, k.gathered.samples) &&
-         has(k.gathered.sum[0], k.gathered.sum[1], k.gathered.slope[0], k.gathered.slope[1], k.gathered.beside[0],
-             k.gathered.beside[1]) &&
+         has(k.gathered.sum[0], k.gathered.sum[1], k.gathered.slope[0], k.gathered.slope[1]) &&
          k.direct.moments.size() == moments && k.gathered.moments.size() == moments;
 }
 
@@ -85,7 +84,7 @@ std::vector<bool> Reuse::same_glance(const TexelGraph& graph, std::span<const Ve
 }
 
 void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, std::span<const Vec3> coarse,
-                    double error) {
+                    bool lamps, double error) {
   DVec3 mean(0);
   std::size_t visible = 0;
   for (std::size_t i = 0; i < texels.count(); ++i)
@@ -95,6 +94,7 @@ void Reuse::compare(const Texels& texels, std::span<const std::uint32_t> order, 
   for (std::size_t i = 0; i < texels.count(); ++i) seen += texels.seen(i);
   report_ = {};
   report_.asked = error;
+  if (lamps != known_.lamps) return;
   for (std::size_t first = 0; first < order.size(); first += kTile) {
     const auto tile = order.subspan(first, std::min(kTile, order.size() - first));
     double relative = 0, count = 0;

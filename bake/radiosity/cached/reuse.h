@@ -14,6 +14,7 @@ struct KnownLight {
   std::vector<Vec3> first_direct;                // before it was refined, lux
   std::vector<Vec3> coarse;                      // all light, before the final gather, lux
   float near = 1;                                // Surroundings::near() of its gather
+  bool lamps = false;                            // whether that left light of lamps to particles
   DirectSums direct{0, false};
   HalfSums gathered{0, false};
 
@@ -43,8 +44,10 @@ class Reuse {
   // Whether a few samples of the direct light there and beside it are what they were, to the last bit.
   std::vector<bool> same_glance(const TexelGraph& graph, std::span<const Vec3> glance) const;
 
-  // coarse: as KnownLight's, of the scene as it is now. order: coherent_order.
-  void compare(const Texels& texels, std::span<const std::uint32_t> order, std::span<const Vec3> coarse, double error);
+  // coarse, lamps: as KnownLight's, of the scene as it is now. order: coherent_order. Nothing is kept where light of
+  // lamps is not left to particles as it was: it would be lost, or count twice.
+  void compare(const Texels& texels, std::span<const std::uint32_t> order, std::span<const Vec3> coarse, bool lamps,
+               double error);
   bool keeps(std::size_t texel) const { return kept_[texel]; }
   // Root mean square, over its tile, of what the edit changes in the light of a texel that is kept, relative.
   float change(std::size_t texel) const { return change_[texel]; }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kUnit = 8192;  // particles
 constexpr std::size_t kUnits = 128;    // whose light is kept until it is added up
 constexpr float kMostParticles = 16;   // that one splits into at a time
-constexpr float kOften = 4;            // times as often as they are bright, further reflections are followed
+constexpr float kOften = 4;            // times as often as they are bright, further reflections are looked at
 
 // What came to a texel, of one particle or of a unit of them.
 struct Arrival {

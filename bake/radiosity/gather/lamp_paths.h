@@ -5,7 +5,7 @@
 
 namespace oriel {
 
-// What particles brought, by half and texel. Whatever is left out of Surroundings::answer() by trace_lamps is in it.
+// What particles brought, by half and texel. What Surroundings::leave_out_lamps() leaves out is in it.
 struct LampLight {
   std::array<std::vector<Vec3>, kHalves> sum;  // lux * particles
   std::vector<Vec4> moments;                   // as those of HalfSums, of both halves; empty unless asked for

@@ -60,6 +60,7 @@ class Surroundings {
   // Light of near lamps that comes by way of specular reflections alone is left out of answers: somebody else follows
   // it (lamp_paths.h).
   void leave_out_lamps() { lamps_ = false; }
+  bool lamps() const { return lamps_; }
 
   // By material: a path goes on from specular layers so many times as often as they are bright; 1 unless told
   // (learn_survival). It changes what rays cost and how noisy they are, not the light that they find on average.

@@ -139,7 +139,16 @@ class LightTree::Builder {
 };
 
 LightTree::LightTree(const std::vector<BoundedLight>& lights) {
-  if (!lights.empty()) Builder(lights, *this);
+  if (lights.empty()) return;
+  if (lights.size() > kFlat) {
+    Builder(lights, *this);
+    return;
+  }
+  std::vector<BoundedLight> evened(lights);
+  double mean = 0;
+  for (const BoundedLight& light : lights) mean += light.power / static_cast<double>(lights.size());
+  for (BoundedLight& light : evened) light.power = (1 - kEven) * light.power + kEven * mean;
+  Builder(evened, *this);
 }
 
 double LightTree::importance(const Node& node, const Vec3& p) const {

@@ -20,10 +20,10 @@ struct BoundedLight {
 
 class LightTree {
  public:
-  // With this many lights or fewer the choice is by power alone: it is cheaper, and nothing is hidden from it.
+  // With this many lights or fewer the choice does not look at places: it is cheaper, and nothing is hidden from it.
   static constexpr std::size_t kFlat = 8;
-  // With this many or fewer a quarter of the choices are even: a dim lamp at a place from which the bright ones are
-  // hidden is then not left to luck, and costs the others a seventh more noise at most.
+  // With this many or fewer a quarter of the choices are even (a defensive mixture, Hesterberg 1995): a dim lamp at a
+  // place from which the bright ones are hidden is not left to luck, for a sixth more noise of the others at most.
   static constexpr std::size_t kFew = 64;
   static constexpr double kEven = 0.25;
 
@@ -58,7 +58,8 @@ class LightTree {
   struct Group;
   class Builder;
 
-  double even_share() const { return leaf_.size() <= kFew ? kEven : 0; }
+  // Beside the tree; in a flat one powers themselves are evened out.
+  double even_share() const { return leaf_.size() > kFlat && leaf_.size() <= kFew ? kEven : 0; }
   double importance(const Node& node, const Vec3& p) const;
   double share_of_left(std::uint32_t parent, const Vec3& p) const;
 

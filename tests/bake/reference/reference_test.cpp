@@ -42,7 +42,7 @@ void expect_color(const FloatImage& image, const Vec3& color, double tolerance, 
 }
 
 TEST(Reference, SplitsAFurnaceIntoItsSeries) {
-  const ReferenceFrame frame = render(furnace(), {.width = 16, .height = 9, .samples = 256});
+  const ReferenceFrame frame = render(furnace(), {.width = 16, .height = 9, .samples = 4096});
   const Vec3 all = kEmission / (1.0f - kAlbedo), once = kAlbedo * kEmission;
   expect_color(frame.emission, kEmission, 1e-5, "emission");
   expect_color(frame.direct, once, 1e-3, "direct");

@@ -65,7 +65,7 @@ TEST(Contraction, NoiseInAWhiteBoxDoesNotGrow) {
 
 // A grey cube in a box of rough metal: light comes back to its few patches by way of many reflections, and few rays
 // tell poorly how much: up to 20 times as much is found without any bound, 20 000 times where all that came is handed
-// on.
+// on. (Four rays, where bakes trace 64: with eight no patch is found to hand on too much.)
 TEST(Contraction, NoiseAmongFewPatchesDoesNotTrapLight) {
   const auto largest = [](std::uint32_t rays, std::uint64_t seed, std::size_t& bounded) {
     SceneParts parts;
@@ -84,7 +84,7 @@ TEST(Contraction, NoiseAmongFewPatchesDoesNotTrapLight) {
   std::size_t bounded = 0;
   const float truth = largest(4096, 1, bounded);
   EXPECT_EQ(bounded, 0u);
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) EXPECT_LT(largest(8, seed, bounded), 25 * truth) << seed;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) EXPECT_LT(largest(4, seed, bounded), 25 * truth) << seed;
   EXPECT_GT(bounded, 0u) << "no patch hands on too much: the test shows nothing";
 }
 

@@ -44,7 +44,7 @@ struct Page {
 TEST(Reuse, TilesKeepLightThatChangesByLessThanIsAllowed) {
   const Page page(100);
   Reuse reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, page.changed(1.5f), 0.02);
+  reuse.compare(page.texels, page.order, page.changed(1.5f), false, 0.02);
   EXPECT_EQ(reuse.report().tiles, kTiles);
   EXPECT_EQ(reuse.report().kept, 2u) << "0 and 1.5 %, not 3 and 4.5 %";
   EXPECT_TRUE(reuse.keeps(0) && reuse.keeps(64) && !reuse.keeps(128) && !reuse.keeps(192));
@@ -58,10 +58,10 @@ TEST(Reuse, ALocalChangeCountsByItsRootMeanSquare) {
   std::vector<Vec3> now(page.known.coarse);
   now[5] = Vec3(50);  // relative to what is there now: 1, of 64 texels: 1/8
   Reuse reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, now, 0.1249);
+  reuse.compare(page.texels, page.order, now, false, 0.1249);
   EXPECT_FALSE(reuse.keeps(0));
   reuse = Reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, now, 0.1251);
+  reuse.compare(page.texels, page.order, now, false, 0.1251);
   EXPECT_TRUE(reuse.keeps(0));
 }
 
@@ -70,7 +70,7 @@ TEST(Reuse, OtherChartsAndTexelsThatWereNotThereAreBaked) {
   page.known.chart[70] = 1;
   page.known.page[130] = 7;
   Reuse reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, page.known.coarse, 1);
+  reuse.compare(page.texels, page.order, page.known.coarse, false, 1);
   EXPECT_EQ(reuse.report().kept, 2u);
   EXPECT_EQ(reuse.before(70), kNoTexel);
   EXPECT_EQ(reuse.before(71), 71u);
@@ -79,11 +79,11 @@ TEST(Reuse, OtherChartsAndTexelsThatWereNotThereAreBaked) {
 TEST(Reuse, ADarkSceneThatStaysDarkIsKeptAndOneThatIsLitIsNot) {
   const Page page(0);
   Reuse reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, page.known.coarse, 0.02);
+  reuse.compare(page.texels, page.order, page.known.coarse, false, 0.02);
   EXPECT_EQ(reuse.report().kept, kTiles);
   EXPECT_EQ(reuse.report().error, 0);
   reuse = Reuse(page.texels, page.known);
-  reuse.compare(page.texels, page.order, std::vector<Vec3>(page.order.size(), Vec3(1)), 0.02);
+  reuse.compare(page.texels, page.order, std::vector<Vec3>(page.order.size(), Vec3(1)), false, 0.02);
   EXPECT_EQ(reuse.report().kept, 0u);
 }
 
