@@ -1,6 +1,7 @@
 #include "bake/radiance/plan/planned_views.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
@@ -10,9 +11,9 @@ namespace oriel {
 namespace {
 
 constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
-constexpr double kWorthDividing = 0.02;       // by which more of an element must be sharp
-constexpr std::uint32_t kLeastResolution = 16;
-constexpr std::uint32_t kMostShares = 4;  // of options.samples for one reflector
+constexpr double kWorthDividing = 0.02;       // by which all must be worth more, of the samples' weight
+constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory
+constexpr std::uint32_t kMostShares = 4;      // of options.samples for one reflector
 // A known plan is kept where what it shows now, as shares, is less by no more than that.
 constexpr double kSeenLess = 0.002, kSharpLess = 0.01;
 
@@ -40,6 +41,15 @@ bool is_inside(const Element& window, const ReflectedSample& s) {
          glm::all(glm::lessThanEqual(Vec2(s.on_plane), window.upper));
 }
 
+double pixels_of(const Element& window, std::uint32_t resolution) {
+  return static_cast<double>(map_bytes(window, resolution) / kMapBytesPerPixel);
+}
+
+// Of a pixel, in weight of the reflector's samples.
+double price_for(const FoundReflector& found, double price) {
+  return found.reflectance > 0 ? price / double{found.reflectance} : std::numeric_limits<double>::infinity();
+}
+
 class Planner {
  public:
   Planner(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
@@ -51,13 +61,15 @@ class Planner {
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
     ORIEL_TRY(const auto samples, samples_of(reflector));
+    const double price = price_for(surroundings_.reflectors()[reflector], options_.pixel_price);
     ReflectorPlan best;
     ElementGrid grid;
     for (;;) {
       ORIEL_TRY(ReflectorPlan plan, plan_on(reflector, grid, samples));
-      if (!best.elements.empty() && plan.sharp() < best.sharp() + kWorthDividing) return best;
+      if (!best.elements.empty() && !(plan.value(price) > best.value(price) + kWorthDividing * plan.weight()))
+        return best;
       best = std::move(plan);
-      if (best.sharp() >= options_.choice.sharp || 2 * grid.x * grid.y > options_.max_elements) return best;
+      if (2 * grid.x * grid.y > options_.max_elements) return best;
       const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
       (side.x >= side.y ? grid.x : grid.y) *= 2;
     }
@@ -113,7 +125,7 @@ class Planner {
                                    const std::vector<ReflectedSample>& samples) {
     const Scene& scene = surroundings_.accel().scene();
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
-    ElementPlan element{window, candidates_for(scene, r, window, samples, options_), {}, 0};
+    ElementPlan element{window, candidates_for(scene, r, window, samples, options_), {}, {}, 0};
     NeedTable table;
     for (const ReflectedSample& s : samples) {
       table.weights.push_back(s.weight);
@@ -125,11 +137,13 @@ class Planner {
         table.needed[c * samples.size() + s] =
             needed_resolution(surroundings_, reflector, element.candidates[c], window, samples[s]);
     }));
-    ChoiceOptions choice = options_.choice;
     const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
     constexpr std::uint32_t kMost = kMostMapsPerElement - 1;  // leaves a place for a residual
-    choice.max_maps = std::min(std::min(choice.max_maps, kMost) * grid.x * grid.y, kMost);
-    element.choice = choose_views(table, choice);
+    const std::uint32_t most = std::min(std::min(options_.choice.max_maps, kMost) * grid.x * grid.y, kMost);
+    const double price = price_for(surroundings_.reflectors()[reflector], options_.pixel_price);
+    for (const std::uint32_t resolution : options_.choice.resolutions)
+      element.choices.push_back(choose_views(table, most, resolution, pixels_of(window, resolution), price));
+    element.choice = best_value(element.choices, price);
     return element;
   }
 
@@ -139,60 +153,40 @@ class Planner {
   Context& context_;
 };
 
-std::uint64_t bytes_of(const ElementPlan& element) {
-  return map_bytes(element.window, element.choice.resolution);
+std::size_t map_count(std::span<const ReflectorPlan> plans) {
+  std::size_t count = 0;
+  for (const ReflectorPlan& plan : plans)
+    for (const ElementPlan& e : plan.elements) count += e.choice.picks.size();
+  return count;
 }
 
 std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
   std::uint64_t bytes = 0;
   for (const ReflectorPlan& plan : plans)
-    for (const ElementPlan& e : plan.elements) bytes += bytes_of(e) * e.choice.picks.size();
+    for (const ElementPlan& e : plan.elements)
+      bytes += map_bytes(e.window, e.choice.resolution) * e.choice.picks.size();
   return bytes;
 }
 
-// Removes last picks, the least gain by reflectance and byte first, then halves resolutions.
-void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, std::vector<ReflectorPlan>& plans,
-                std::vector<std::string>& omitted) {
+// Pixels get dearer until all fit: what is worth least for its pixels is left out or gets coarser first.
+void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, double price,
+                std::vector<ReflectorPlan>& plans, std::vector<std::string>& omitted) {
   const std::uint64_t wanted = total_bytes(plans);
-  std::uint64_t bytes = wanted, removed = 0;
-  while (bytes > limit) {
-    ElementPlan* least = nullptr;
-    double least_worth = 0;
+  const std::size_t maps = map_count(plans);
+  if (wanted <= limit) return;
+  while (total_bytes(plans) > limit) {
+    price *= kPriceStep;
     for (std::size_t r = 0; r < plans.size(); ++r)
-      for (ElementPlan& e : plans[r].elements) {
-        if (e.choice.picks.size() < 2) continue;
-        const double worth = e.choice.picks.back().gain * reflectors[r].reflectance / static_cast<double>(bytes_of(e));
-        if (!least || worth < least_worth) least = &e, least_worth = worth;
-      }
-    if (!least) break;
-    bytes -= bytes_of(*least);
-    least->choice.picks.pop_back();
-    ++removed;
+      for (ElementPlan& e : plans[r].elements) e.choice = best_value(e.choices, price_for(reflectors[r], price));
   }
-  std::uint32_t divisor = 1;
-  while (bytes > limit && divisor < 64) {
-    divisor *= 2;
-    for (ReflectorPlan& plan : plans)
-      for (ElementPlan& e : plan.elements)
-        e.choice.resolution = std::max(std::min(e.choice.resolution, kLeastResolution), e.choice.resolution / 2);
-    bytes = total_bytes(plans);
-  }
-  std::size_t left_out = 0;
-  for (std::size_t r = plans.size(); r-- > 0 && bytes > limit; ++left_out) {
-    plans[r].elements.clear();
-    bytes = total_bytes(plans);
-  }
-  if (bytes == wanted) return;
-  std::string line = memory_line(wanted, limit) + fmt::format("{} maps fewer", removed);
-  if (divisor > 1) line += fmt::format(", 1/{} of the resolution", divisor);
-  if (left_out > 0) line += fmt::format(", {} of {} reflectors", plans.size() - left_out, plans.size());
-  omitted.push_back(line);
+  omitted.push_back(memory_line(wanted, limit) +
+                    fmt::format("{} of {} maps, some of them coarser", map_count(plans), maps));
 }
 
 // What plans are functions of, beside the stage's inputs.
 void add_inputs(std::uint32_t reflector, std::span<const Vec3> eyes, const PlannedViewOptions& options, Archive& key) {
   key(reflector, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
-      options.max_elements, options.map_resolution);
+      options.max_elements, options.map_resolution, options.pixel_price);
 }
 
 // The plan that is known of the reflector, where it holds still. Whether it does.
@@ -227,6 +221,7 @@ ReflectorPlan picked_only(ReflectorPlan plan) {
       pick.candidate = static_cast<std::uint32_t>(picked.size() - 1);
     }
     element.candidates = std::move(picked);
+    element.choices = {element.choice};
   }
   return plan;
 }
@@ -287,11 +282,14 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
           },
           [&](Archive& archive) { archive(plan); }));
     }
+    if (map_count({&plan, 1}) == 0 && !plan.elements.empty())
+      out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): shows too little to be worth a map",
+                                        reflectors[r].reflector.name, reflectors[r].reflector.area_m2));
     if (now) now->push_back({identity, picked_only(plan)});
     plans.push_back(std::move(plan));
     context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
   }
-  fit_memory(reflectors, options.memory_bytes, plans, out.omitted);
+  fit_memory(reflectors, options.memory_bytes, options.pixel_price, plans, out.omitted);
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     Reflector& reflector = reflectors[r].reflector;
     reflector.elements_x = plans[r].grid.x;

@@ -9,11 +9,12 @@ namespace oriel {
 struct ElementPlan {
   Element window;
   std::vector<Vec3> candidates;  // viewpoints, reflector space
-  Choice choice;
-  double weight = 0;  // of its samples
+  std::vector<Choice> choices;   // one a resolution
+  Choice choice;                 // the best of them at the price of the day
+  double weight = 0;             // of its samples
 };
 inline void fields(Archive& archive, ElementPlan& e) {
-  archive(e.window.lower, e.window.upper, e.candidates, e.choice, e.weight);
+  archive(e.window.lower, e.window.upper, e.candidates, e.choices, e.choice, e.weight);
 }
 
 struct ReflectorPlan {
@@ -23,12 +24,22 @@ struct ReflectorPlan {
   // Shares of the samples' weight.
   double seen() const { return mean(&Choice::seen); }
   double sharp() const { return mean(&Choice::sharp); }
+  double weight() const {
+    double sum = 0;
+    for (const ElementPlan& e : elements) sum += e.weight;
+    return sum;
+  }
+  double value(double price) const {
+    double sum = 0;
+    for (const ElementPlan& e : elements) sum += e.choice.value(price);
+    return sum;
+  }
 
  private:
-  double mean(double Choice::*share) const {
+  double mean(double (Choice::*share)() const) const {
     double sum = 0, total = 0;
     for (const ElementPlan& e : elements) {
-      sum += e.weight * e.choice.*share;
+      sum += e.weight * (e.choice.*share)();
       total += e.weight;
     }
     return total > 0 ? sum / total : 1;

@@ -1,4 +1,4 @@
-// Planned viewpoints: the greedy choice on tables made by hand, what maps see and how sharp in rooms of closed form.
+// Planned viewpoints: what maps see and how sharp in rooms of closed form.
 #include "bake/radiance/plan/planned_views.h"
 
 #include <gtest/gtest.h>
@@ -16,48 +16,6 @@ namespace {
 using test::MirrorRoom;
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
-
-TEST(Choice, TakesWhatShowsMostThenWhatIsNew) {
-  // Candidate 0 shows samples 0 to 2, 1 shows 2 and 3, 2 shows 0 and 1, 3 shows nothing.
-  const NeedTable table{{1, 1, 1, 1},
-                        {9, 9, 9, kNever, kNever, kNever, 9, 9, 9, 9, kNever, kNever, kNever, kNever, kNever, kNever}};
-  ChoiceOptions options;
-  options.resolutions = {64};
-  const Choice choice = choose_views(table, options);
-  ASSERT_EQ(choice.picks.size(), 2u);
-  EXPECT_EQ(choice.picks[0].candidate, 0u);
-  EXPECT_EQ(choice.picks[1].candidate, 1u);
-  EXPECT_GT(choice.picks[0].gain, choice.picks[1].gain);
-  EXPECT_EQ(choice.seen, 1);
-  EXPECT_EQ(choice.sharp, 1);
-  options.max_maps = 1;
-  EXPECT_EQ(choose_views(table, options).seen, 0.75);
-}
-
-TEST(Choice, HeavySamplesComeFirstAndTiesGoToTheLowerNumber) {
-  const NeedTable table{{1, 1, 5}, {9, 9, kNever, kNever, kNever, 9, kNever, kNever, 9}};
-  ChoiceOptions options;
-  options.resolutions = {64};
-  const Choice choice = choose_views(table, options);
-  ASSERT_EQ(choice.picks.size(), 2u);
-  EXPECT_EQ(choice.picks[0].candidate, 1u);
-  EXPECT_EQ(choice.picks[1].candidate, 0u);
-}
-
-TEST(Choice, ResolutionIsTheCheapestThatIsSharp) {
-  // One candidate needs 200 pixels for all; two others 60 for half each: the three together, of 64², are
-  // cheaper than that one alone of 256².
-  NeedTable table{{1, 1}, {200, 200, 60, kNever, kNever, 60}};
-  const Choice choice = choose_views(table, {});
-  EXPECT_EQ(choice.resolution, 64u);
-  EXPECT_EQ(choice.picks.size(), 3u);
-  EXPECT_EQ(choice.sharp, 1);
-  table.needed = {5000, 5000};  // none is sharp: the least that shows it
-  EXPECT_EQ(choose_views(table, {}).resolution, 64u);
-  EXPECT_EQ(choose_views(table, {}).seen, 1);
-  EXPECT_EQ(choose_views(table, {}).sharp, 0);
-  EXPECT_TRUE(choose_views({}, {}).picks.empty());
-}
 
 struct Planned {
   std::vector<FoundReflector> reflectors;
@@ -208,7 +166,7 @@ TEST(PlannedViews, AreNoMoreThanThePlayerBlends) {
   PlannedViewOptions options;
   options.samples = 2048;
   options.choice.max_maps = 64;
-  options.choice.seen = options.choice.sharp = 2;  // never reached
+  options.pixel_price = 0;
   options.choice.resolutions = {256};
   options.max_elements = 1;
   const Planned planned = plan_in(*accel, room, eyes_in_room(200), options);
@@ -242,6 +200,7 @@ TEST(Residuals, ShowWhatNoMapSees) {
     ASSERT_TRUE(accel);
     PlannedViewOptions options;
     options.choice.max_maps = 1;
+    options.max_elements = 1;
     const auto eyes = eyes_in_room(1000);
     Planned planned = plan_in(*accel, room, eyes, options);
     const std::vector<FoundReflector> as_planned = planned.reflectors;
