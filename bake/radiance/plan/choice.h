@@ -21,9 +21,12 @@ struct NeedTable {
   std::size_t candidates() const { return weights.empty() ? 0 : needed.size() / weights.size(); }
 };
 
+inline constexpr double kSeenCounts = 8;              // as much as sharp: a hole is worse than a blur
+inline constexpr double kMostGain = kSeenCounts + 1;  // of a sample, of its weight
+
 struct Pick {
   std::uint32_t candidate = 0;
-  double gain = 0;             // weight newly seen (counted eight times) and newly sharp
+  double gain = 0;             // weight newly seen (kSeenCounts times) and newly sharp
   double seen = 0, sharp = 0;  // shares of the samples' weight, with all picks before it
 };
 // Maps of one resolution, in the order in which they were picked.

@@ -69,7 +69,9 @@ class Planner {
       if (!best.elements.empty() && !(plan.value(price) > best.value(price) + kWorthDividing * plan.weight()))
         return best;
       best = std::move(plan);
-      if (2 * grid.x * grid.y > options_.max_elements) return best;
+      const double most = kMostGain * best.weight();
+      if (most - best.value(price) <= kWorthDividing * best.weight() || 2 * grid.x * grid.y > options_.max_elements)
+        return best;
       const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
       (side.x >= side.y ? grid.x : grid.y) *= 2;
     }
