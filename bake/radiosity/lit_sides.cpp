@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "bake/direct/onlookers.h"
 #include "bake/jobs/units.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -59,9 +60,10 @@ Parts find_parts(const Scene& scene) {
   return parts;
 }
 
-// The light on one side of a part.
+// The light on one side of a part, and whether eyes see it.
 struct SideLight {
   double sum = 0, max = 0;
+  bool seen = false;
 
   void add(double light) {
     sum += light;
@@ -72,8 +74,8 @@ struct SideLight {
   }
 };
 
-LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std::size_t points, std::uint64_t seed,
-                   std::uint64_t& rays) {
+LitSides lit_sides(const Transport& t, const Onlookers& onlookers, std::span<const std::uint32_t> part,
+                   std::size_t points, std::uint64_t seed, std::uint64_t& rays) {
   const Scene& scene = t.accel.scene();
   std::vector<double> area_until;
   double total = 0;
@@ -90,6 +92,10 @@ LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std:
       Sampler own = sampler;
       const IrradianceSample e = sample_irradiance(t, point, own, rays);
       side->add(luminance(e.direct + e.indirect));
+      if (side->seen || !onlookers.any()) continue;
+      Onlookers::Nearest nearest;
+      const Vec3& normal = point.geometric_normal;
+      side->seen = onlookers.in_sight(spawn_origin(point, normal), normal, nearest, rays);
     }
     // Most double-sided things in the light show it at once: what is found to be lit stays so however many points
     // follow.
@@ -97,13 +103,15 @@ LitSides lit_sides(const Transport& t, std::span<const std::uint32_t> part, std:
         back.lit_beside(front, k + 1))
       return LitSides::kBoth;
   }
-  if (!back.lit_beside(front, points)) return LitSides::kFront;
-  return front.lit_beside(back, points) ? LitSides::kBoth : LitSides::kBack;
+  if (!back.seen && !back.lit_beside(front, points)) return LitSides::kFront;
+  return front.seen || front.lit_beside(back, points) ? LitSides::kBoth : LitSides::kBack;
 }
 
 }  // namespace
 
-Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) {
+Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
+  const Onlookers onlookers(transport.accel, eyes);
+  const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
   const Parts parts = find_parts(transport.accel.scene());
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
   Transport short_paths = transport;
@@ -111,10 +119,10 @@ Result<FoundSides> find_lit_sides(const Transport& transport, Context& context) 
   std::vector<LitSides> of_part(parts.count(), LitSides::kBoth);
   std::atomic<std::uint64_t> rays{0};
   UnitLoop loop{.stage = "sides", .count = parts.count(), .rays = static_cast<double>(points * kRaysAPoint)};
-  loop.inputs = [](std::size_t i, Archive& key) { key(i); };
+  loop.inputs = [&](std::size_t i, Archive& key) { key(i, where); };
   loop.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
-    of_part[i] = lit_sides(short_paths, parts.of(i), points, context.seed, traced);
+    of_part[i] = lit_sides(short_paths, onlookers, parts.of(i), points, context.seed, traced);
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };

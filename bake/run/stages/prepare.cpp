@@ -14,6 +14,7 @@
 namespace oriel {
 namespace {
 
+constexpr std::uint32_t kEyesForSides = 256;
 constexpr double kMostForSides = 0.15;       // of --time
 constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
 constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
@@ -87,7 +88,8 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
               const Deadline clock(0);
               const Interruptible until(
                   context, [&] { return options.time_s > 0 && clock.spent() > kMostForSides * options.time_s; });
-              auto sides = find_lit_sides({*prepared.accel, lights, path_options(options)}, context);
+              const std::vector<Vec3> eyes = sample_eyes(prepared.region, kEyesForSides, context.seed);
+              auto sides = find_lit_sides({*prepared.accel, lights, path_options(options)}, eyes, context);
               if (sides) rays = sides->report.rays;
               return sides;
             }));

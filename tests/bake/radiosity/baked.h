@@ -36,7 +36,7 @@ inline Baked bake(Scene scene, float texel_m, const RadiosityOptions& options, i
   {
     const Accel accel = *Accel::build(b.scene);
     const LightSet lights(b.scene);
-    const FoundSides found = *find_lit_sides({accel, lights, {}}, context);
+    const FoundSides found = *find_lit_sides({accel, lights, {}}, {}, context);
     b.sides = found.report;
     if (found.change_scene()) b.scene = split_sides(std::move(b.scene), found.sides);
   }

@@ -29,7 +29,7 @@ FoundSides find(const Scene& scene, int threads = 0) {
   context.threads = threads;
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
-  return *find_lit_sides({accel, lights, {}}, context);
+  return *find_lit_sides({accel, lights, {}}, {}, context);
 }
 
 // The double-sided surfaces of a scene with light on those sides.
@@ -49,6 +49,23 @@ TEST(LitSides, AreToldByTheLight) {
     add_sun(parts, {0, 0, -0.1f * z});
     EXPECT_EQ(find(parts.scene()).sides[0], LitSides::kBoth);
   }
+}
+
+// Light that no path finds falls on one side, eyes see the other.
+TEST(LitSides, AreThoseThatEyesSeeToo) {
+  SceneParts parts;
+  parts.quad("sheet", sheet_material(parts), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});  // faces +z
+  add_sun(parts, {0, 0, -1});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  const LightSet lights(scene);
+  const auto side = [&](const std::vector<Vec3>& eyes) {
+    Context context;
+    return find_lit_sides({accel, lights, {}}, eyes, context)->sides[0];
+  };
+  EXPECT_EQ(side({}), LitSides::kFront);
+  EXPECT_EQ(side({{0.5f, 0.5f, 2}}), LitSides::kFront);
+  EXPECT_EQ(side({{0.5f, 0.5f, -2}}), LitSides::kBoth);
 }
 
 TEST(LitSides, AreTheSameForAnyThreads) {
