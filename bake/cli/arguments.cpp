@@ -156,6 +156,11 @@ void add_reflection_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
                  "material's lobe")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
+  app.add_option("--map-price", bake.planned.pixel_price,
+                 "What a pixel of a radiance map must show to be captured: solid angle, sr on average over eyes, times "
+                 "reflectance (planned); less gives more and sharper maps, 0 all that show anything")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   app.add_option(
          "--memory", texts.memory,
          "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it")

@@ -186,6 +186,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"visible_sets", visible_sets_name(o.visible_sets)},
       {"orders", o.sight.orders},
       {"map_resolution", planned ? o.planned.map_resolution : o.views.map_resolution},
+      {"map_price", planned ? o.planned.pixel_price : 0},
       {"map_memory", planned ? o.planned.memory_bytes : o.views.memory_bytes},
       {"movers", o.import.movers},
       {"transfer", o.with_transfer},

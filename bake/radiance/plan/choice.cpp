@@ -66,16 +66,20 @@ Choice choose_views(const NeedTable& table, std::uint32_t max_maps, std::uint32_
 }
 
 Choice best_value(std::span<const Choice> choices, double price) {
-  Choice best;
+  const Choice* best = nullptr;
+  std::size_t count = 0;
   double most = 0;
   for (const Choice& choice : choices) {
-    Choice first{choice.resolution, choice.pixels, {}};
-    for (const Pick& pick : choice.picks) {
-      first.picks.push_back(pick);
-      if (const double value = first.value(price); value > most) best = first, most = value;
+    double value = 0;
+    for (std::size_t i = 0; i < choice.picks.size(); ++i) {
+      value += choice.picks[i].gain - price * choice.pixels;
+      if (value > most) best = &choice, count = i + 1, most = value;
     }
   }
-  return best;
+  if (!best) return {};
+  Choice chosen = *best;
+  chosen.picks.resize(count);
+  return chosen;
 }
 
 }  // namespace oriel

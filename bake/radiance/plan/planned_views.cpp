@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
 constexpr double kWorthDividing = 0.02;       // by which all must be worth more, of the samples' weight
-constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory
+constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory,
+constexpr double kLeastPrice = 1e-12;         // from this at least
 constexpr std::uint32_t kMostShares = 4;      // of options.samples for one reflector
 // A known plan is kept where what it shows now, as shares, is less by no more than that.
 constexpr double kSeenLess = 0.002, kSharpLess = 0.01;
@@ -177,7 +178,7 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
   const std::size_t maps = map_count(plans);
   if (wanted <= limit) return;
   while (total_bytes(plans) > limit) {
-    price *= kPriceStep;
+    price = std::max(price, kLeastPrice) * kPriceStep;
     for (std::size_t r = 0; r < plans.size(); ++r)
       for (ElementPlan& e : plans[r].elements) e.choice = best_value(e.choices, price_for(reflectors[r], price));
   }

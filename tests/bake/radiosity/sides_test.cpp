@@ -51,7 +51,7 @@ TEST(LitSides, AreToldByTheLight) {
   }
 }
 
-// Light that no path finds falls on one side, eyes see the other.
+// The sun lights the front. Its back is dark, and counts where eyes see it.
 TEST(LitSides, AreThoseThatEyesSeeToo) {
   SceneParts parts;
   parts.quad("sheet", sheet_material(parts), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});  // faces +z
