@@ -61,6 +61,12 @@ Result<Device> open_device() {
   glGetFloatv(desktop ? GL_POINT_SIZE_RANGE : GL_ALIASED_POINT_SIZE_RANGE, points);
   device.texture_size = std::min({texture_size, viewport[0], viewport[1]});
   device.array_layers = layers;
+  if (desktop) {
+    GLint colors = 1, depths = 1;
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colors);
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depths);
+    device.samples = std::max(1, std::min(colors, depths));
+  }
   device.point_size_max = std::max(1.0f, points[1]);
   device.pass_timers = desktop && device.renderer.find("llvmpipe") == std::string::npos;
   device.debug_output = epoxy_has_gl_extension("GL_KHR_debug");

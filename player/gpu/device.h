@@ -15,6 +15,7 @@ struct Device {
   std::string vendor, renderer, version;
   int texture_size = 0;       // largest width or height of a texture and of a viewport
   int array_layers = 0;       // of a texture array
+  int samples = 1;            // of a pixel that can be drawn and read: 1 where it has no multisample textures
   float point_size_max = 1;   // pixels
   bool debug_output = false;  // KHR_debug is there
   // Whether timer queries tell passes apart: OpenGL 3.3 has them, but a rasteriser that draws tile by tile (llvmpipe)

@@ -1,6 +1,17 @@
 #include "player/gpu/framebuffer.h"
 
 namespace oriel::gpu {
+namespace {
+
+// Of the framebuffer that is bound.
+Status check_complete(const char* what, int width, int height) {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return {};
+  return fail(ErrorCode::kRuntime, what,
+              "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete", status, width, height);
+}
+
+}  // namespace
 
 Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, const Texture* depth, bool stencil) {
   Framebuffer framebuffer;
@@ -13,13 +24,21 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, 
     const GLenum attachment = stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth->name(), 0);
   }
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) {
-    const Texture* any = color != nullptr ? color : depth;
-    return fail(ErrorCode::kRuntime, what,
-                "found framebuffer status 0x{:04x} for {}x{} pixels, expected it to be complete", status,
-                any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0);
-  }
+  const Texture* any = color != nullptr ? color : depth;
+  ORIEL_TRY_VOID(check_complete(what, any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0));
+  return framebuffer;
+}
+
+Result<Framebuffer> Framebuffer::create(const char* what, const MultisampleTexture& color,
+                                        const MultisampleTexture& depth) {
+  Framebuffer framebuffer;
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  framebuffer.handle_ = Handle<ObjectKind::kFramebuffer>(name);
+  framebuffer.bind();
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, color.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, depth.name(), 0);
+  ORIEL_TRY_VOID(check_complete(what, color.width(), color.height()));
   return framebuffer;
 }
 
@@ -41,6 +60,18 @@ void Framebuffer::copy_depth_stencil(const Framebuffer& other, const IVec2& from
   glBlitFramebuffer(from.x, from.y, from.x + size.x, from.y + size.y, to.x, to.y, to.x + size.x, to.y + size.y,
                     GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+}
+
+void Framebuffer::resolve_color(const Framebuffer& samples, const IVec2& size) const {
+  bind();
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, samples.handle_.name());
+  glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+}
+
+void Framebuffer::resolve_depth_stencil(const Framebuffer& samples, const IVec2& size) const {
+  bind();
+  copy_depth_stencil(samples, IVec2(0), size, IVec2(0));
 }
 
 void Framebuffer::attach_depth_layer(const TextureArray& depth, int layer) const {

@@ -13,6 +13,9 @@ class Framebuffer {
   // combination. The textures must outlive the framebuffer.
   static Result<Framebuffer> create(const char* what, const Texture* color, const Texture* depth, bool stencil = false);
 
+  // Both of the same number of samples; depth with its stencil.
+  static Result<Framebuffer> create(const char* what, const MultisampleTexture& color, const MultisampleTexture& depth);
+
   // For depth alone: attach_depth_layer() comes before drawing.
   static Framebuffer create_for_layers();
 
@@ -20,6 +23,10 @@ class Framebuffer {
   // Copies depth and stencil from another framebuffer, whose own have the same format, into this one, which is bound:
   // `size` pixels from `from` there to `to` here.
   void copy_depth_stencil(const Framebuffer& other, const IVec2& from, const IVec2& size, const IVec2& to) const;
+  // The mean of each pixel's samples of another framebuffer of this size into this one's colour; one of them into its
+  // depth and stencil. Leaves this one bound.
+  void resolve_color(const Framebuffer& samples, const IVec2& size) const;
+  void resolve_depth_stencil(const Framebuffer& samples, const IVec2& size) const;
   // Draws into a level of a texture from now on.
   void attach_color_level(const Texture& color, int level) const;
   // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.

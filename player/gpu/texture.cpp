@@ -67,6 +67,20 @@ void Texture::limit_levels(int levels) const {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
+MultisampleTexture::MultisampleTexture(const TextureFormat& format, int width, int height, int samples)
+    : width_(width), height_(height), samples_(samples) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  handle_ = Handle<ObjectKind::kTexture>(name);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, name);
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format.internal, width, height, GL_TRUE);
+}
+
+void MultisampleTexture::bind(int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, handle_.name());
+}
+
 TextureArray::TextureArray(const TextureFormat& format, int width, int height, int layers,
                            const TextureOptions& options)
     : format_(format) {

@@ -69,6 +69,24 @@ class Texture {
   std::size_t bytes_ = 0;
 };
 
+// Several samples a pixel, to be drawn into and read sample by sample. Desktop OpenGL only.
+class MultisampleTexture {
+ public:
+  MultisampleTexture() = default;
+  // The caller keeps samples within the device's. Contents are undefined.
+  MultisampleTexture(const TextureFormat& format, int width, int height, int samples);
+  void bind(int unit) const;
+  GLuint name() const { return handle_.name(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int samples() const { return samples_; }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  Handle<ObjectKind::kTexture> handle_;
+  int width_ = 0, height_ = 0, samples_ = 0;
+};
+
 // Layers of one size and format.
 class TextureArray {
  public:

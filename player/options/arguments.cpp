@@ -117,6 +117,11 @@ void add_picture_options(CLI::App& app, PlayArguments& out) {
       ->transform(CLI::CheckedTransformer(kSwitch).description(""))
       ->type_name("on|off")
       ->default_str("on");
+  app.add_option("--samples", out.frame.samples,
+                 "Samples of a pixel: edges are smooth from 4 on; as many as the device has. 1 is fastest")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N")
+      ->capture_default_str();
   app.add_flag(
       "!--no-mipmaps", out.frame.mipmaps,
       "Textures at full resolution at each pixel's centre, as a ray tracer without antialiasing samples them: for "

@@ -14,6 +14,9 @@
 
 namespace oriel {
 
+// Of a pixel, unless told: a sawtooth edge is the first thing that people see.
+inline constexpr int kSamples = 4;
+
 struct PlayArguments {
   std::string pack;
   std::string other;     // pack or picture that it is shown beside; none
@@ -29,7 +32,7 @@ struct PlayArguments {
   double time_s = 0;           // of animations; the window's clock starts there
   std::optional<float> ev100;  // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
-  FrameOptions frame;
+  FrameOptions frame{.samples = kSamples};
   std::string output;          // a file, or a folder
   std::string format = "png";  // of files in a folder
   bool toned = false;          // --tonemap was given

@@ -55,6 +55,7 @@ nlohmann::ordered_json as_json(const PlayArguments& arguments) {
           {"fresnel", name_of(kReflectances, o.reflectance)},
           {"pvs", name_of(kSwitch, o.visible_sets)},
           {"mipmaps", o.mipmaps},
+          {"samples", o.samples},
           {"gpu_memory",
            arguments.gpu_memory == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(arguments.gpu_memory)},
           {"exposure", exposure}};

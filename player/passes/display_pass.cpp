@@ -21,6 +21,9 @@ Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
   DisplayPass pass;
   ORIEL_TRY(pass.luminance_, gpu::Program::create("screen/luminance", dialect));
   ORIEL_TRY(pass.tonemap_, gpu::Program::create("screen/tonemap", dialect));
+  if (dialect == gpu::Dialect::kDesktop330) {
+    ORIEL_TRY(pass.tonemap_samples_, gpu::Program::create("screen/tonemap", dialect, "MULTISAMPLED"));
+  }
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }
@@ -57,12 +60,17 @@ void DisplayPass::draw(const FrameTarget& frame, float ev100, ToneCurve curve) c
   glViewport(0, 0, frame.light.width(), frame.light.height());
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
-  frame.light.bind(0);
-  tonemap_.use();
-  tonemap_.set("u_frame", 0);
-  tonemap_.set("u_frame_size", IVec2(frame.light.width(), frame.light.height()));
-  tonemap_.set("u_exposure", 1 / white_of_exposure(ev100));
-  tonemap_.set("u_curve", curve == ToneCurve::kAces ? 1 : 0);
+  const gpu::Program& program = frame.shows_samples ? tonemap_samples_ : tonemap_;
+  if (frame.shows_samples)
+    frame.light_samples.bind(0);
+  else
+    frame.light.bind(0);
+  program.use();
+  program.set("u_frame", 0);
+  program.set("u_samples", frame.samples());
+  program.set("u_frame_size", frame.size());
+  program.set("u_exposure", 1 / white_of_exposure(ev100));
+  program.set("u_curve", curve == ToneCurve::kAces ? 1 : 0);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

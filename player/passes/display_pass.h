@@ -22,11 +22,12 @@ class DisplayPass {
   // The exposure value that shows the frame's log-average luminance as middle grey (18 %). Pixels that are black or
   // unlit do not count; nothing where all are. The same frame always gives the same value.
   Result<std::optional<float>> meter(const FrameTarget& frame);
-  // Into the bound framebuffer, of the frame's size, encoded as sRGB.
+  // Into the bound framebuffer, of the frame's size, encoded as sRGB. Of several samples a pixel each is tone-mapped,
+  // so that an edge of a lamp stays smooth.
   void draw(const FrameTarget& frame, float ev100, ToneCurve curve) const;
 
  private:
-  gpu::Program luminance_, tonemap_;
+  gpu::Program luminance_, tonemap_, tonemap_samples_;
   gpu::VertexArray no_vertices_;
   gpu::Texture sums_;
   gpu::Framebuffer sums_framebuffer_;

@@ -79,14 +79,15 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   return renderer;
 }
 
-Status Renderer::ensure_frame(int width, int height) {
-  if (frame_ && frame_->light.width() == width && frame_->light.height() == height) return {};
+Status Renderer::ensure_frame(int width, int height, int samples) {
+  const int given = std::clamp(samples, 1, device_.samples);
+  if (frame_ && frame_->size() == IVec2(width, height) && frame_->samples() == given) return {};
   if (width < 1 || height < 1 || width > device_.texture_size || height > device_.texture_size) {
     return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height,
                 device_.texture_size, device_.texture_size, device_.renderer);
   }
   frame_.reset();
-  ORIEL_TRY(FrameTarget frame, make_frame_target(width, height));
+  ORIEL_TRY(FrameTarget frame, make_frame_target(width, height, given));
   frame_ = std::move(frame);
   return {};
 }
@@ -180,7 +181,7 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
       convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
     });
   }
-  frame_->framebuffer.bind();
+  frame_->drawn().bind();
   glViewport(0, 0, view.width, view.height);
   clock_.time(blurs ? Pass::kConvolve : Pass::kCompose, [&] {
     if (blurs) {
@@ -227,26 +228,28 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene,
   ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] {
     return bright_pass_.draw(scene, view, shown, movers, options, frame_->depth, stats);
   }));
-  frame_->framebuffer.bind();
+  frame_->drawn().bind();
   glViewport(0, 0, view.width, view.height);
   return change;
 }
 
 Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
   if (options.white > 0 || !needs_white(scene)) return options.white;
+  frame_->resolve_light();
   ORIEL_TRY(const std::optional<float> ev100, meter());
-  frame_->framebuffer.bind();
+  frame_->drawn().bind();
   glViewport(0, 0, frame_->light.width(), frame_->light.height());
   return white_of_exposure(ev100.value_or(0.0f));
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
-  ORIEL_TRY_VOID(ensure_frame(view.width, view.height));
+  ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
   clock_.start(options.timed);
-  frame_->framebuffer.bind();
+  frame_->shows_samples = frame_->samples() > 1;
+  frame_->drawn().bind();
   glViewport(0, 0, view.width, view.height);
   gpu::RasterState all;
   all.depth_write = true;
@@ -262,6 +265,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (is_survey(options.show)) {
     ORIEL_TRY_VOID(
         clock_.time(Pass::kScene, [&] { return survey_pass_.draw(scene, view, shown, options.show, stats); }));
+    frame_->resolve_light();
     stats.ms = clock_.read();
     ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
     return stats;
@@ -270,6 +274,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
   ORIEL_TRY(const std::vector<Candidate> candidates,
             clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); }));
+  if (!candidates.empty() || !movers.empty()) frame_->resolve_depth_stencil();
   std::set<std::uint32_t> reflective;
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) continue;
@@ -299,6 +304,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       if (scene.images().has({ImageKind::kSurround, reflector->map}))
         curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
   });
+  frame_->resolve_light();
   count_images(scene, stats);
   stats.ms = clock_.read();
   ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
@@ -315,7 +321,9 @@ std::vector<float> Renderer::read_light() const {
 }
 
 Status Renderer::take_light(const FloatImage& rgba) {
-  ORIEL_TRY_VOID(ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height)));
+  ORIEL_TRY_VOID(
+      ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->samples() : 1));
+  frame_->shows_samples = false;
   const std::size_t row = 4 * std::size_t{rgba.width};
   std::vector<float> upwards;
   upwards.reserve(rgba.pixels.size());
@@ -329,6 +337,7 @@ std::vector<std::int32_t> Renderer::read_reflective() const {
   const auto width = static_cast<std::size_t>(frame_->light.width());
   const auto height = static_cast<std::size_t>(frame_->light.height());
   std::vector<std::uint8_t> stencil(width * height);
+  frame_->resolve_depth_stencil();
   frame_->framebuffer.bind();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, frame_->light.width(), frame_->light.height(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());

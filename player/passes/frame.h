@@ -53,7 +53,7 @@ class Renderer {
   };
 
   Renderer() = default;
-  Status ensure_frame(int width, int height);
+  Status ensure_frame(int width, int height, int samples);
   Result<std::vector<Candidate>> draw_masks(GpuScene& scene, const View& view, const FrameOptions& options,
                                             FrameStats& stats);
   // kernel: the one that will blur it, if any.

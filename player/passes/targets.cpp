@@ -4,12 +4,30 @@
 
 namespace oriel {
 
-Result<FrameTarget> make_frame_target(int width, int height) {
+void FrameTarget::resolve_light() const {
+  if (light_samples) framebuffer.resolve_color(sampled, size());
+  drawn().bind();
+}
+
+void FrameTarget::resolve_depth_stencil() const {
+  if (light_samples) framebuffer.resolve_depth_stencil(sampled, size());
+  drawn().bind();
+}
+
+Result<FrameTarget> make_frame_target(int width, int height, int samples) {
   FrameTarget target;
   target.light = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
   target.depth = gpu::Texture(gpu::kDepthStencil, width, height, nullptr);
+  if (samples > 1) {
+    target.light_samples = gpu::MultisampleTexture(gpu::kRgba32f, width, height, samples);
+    target.depth_samples = gpu::MultisampleTexture(gpu::kDepthStencil, width, height, samples);
+  }
   ORIEL_TRY_VOID(gpu::check_gl("making the frame's textures"));
   ORIEL_TRY(target.framebuffer, gpu::Framebuffer::create("the frame", &target.light, &target.depth, true));
+  if (samples > 1) {
+    ORIEL_TRY(target.sampled,
+              gpu::Framebuffer::create("the frame's samples", target.light_samples, target.depth_samples));
+  }
   return target;
 }
 

@@ -5,11 +5,23 @@
 
 namespace oriel {
 
-// The frame: light in cd/m² (a: 0 nothing, 1 light, 2 a colour to be shown as it is), depth, stencil.
+// The frame: light in cd/m² (a: 0 nothing, 1 light, 2 a colour to be shown as it is), depth, stencil. With several
+// samples a pixel passes draw into those, and the frame itself is what resolve_…() last made of them.
 struct FrameTarget {
   gpu::Texture light, depth;
   gpu::Framebuffer framebuffer;
+  gpu::MultisampleTexture light_samples, depth_samples;  // none: a sample a pixel
+  gpu::Framebuffer sampled;
+  bool shows_samples = false;  // what is shown is the mean of the samples, once each is tone-mapped; else `light`
+
+  const gpu::Framebuffer& drawn() const { return light_samples ? sampled : framebuffer; }
+  IVec2 size() const { return {light.width(), light.height()}; }
+  int samples() const { return light_samples ? light_samples.samples() : 1; }
+  // Both leave drawn() bound.
+  void resolve_light() const;
+  void resolve_depth_stencil() const;
 };
-Result<FrameTarget> make_frame_target(int width, int height);
+// samples: at least 1, within the device's.
+Result<FrameTarget> make_frame_target(int width, int height, int samples);
 
 }  // namespace oriel

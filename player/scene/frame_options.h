@@ -39,10 +39,11 @@ struct FrameOptions {
   Reflectance reflectance = Reflectance::kTable;
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
+  int samples = 1;           // of a pixel at edges, as many as the device has
   bool timed = false;        // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
-  std::vector<MoverPose> poses;  // by Pack::movers; empty: all at rest
+  std::vector<MoverPose> poses{};  // by Pack::movers; empty: all at rest
   MoverLights mover_lights = MoverLights::kShadowed;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds

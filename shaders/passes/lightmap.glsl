@@ -10,7 +10,7 @@ const bool u_directional = false;
 uniform bool u_directional;
 #endif
 
-in vec2 v_lightmap_uv;
+centroid in vec2 v_lightmap_uv;
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
 vec3 irradiance_on(vec3 tilted) {

@@ -11,7 +11,7 @@ invariant gl_Position;
 out vec3 v_position;
 out vec3 v_normal;
 out vec2 v_uv;
-out vec2 v_lightmap_uv;
+centroid out vec2 v_lightmap_uv;  // beside a triangle's edge lies another chart's light
 out vec4 v_color;
 out vec2 v_normal_uv;
 out vec4 v_tangent;

@@ -14,7 +14,7 @@ uniform vec3 u_tint;
 in vec3 v_position;
 in vec3 v_normal;
 in vec2 v_uv;
-in vec2 v_lightmap_uv;
+centroid in vec2 v_lightmap_uv;
 in vec4 v_color;
 in vec2 v_normal_uv;
 in vec4 v_tangent;

@@ -1,0 +1,100 @@
+// Several samples a pixel: edges are means, everything else stays as it is.
+#include "formats/core/color.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+constexpr int kSize = 64;
+constexpr float kLamp = 100, kWall = 0.5f;  // cd/m²
+
+// A lamp, turned by 20°, before a wall that fills the view.
+Pack lamp_before_wall() {
+  Pack pack;
+  pack.materials.resize(2);
+  pack.materials[0].emission = Vec3(kWall);
+  pack.materials[1].emission = Vec3(kLamp);
+  for (Material& m : pack.materials) m.base_color = Vec3(0);
+  add_quad(pack, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, -1);
+  const Vec3 right(0.94f, 0.34f, 0), up(-0.34f, 0.94f, 0);
+  add_quad(pack, Vec3(0, 0, 0.1f) - 0.35f * (right + up), 0.7f * right, 0.7f * up, 1, -1);
+  return pack;
+}
+
+Camera facing_camera() {
+  Camera camera;
+  camera.eye = {0, 0, 2};
+  return camera;
+}
+
+struct Counts {
+  int wall = 0, lamp = 0, between = 0;
+  float sum = 0;
+};
+Counts count(const Picture& p) {
+  Counts counts;
+  for (int y = 0; y < p.height; ++y)
+    for (int x = 0; x < p.width; ++x) {
+      const float light = p.at(x, y).g;
+      counts.sum += light;
+      ++(light < 1.001f * kWall ? counts.wall : light > 0.999f * kLamp ? counts.lamp : counts.between);
+    }
+  return counts;
+}
+
+FrameOptions sampled(int samples) {
+  FrameOptions options;
+  options.samples = samples;
+  return options;
+}
+
+class Antialias : public FrameTest {
+ protected:
+  void SetUp() override {
+    FrameTest::SetUp();
+    if (device_.samples < 4) GTEST_SKIP() << "the device has " << device_.samples << " samples a pixel";
+  }
+};
+
+TEST_F(Antialias, EdgesAreMeans) {
+  const Counts plain = count(draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(1)));
+  const Counts smooth = count(draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(4)));
+  EXPECT_EQ(plain.between, 0);
+  EXPECT_GT(plain.lamp, 100);
+  EXPECT_GT(smooth.between, 40);  // about a pixel for each one that the outline crosses
+  EXPECT_GT(smooth.lamp, 100);
+  EXPECT_NEAR(smooth.sum / plain.sum, 1, 0.03);
+}
+
+TEST_F(Antialias, ALampsEdgeIsShownBetweenWallAndWhite) {
+  // 100 cd/m² where 1 is white: were light averaged before the tone curve, every pixel of the edge would be white.
+  (void)draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(4));
+  const auto shown = renderer_->read_display(exposure_of_white(1), ToneCurve::kNone);
+  ASSERT_TRUE(shown) << shown.error().text();
+  const auto wall = static_cast<int>(std::lround(255 * srgb_from_linear(kWall)));
+  int between = 0;
+  for (std::size_t i = 1; i < shown->size(); i += 3) between += (*shown)[i] > wall + 8 && (*shown)[i] < 247;
+  EXPECT_GT(between, 40);
+}
+
+TEST_F(Antialias, NoMoreSamplesThanTheDeviceHas) {
+  const Picture most = draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(64));
+  EXPECT_GT(count(most).between, 40);
+}
+
+TEST_F(Antialias, APictureInTheFramesPlaceIsShownAsItIs) {
+  (void)draw(lamp_before_wall(), facing_camera(), 8, 8, sampled(4));
+  FloatImage picture;
+  picture.width = picture.height = 8;
+  picture.channels = 4;
+  for (int i = 0; i < 64; ++i) picture.pixels.insert(picture.pixels.end(), {0.25f, 0.5f, 0.75f, 2.0f});
+  ASSERT_TRUE(renderer_->take_light(picture));
+  const auto shown = renderer_->read_display(exposure_of_white(1), ToneCurve::kNone);
+  ASSERT_TRUE(shown) << shown.error().text();
+  for (std::size_t i = 0; i < shown->size(); ++i)
+    EXPECT_NEAR((*shown)[i], 255 * srgb_from_linear(0.25f * static_cast<float>(i % 3 + 1)), 1.01);
+}
+
+}  // namespace
+}  // namespace oriel
