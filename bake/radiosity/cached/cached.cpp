@@ -6,9 +6,9 @@
 #include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/cached/lamp_light.h"
+#include "bake/radiosity/cached/part.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
-#include "bake/radiosity/cached/worst.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/gather/survival.h"
@@ -26,11 +26,11 @@ constexpr std::uint32_t kFirstCrowded = 32;             // where something is cl
 constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
 constexpr float kDark = 0.002f;                         // of the mean
 constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
-constexpr double kDirectShare = 0.3;                    // of the squared error asked for
 constexpr double kDirectTime = 0.3;                     // of what is left (RadiosityOptions::left)
 constexpr float kCoarseError = 0.25f;                   // of bounces that no gather ray refined
 constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
-constexpr double kGatherGain = 0.5, kDirectGain = 0.8;  // part of the squared error that the next refinement takes away
+constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
+constexpr double kGatherCost = 2;                       // of its rays, in shadow rays: these have company
 
 class CachedEstimator : public LightEstimator {
  public:
@@ -52,8 +52,7 @@ class CachedEstimator : public LightEstimator {
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
-    ORIEL_TRY_VOID(gather_to(goal.error));
-    ORIEL_TRY_VOID(refine_direct(goal.error));
+    ORIEL_TRY_VOID(refine_to(goal.error));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
@@ -66,7 +65,6 @@ class CachedEstimator : public LightEstimator {
     report.filter_drift = estimate_.energy_drift;
     report.ended_early = ended_early_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
-    const std::vector<Vec3> of_direct = variance_of(direct_, texels_, graph_, context_);
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
       LightmapPage& page = light.pages[texels_.page[i]];
@@ -75,9 +73,9 @@ class CachedEstimator : public LightEstimator {
       page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
       if (texels_.visible[i] == 0) continue;
       if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
-      page.irradiance[texel] = glm::max(direct_.value[i] + estimate_.value[i], Vec3(0));
+      page.irradiance[texel] = glm::max(smooth_direct_.value[i] + estimate_.value[i], Vec3(0));
       const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
-      page.standard_error[texel] = glm::sqrt(of_direct[i] + estimate_.variance[i] + edited * edited);
+      page.standard_error[texel] = glm::sqrt(smooth_direct_.variance[i] + estimate_.variance[i] + edited * edited);
     }
   }
 
@@ -213,8 +211,12 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
+  void update_direct() {
+    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), options_.filter, context_);
+  }
+
   void update_estimate() {
-    estimate_ = filter(texels_, graph_, gathered_, options_.filter, context_);
+    estimate_ = filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_);
     DVec3 sum(0);
     double count = 0;
     baked_ = 0;
@@ -227,26 +229,16 @@ class CachedEstimator : public LightEstimator {
     mean_ = sum / std::max(1.0, count);
   }
 
-  std::vector<std::uint32_t> worst(double now, double goal, double gain, std::uint32_t most,
-                                   const std::vector<std::uint32_t>& samples) {
-    std::vector<std::uint32_t> open = not_kept();
-    std::erase_if(open, [&](std::uint32_t i) { return samples[i] >= most; });
-    return worst_texels(graph_, open, squares_, shares_, samples,
-                        {.goal = goal, .excess = (now - goal) * baked_, .gain = gain}, context_);
-  }
-
   std::vector<Vec3> light() const {
-    std::vector<Vec3> light(direct_.value);
+    std::vector<Vec3> light(smooth_direct_.value);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += estimate_.value[i];
     return light;
   }
 
-  // The mean square over the pixels that show texels which are baked: what others keep is not theirs to make up for.
-  double mean_squares(const std::vector<Vec3>& variance) {
-    squares_ = frames_.squares(light(), variance);
-    double sum = 0;
-    for (std::size_t i = 0; i < squares_.size(); ++i) sum += keeps(i) ? 0 : squares_[i];
-    return baked_ > 0 ? sum / baked_ : 0;
+  // Measured over texels that are baked: what others keep is not theirs to make up for.
+  Part part(Part part) const {
+    part.measure(not_kept(), baked_);
+    return part;
   }
 
   bool is_dark(std::size_t i) const {
@@ -280,56 +272,58 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  // What texels that have all their samples add to the mean square, where that alone misses the
-  // goal: the others cannot make up for it and are refined to the goal among themselves.
-  double out_of_reach(double goal, std::uint32_t most, const std::vector<std::uint32_t>& samples) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      if (samples[i] >= most && !keeps(i)) sum += squares_[i];
-    const double mean = baked_ > 0 ? sum / baked_ : 0;
-    return mean > goal ? mean : 0;
-  }
-
-  Status gather_to(double error) {
+  // More samples where they take most of the error away for what they cost, direct light's or the gather's. What texels
+  // that have all their samples add may miss the goal alone: others cannot make up for it, and are refined to the goal
+  // among themselves.
+  Status refine_to(double error) {
+    update_direct();
     if (error <= 0) return {};
-    const std::uint32_t most = most_gathered();
     if (options_.enough) context_.finishable = true;
-    const double goal = (1 - kDirectShare) * error * error;
+    const double goal = error * error;
     for (;;) {
-      double now = mean_squares(estimate_.variance);
-      now -= out_of_reach(goal, most, gathered_.samples);
+      Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
+                          static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
+      Part gathered =
+          part({gathered_.samples, most_gathered(), kGatherGain, kGatherCost * static_cast<double>(gather_rays_),
+                frames_.squares(light(), estimate_.variance)});
+      if (direct.stuck + gathered.stuck > goal) direct.leave_stuck(), gathered.leave_stuck();
+      const double now = direct.mean + gathered.mean;
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      if (particles_pay(lamps_, gathered_, light(), frames_)) {
+      const bool direct_pays = direct.pays_more_than(gathered);
+      if (!direct_pays && particles_pay(lamps_, gathered_, light(), frames_)) {
         ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
         update_estimate();
         continue;
       }
-      const std::vector<std::uint32_t> list = worst(now, goal, kGatherGain, most, gathered_.samples);
+      const auto worst = [&](const Part& of) { return worst_of(graph_, not_kept(), shares_, of, now, goal, context_); };
+      std::vector<std::uint32_t> list = worst(direct_pays ? direct : gathered);
+      const bool other = list.empty();
+      if (other) list = worst(direct_pays ? gathered : direct);
       if (list.empty()) return {};
-      ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
-        const std::uint32_t per_half = std::min(most, 2 * std::max(1u, samples));
-        return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
-      }));
-      update_estimate();
+      ORIEL_TRY_VOID(direct_pays != other ? refine_direct(list, direct.most) : refine_gathered(list));
     }
   }
 
-  Status refine_direct(double error) {
-    if (error <= 0) return {};
-    const std::uint32_t most = std::max(kFirstDirect, options_.samples / kHalves);
-    for (;;) {
-      const double goal = kDirectShare * error * error;
-      double now = mean_squares(variance_of(direct_, texels_, graph_, context_));
-      now -= out_of_reach(goal, most, direct_.per_half);
-      if (now <= goal) return {};
-      if ((ended_early_ = done())) return {};
-      const std::vector<std::uint32_t> list = worst(now, goal, kDirectGain, most, direct_.per_half);
-      if (list.empty()) return {};
-      ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
-        return direct_light_.estimate(same, std::min(most, 4 * samples), context_, direct_, rays_);
-      }));
-    }
+  Status refine_gathered(const std::vector<std::uint32_t>& list) {
+    const std::uint64_t before = rays_;
+    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+      const std::uint32_t per_half = std::min(most_gathered(), 2 * std::max(1u, samples));
+      return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
+    }));
+    update_estimate();
+    gather_rays_ += rays_ - before;
+    return {};
+  }
+
+  Status refine_direct(const std::vector<std::uint32_t>& list, std::uint32_t most) {
+    const std::uint64_t before = rays_;
+    ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
+      return direct_light_.estimate(same, std::min(most, 2 * samples), context_, direct_, rays_);
+    }));
+    update_direct();
+    direct_rays_ += rays_ - before;
+    return {};
   }
 
   // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
@@ -370,6 +364,7 @@ class CachedEstimator : public LightEstimator {
   HalfSums gathered_;
   LampLight lamps_;
   std::vector<bool> keep_beside_;   // by texel: its rays have the light of other particles than now follow the lamps
+  Estimate smooth_direct_;          // of the direct light
   Estimate estimate_;               // of the gathered light
   std::vector<Vec3> irradiance_;    // what gather rays find at a texel
   std::vector<Vec3> coarse_;        // of it what is no particles'
@@ -379,11 +374,11 @@ class CachedEstimator : public LightEstimator {
   Hash128 known_name_;
   KnownLight known_now_;  // for the next bake
   FrameError frames_;
-  std::vector<float> shares_;      // of frames that a texel fills, as its surroundings tell
-  std::vector<bool> little_seen_;  // by texel
-  std::vector<float> squares_;     // by texel: its part of the mean square, of the light being refined
-  DVec3 mean_{0};                  // lux, over texels that see light
-  double baked_ = 0;               // share of frames that texels fill which do not keep their light
+  std::vector<float> shares_;                        // of frames that a texel fills, as its surroundings tell
+  std::vector<bool> little_seen_;                    // by texel
+  DVec3 mean_{0};                                    // lux, over texels that see light
+  double baked_ = 0;                                 // share of frames that texels fill which do not keep their light
+  std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements
   bool ended_early_ = false;
 };
 

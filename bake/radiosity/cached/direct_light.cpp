@@ -4,7 +4,6 @@
 #include <array>
 
 #include "bake/jobs/units.h"
-#include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -13,9 +12,10 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kMaxPolygons = 128;
-constexpr std::size_t kMaxPunctual = 256;  // that are asked one by one; of more,
-constexpr std::uint64_t kPicks = 16;       // so many are chosen for each point, by how bright they are from there
-constexpr std::size_t kGroup = 64;         // texels whose shadow rays to one light are traced together
+constexpr std::size_t kMaxPunctual = 256;    // that are asked one by one; of more,
+constexpr std::uint64_t kPicks = 16;         // so many are chosen for each point, by how bright they are from there
+constexpr std::uint32_t kSamplesAPoint = 4;  // beyond those that texels keep: to find one takes more rays than these
+constexpr std::size_t kGroup = 64;           // texels whose shadow rays to one light are traced together
 
 }  // namespace
 
@@ -49,6 +49,7 @@ class DirectGroup {
     }
     for (std::size_t i = 0; i < list_.size(); ++i) {
       sums.value[list_[i]] = tallies_[i].total;
+      sums.difference[list_[i]] = tallies_[i].difference;
       sums.variance[list_[i]] = tallies_[i].variance;
       sums.sampled[list_[i]] = tallies_[i].sampled;
       sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
@@ -76,7 +77,8 @@ class DirectGroup {
     Vec4 from{0};                            // Σ moments of weights * transmittance, by luminance
     Vec3 total{0}, variance{0}, sampled{0};  // of all lights so far
     Vec4 moments{0};
-    Vec3 uneven{0};  // what the halves' points differ by, all lights together
+    Vec3 difference{0};  // of the halves' light
+    Vec3 uneven{0};      // what the halves' points differ by, all lights together
   };
 
   std::uint64_t stream_of(std::uint32_t texel, int half) const {
@@ -85,9 +87,14 @@ class DirectGroup {
   }
 
   void add_points(std::uint32_t i) {
-    for (int half = 0; half < kHalves; ++half)
-      for (std::uint32_t k = 0; k < per_half_; ++k)
-        points_.push_back({d_.sites_.at(list_[i], half, k, rays_), i, half, k});
+    for (int half = 0; half < kHalves; ++half) {
+      const std::uint32_t kept = d_.texels_.kept_sites(list_[i], half);
+      for (std::uint32_t k = 0; k < per_half_; ++k) {
+        const bool again = k > kept && (k - kept) % kSamplesAPoint != 0;
+        const std::uint32_t point = k < kept ? k : kept + (k - kept) / kSamplesAPoint;
+        points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k});
+      }
+    }
   }
 
   // Whether an estimate is a number; where not it is told.
@@ -161,7 +168,8 @@ class DirectGroup {
     const auto n = static_cast<float>(kHalves * per_half_);
     for (Tally& t : tallies_) {
       const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
-      const Vec3 halves = 0.5f * (ratio(t.passed[0], t.weight[0]) + ratio(t.passed[1], t.weight[1]));
+      const std::array<Vec3, kHalves> of_half{ratio(t.passed[0], t.weight[0]), ratio(t.passed[1], t.weight[1])};
+      const Vec3 halves = 0.5f * (of_half[0] + of_half[1]);
       const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
       const Vec3 value = open * (2.0f * share - halves);
       t.total += value;
@@ -170,6 +178,7 @@ class DirectGroup {
       t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
       // The closed form is exact at a point; the texel's mean is had from a few.
       t.uneven += radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
+      t.difference += radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half_);
       forget_light(t);
     }
   }
@@ -209,6 +218,7 @@ class DirectGroup {
       add_moments(t, value);
       const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
       t.sampled += 0.25f * difference * difference;
+      t.difference += difference;
       forget_light(t);
     }
   }
@@ -263,19 +273,11 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   };
   loop.results = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
-      archive(sums.value[t], sums.variance[t], sums.sampled[t], sums.uneven[t], sums.per_half[t]);
+      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.sampled[t], sums.uneven[t], sums.per_half[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
     }
   };
   return parallel_units(context, loop, &rays);
-}
-
-std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, const TexelGraph& graph, Context& context) {
-  std::vector<Vec3> variance(texels.count());
-  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = sums.sampled[i] + sums.uneven[i];
-  variance = pooled_errors(texels, graph, std::move(variance), sums.value, context);
-  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += sums.variance[i];
-  return variance;
 }
 
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list) {

@@ -9,14 +9,16 @@ namespace oriel {
 // What the direct estimate of a texel knows. Lux.
 struct DirectSums {
   std::vector<Vec3> value;
+  std::vector<Vec3> difference;         // of its halves, which share neither points nor rays
   std::vector<Vec3> variance;           // of value's closed forms, predicted from the mix of lit and dark samples
-  std::vector<Vec3> sampled;            // of the rest, from one difference of halves: to be pooled over neighbours
+  std::vector<Vec3> sampled;            // of the rest, from one difference of halves
   std::vector<Vec3> uneven;             // of the closed forms' means over the texel, likewise from one difference
   std::vector<std::uint32_t> per_half;  // samples of each half for each light
   std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless asked for
 
   DirectSums(std::size_t texels, bool directional)
       : value(texels),
+        difference(texels),
         variance(texels),
         sampled(texels),
         uneven(texels),
@@ -24,14 +26,12 @@ struct DirectSums {
         moments(directional ? texels : 0) {}
 
   void take(std::size_t i, const DirectSums& from, std::size_t k) {
-    value[i] = from.value[k], variance[i] = from.variance[k], sampled[i] = from.sampled[k], uneven[i] = from.uneven[k];
+    value[i] = from.value[k], difference[i] = from.difference[k];
+    variance[i] = from.variance[k], sampled[i] = from.sampled[k], uneven[i] = from.uneven[k];
     if (!from.moments.empty()) moments[i] = from.moments[k];
     per_half[i] = from.per_half[k];
   }
 };
-
-// Squared errors by texel, lux²; what one difference of halves tells is pooled over neighbours.
-std::vector<Vec3> variance_of(const DirectSums& sums, const Texels& texels, const TexelGraph& graph, Context& context);
 
 // Keeps those of the list whose direct light, or a neighbour's, is uncertain by more than that share of it.
 void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list);

@@ -98,7 +98,36 @@ std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes
       graph, std::move(values), passes, [](std::size_t, std::size_t) { return true; }, context);
 }
 
+// Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
+// much may be left. The halves' product has no noise of its own.
+Vec3 left_by_slopes(const HalfSums& sums, std::size_t i) {
+  constexpr float kLeft = 0.5f;  // of the change
+  const float n = static_cast<float>(std::max(1u, sums.samples[i]));
+  return (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
+}
+
 }  // namespace
+
+Halves halves_of(const HalfSums& sums, Context& context) {
+  const std::size_t n = sums.samples.size();
+  Halves halves;
+  for (auto& light : halves.light) light.resize(n);
+  halves.common.resize(n), halves.beside.resize(n);
+  each_texel(context, n, [&](std::size_t i) {
+    for (int h = 0; h < kHalves; ++h) halves.light[h][i] = sums.half(h, i);
+    halves.common[i] = left_by_slopes(sums, i);
+  });
+  return halves;
+}
+
+Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered) {
+  Halves halves{{sums.value, sums.value}, std::vector<Vec3>(sums.value.size()), gathered};
+  for (std::size_t i = 0; i < sums.value.size(); ++i) {
+    halves.light[0][i] += 0.5f * sums.difference[i];
+    halves.light[1][i] -= 0.5f * sums.difference[i];
+  }
+  return halves;
+}
 
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
   std::vector<Vec4> moments = sums.moments;
@@ -135,34 +164,25 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
   return squares;
 }
 
-// Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
-// much may be left. The halves' product has no noise of its own.
-std::vector<Vec3> left_by_slopes(const HalfSums& sums, Context& context) {
-  constexpr float kLeft = 0.5f;  // of the change
-  std::vector<Vec3> squares(sums.samples.size());
-  each_texel(context, squares.size(), [&](std::size_t i) {
-    const float n = static_cast<float>(std::max(1u, sums.samples[i]));
-    squares[i] = (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
-  });
-  return squares;
-}
-
-Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
+Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
                 Context& context) {
   const std::size_t n = texels.count();
-  std::vector<Vec3> half[kHalves], noise(n), mean(n);
-  for (auto& h : half) h.resize(n);
+  const auto& half = halves.light;
+  std::vector<Vec3> noise(n), mean(n);
   each_texel(context, n, [&](std::size_t i) {
-    for (int h = 0; h < kHalves; ++h) half[h][i] = sums.half(h, i);
     const Vec3 d = half[0][i] - half[1][i];
     mean[i] = 0.5f * (half[0][i] + half[1][i]);
     noise[i] = 0.5f * d * d;  // variance of one half
   });
+  const auto pool = [&](std::vector<Vec3> squares, std::vector<Vec3> light) {
+    for (std::size_t i = 0; i < n; ++i) light[i] += halves.beside[i];
+    return pooled_errors(texels, graph, std::move(squares), light, context);
+  };
   // The guide is itself smoothed a little, so that its noise does not choose whom to join.
   const std::vector<Vec3> guide = pooled(graph, mean, 1, context);
-  const std::vector<Vec3> raw_noise = pooled_errors(texels, graph, noise, mean, context);
-  noise = pooled_errors(texels, graph, std::move(noise), guide, context);
-  const std::vector<Vec3> left = pooled_errors(texels, graph, left_by_slopes(sums, context), guide, context);
+  const std::vector<Vec3> raw_noise = pool(noise, mean);
+  noise = pool(std::move(noise), guide);
+  const std::vector<Vec3> left = pool(halves.common, guide);
 
   Estimate result;
   if (options.strength <= 0 || options.passes <= 0) {
@@ -194,8 +214,8 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& s
     beyond[i] -= 0.5f * unfiltered * unfiltered + of_both[i];
   });
   // Relative to the light that the filter leaves, as the error asked for is.
-  beyond = pooled_errors(texels, graph, std::move(beyond), result.value, context);
-  of_both = pooled_errors(texels, graph, std::move(of_both), result.value, context);
+  beyond = pool(std::move(beyond), result.value);
+  of_both = pool(std::move(of_both), result.value);
   each_texel(context, n, [&](std::size_t i) {
     result.variance[i] = glm::max(beyond[i], of_both[i]);
     result.variance[i] += glm::max(left[i], Vec3(0));

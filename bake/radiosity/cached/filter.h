@@ -1,6 +1,7 @@
-// Smoothing of gathered light over neighbouring texels, and what is known of its error.
+// Smoothing of light over neighbouring texels, and what is known of its error.
 #pragma once
 
+#include "bake/radiosity/cached/direct_light.h"
 #include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/radiosity/texels/neighbours.h"
@@ -14,11 +15,21 @@ struct Estimate {
   double energy_drift = 0;     // relative change of Σ area * value by the filter
 };
 
+// Two estimates of the light of texels that share neither points nor rays, lux.
+struct Halves {
+  std::array<std::vector<Vec3>, kHalves> light;
+  std::vector<Vec3> common;  // squared error of both by texel, to be pooled: no difference of theirs tells it
+  std::vector<Vec3> beside;  // other light that is there: errors are pooled relative to both
+};
+Halves halves_of(const HalfSums& sums, Context& context);
+// gathered: light beside it. Relative to direct light alone the noise of a shadow would count as much beside it.
+Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
+
 // A conservative diffusion over the graph: what one texel gains its neighbour loses, so no energy drifts. Conductance
 // between two texels falls with the difference of their light over its noise (variance-guided, Rousselle et al. 2012).
 // The error is measured, not modelled: each half is filtered alone and compared with the other, unfiltered
 // (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
-Estimate filter(const Texels& texels, const TexelGraph& graph, const HalfSums& sums, const FilterOptions& options,
+Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
                 Context& context);
 
 // Where gathered light comes from, smoothed over each texel's surroundings: a few dozen rays tell it poorly.

@@ -1,0 +1,37 @@
+#include "bake/radiosity/cached/part.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace oriel {
+namespace {
+
+// Of a part's squared error, so much is to go with each refinement: less would take long, more would leave the other
+// part no turn.
+constexpr double kLeastAtOnce = 0.1, kMostAtOnce = 0.5;
+
+}  // namespace
+
+void Part::measure(std::span<const std::uint32_t> texels, double share) {
+  mean = stuck = 0;
+  double all = 0, all_stuck = 0;
+  for (const std::uint32_t i : texels) {
+    mean += squares[i], all += samples[i];
+    if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
+  }
+  if (share > 0) mean /= share, stuck /= share;
+  stuck_rays = all > 0 ? all_stuck / all : 0;
+}
+
+std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
+                                    const std::vector<float>& shares, const Part& part, double now, double goal,
+                                    Context& context) {
+  double seen = 0;
+  for (const std::uint32_t i : texels) seen += shares[i];
+  std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
+  const double excess = std::clamp(now - goal, kLeastAtOnce * part.mean, kMostAtOnce * part.mean);
+  return worst_texels(graph, texels, part.squares, shares, part.samples,
+                      {.goal = goal * part.mean / now, .excess = excess * seen, .gain = part.gain}, context);
+}
+
+}  // namespace oriel

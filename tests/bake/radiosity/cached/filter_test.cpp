@@ -1,0 +1,86 @@
+// What the filter does to direct light: noise of penumbrae goes, all that is no noise stays.
+#include "bake/radiosity/cached/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bake/radiosity/cached/part.h"
+#include "formats/core/color.h"
+#include "tests/bake/radiosity/listed.h"
+
+namespace oriel::test {
+namespace {
+
+// A floor of 3 m under a lamp, a board above it that throws a wide penumbra, and a wall that stands on it: its shadow
+// is sharp where they meet.
+Scene shadows() {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", matt, {0, 0, 0}, {0, 0, 3}, {3, 0, 0});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {1, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
+  parts.box("board", matt, {0.2f, 1.2f, 0.4f}, {1.2f, 1.25f, 1.6f});
+  parts.box("wall", matt, {2.2f, 0, 0.5f}, {2.3f, 0.3f, 2.5f});
+  return parts.finish();
+}
+
+struct Shadows {
+  Listed listed{shadows(), 0.05f};
+  std::atomic<std::uint64_t> rays{0};
+  const Transport transport = listed.transport();
+  const MoreSites sites = listed.sites(transport);
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context, rays);
+
+  DirectSums direct(std::uint32_t per_half, std::uint64_t seed) {
+    DirectSums sums(listed.texels.count(), false);
+    const DirectLight light(transport, listed.texels, sites, seed);
+    EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums, rays));
+    return sums;
+  }
+};
+
+TEST(Filter, TakesNoiseFromPenumbraeAndLeavesShadowsEdges) {
+  Shadows s;
+  const Texels& texels = s.listed.texels;
+  const std::vector<Vec3> truth = s.direct(1024, 99).value;
+  const DirectSums sums = s.direct(4, 1);
+  const std::vector<Vec3> gathered(texels.count(), Vec3(30));
+  const Estimate smooth = filter(texels, s.graph, halves_of(sums, gathered), {}, s.listed.context);
+  double noise = 0, left = 0, all = 0, stated = 0, penumbra = 0, exact = 0, exact_before = 0, most = 0;
+  for (const std::uint32_t i : s.listed.floor) {
+    if (texels.visible[i] < 1) continue;
+    most = std::max(most, double{truth[i].g});
+    const double before = sums.value[i].g - truth[i].g, after = smooth.value[i].g - truth[i].g;
+    if (texels.site_for(i, 0, 0).origin.x < 1.9f) all += after * after, stated += smooth.variance[i].g;  // soft ones
+    if (sums.variance[i].g > 0) {
+      ++penumbra, noise += before * before, left += after * after;
+    } else {  // wholly lit or dark by these samples
+      exact_before = std::max(exact_before, std::fabs(before)), exact = std::max(exact, std::fabs(after));
+    }
+  }
+  ASSERT_GT(penumbra, 300);
+  EXPECT_LT(std::sqrt(left / noise), 0.6) << "half the noise at least";
+  EXPECT_GT(std::sqrt(left / noise), 0.05) << "no noise: the test shows nothing";
+  EXPECT_GT(std::sqrt(stated / all), 0.8);
+  EXPECT_LT(std::sqrt(stated / all), 2);
+  EXPECT_LE(exact, exact_before + 0.02 * most) << "light that was exact has been mixed with what is not";
+  EXPECT_LT(std::fabs(smooth.energy_drift), 5e-4);
+}
+
+// Refinement goes on where an error falls by more for its rays.
+TEST(Part, PaysWhereItsErrorIsGreaterForItsRays) {
+  const std::vector<std::uint32_t> samples = {4, 4, 8}, all = {0, 1, 2};
+  Part dear{.samples = samples, .most = 8, .gain = 0.5, .rays = 1000, .squares = {0.01f, 0.02f, 0.03f}};
+  Part cheap = dear;
+  cheap.rays = 100;
+  dear.measure(all, 0.5), cheap.measure(all, 0.5);
+  EXPECT_NEAR(dear.mean, 0.12, 1e-7);
+  EXPECT_TRUE(cheap.pays_more_than(dear));
+  EXPECT_FALSE(dear.pays_more_than(cheap));
+  cheap.leave_stuck();  // texel 2 has all its samples, half of all
+  EXPECT_NEAR(cheap.mean, 0.06, 1e-7);
+  EXPECT_NEAR(cheap.rays, 50, 1e-9);
+}
+
+}  // namespace
+}  // namespace oriel::test
