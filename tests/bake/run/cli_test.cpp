@@ -368,5 +368,27 @@ TEST(Quantities, ParseAndRefuse) {
   for (const char* bad : {"", "lamp", "=a.ies", "lamp="}) EXPECT_FALSE(parse_ies_option(bad)) << bad;
 }
 
+TEST_F(BakeCli, MemoryLimitMakesTexelsCoarserOrNamesALengthThatFits) {
+  const std::string bake = "oriel-bake cornell.glb -o a.oriel --only radiosity --error 20% --memory-limit 8MiB";
+  ASSERT_EQ(run(bake), 0) << log();
+  EXPECT_NE(log().find("(--memory-limit)"), std::string::npos) << log();
+  EXPECT_NE(log().find("those seen least, get larger ones"), std::string::npos) << log();
+  ASSERT_NE(run(bake + " --texel 1mm"), 0);
+  const std::string found = log();
+  const std::size_t at = found.find("(--texel "), end = found.find(" fits)", at);
+  ASSERT_NE(end, std::string::npos) << found;
+  EXPECT_EQ(run(bake + " " + found.substr(at + 1, end - at - 1)), 0) << log();
+}
+
+TEST_F(BakeCli, StrictKeepsThePackAndSaysWhatWasFound) {
+  // Texels of a metre in a room of half a metre: the lightmap cannot hold what particles find.
+  const std::string bake =
+      "oriel-bake cornell.glb -o a.oriel --unit m --only radiosity --samples 2 --texel 1m --verify off";
+  ASSERT_EQ(run(bake + " --strict"), 5) << log();
+  EXPECT_NE(log().find("a.oriel: was written; --strict: surfaces keep"), std::string::npos) << log();
+  EXPECT_TRUE(read_pack(folder_ / "a.oriel"));
+  EXPECT_EQ(run(bake), 0) << "a finding is fatal only where it is asked to be";
+}
+
 }  // namespace
 }  // namespace oriel
