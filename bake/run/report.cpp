@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bake/radiosity/frames/frame_error.h"
 #include "bake/run/version.h"
 #include "formats/core/half.h"
+#include "formats/pack/encoding/quantise.h"
 
 namespace oriel {
 namespace {
@@ -78,17 +80,27 @@ Json reflectors_json(const BakeFacts& f) {
   return out;
 }
 
-// Root mean square of what storing as half floats changes, relative, over baked texels.
+// Root mean square of what a page's halves change, over baked texels, relative to their light and a tenth of the mean,
+// as errors in frames are (frame_error.h).
 double storage_error(const Pack& pack) {
-  double squares = 0, count = 0;
-  for (const LightmapPage& page : pack.lightmaps)
-    for (std::size_t i = 0; i < page.irradiance.size(); ++i)
-      for (int c = 0; c < 3 && page.state[i] == TexelState::kValid; ++c) {
-        const double e = page.irradiance[i][c], off = float_from_half(half_from_float(page.irradiance[i][c])) - e;
-        squares += e > 0 ? off * off / (e * e) : 0;
-        ++count;
-      }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+  double squares = 0, count = 0, sum = 0;
+  const auto each = [&](const auto& body) {
+    for (const LightmapPage& page : pack.lightmaps) {
+      float largest = 0;
+      for (const Vec3& e : page.irradiance) largest = std::max(largest, max_component(e));
+      const float scale = std::ldexp(1.0f, scale_exponent(largest, 11));
+      for (std::size_t i = 0; i < page.irradiance.size(); ++i)
+        for (int c = 0; c < 3 && page.state[i] == TexelState::kValid; ++c) body(page.irradiance[i][c], scale);
+    }
+  };
+  each([&](float e, float) { sum += e, ++count; });
+  if (!(sum > 0)) return 0;
+  const double floor = kFrameFloor * sum / count;
+  each([&](float e, float scale) {
+    const double off = double{float_from_half(half_from_float(e / scale))} * scale - e;
+    squares += off * off / (double{e} * e + floor * floor);
+  });
+  return std::sqrt(squares / count);
 }
 
 double largest_compression_error(const BakeFacts& f) {
