@@ -5,7 +5,6 @@
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/run/version.h"
 #include "formats/core/half.h"
-#include "formats/pack/encoding/quantise.h"
 
 namespace oriel {
 namespace {
@@ -88,7 +87,8 @@ double storage_error(const Pack& pack) {
     for (const LightmapPage& page : pack.lightmaps) {
       float largest = 0;
       for (const Vec3& e : page.irradiance) largest = std::max(largest, max_component(e));
-      const float scale = std::ldexp(1.0f, scale_exponent(largest, 11));
+      // docs/format.md: the brightest lies in [2^14, 2^15).
+      const float scale = largest > 0 ? std::ldexp(1.0f, std::ilogb(largest) - 14) : 1.0f;
       for (std::size_t i = 0; i < page.irradiance.size(); ++i)
         for (int c = 0; c < 3 && page.state[i] == TexelState::kValid; ++c) body(page.irradiance[i][c], scale);
     }

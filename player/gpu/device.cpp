@@ -65,6 +65,12 @@ Result<Device> open_device() {
     GLint colors = 1, depths = 1;
     glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colors);
     glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depths);
+    for (const GLenum format : {GL_RGBA32F, GL_DEPTH32F_STENCIL8}) {
+      GLint most = 0;  // of this format, the first that is told
+      if (epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_internalformat_query"))
+        glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, 1, &most);
+      if (most > 0) colors = std::min(colors, most);
+    }
     device.samples = std::max(1, std::min(colors, depths));
   }
   device.point_size_max = std::max(1.0f, points[1]);

@@ -74,6 +74,9 @@ MultisampleTexture::MultisampleTexture(const TextureFormat& format, int width, i
   handle_ = Handle<ObjectKind::kTexture>(name);
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, name);
   glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format.internal, width, height, GL_TRUE);
+  GLint given = samples;
+  glGetTexLevelParameteriv(GL_TEXTURE_2D_MULTISAMPLE, 0, GL_TEXTURE_SAMPLES, &given);
+  samples_ = given;
 }
 
 void MultisampleTexture::bind(int unit) const {

@@ -73,7 +73,7 @@ class Texture {
 class MultisampleTexture {
  public:
   MultisampleTexture() = default;
-  // The caller keeps samples within the device's. Contents are undefined.
+  // The caller keeps samples within the device's, which may give more than are asked for. Contents are undefined.
   MultisampleTexture(const TextureFormat& format, int width, int height, int samples);
   void bind(int unit) const;
   GLuint name() const { return handle_.name(); }

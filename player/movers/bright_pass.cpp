@@ -71,11 +71,12 @@ Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-Status BrightPass::Canvas::make(int width, int height, const gpu::Texture& depth, bool stencil) {
+Status BrightPass::Canvas::make(int width, int height) {
+  depth = gpu::Texture(gpu::kDepth32f, width, height, nullptr);
   surfaces = gpu::Texture(gpu::kRgba32ui, width, height, nullptr);
   taken = gpu::Texture(gpu::kRgba8, width, height, nullptr);
   change = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
-  ORIEL_TRY(surfaces_target, gpu::Framebuffer::create("surfaces", &surfaces, &depth, stencil));
+  ORIEL_TRY(surfaces_target, gpu::Framebuffer::create("surfaces", &surfaces, &depth));
   ORIEL_TRY(taken_target, gpu::Framebuffer::create("shadows", &taken, nullptr));
   ORIEL_TRY(change_target, gpu::Framebuffer::create("bright lights", &change, nullptr));
   return gpu::check_gl("making the pictures of bright lights");
@@ -86,11 +87,9 @@ void BrightPass::Canvas::bind(const gpu::Framebuffer& target) const {
   glViewport(0, 0, change.width(), change.height());
 }
 
-Status BrightPass::make_targets(int width, int height, const gpu::Texture& depth) {
-  const int half_width = (width + 1) / 2, half_height = (height + 1) / 2;
-  scene_depth_ = gpu::Texture(gpu::kDepth32f, half_width, half_height, nullptr);
-  ORIEL_TRY_VOID(of_movers_.make(width, height, depth, true));
-  return of_scene_.make(half_width, half_height, scene_depth_, false);
+Status BrightPass::make_targets(int width, int height) {
+  ORIEL_TRY_VOID(of_movers_.make(width, height));
+  return of_scene_.make((width + 1) / 2, (height + 1) / 2);
 }
 
 void BrightPass::draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
@@ -109,15 +108,18 @@ void BrightPass::draw_batches(const GpuScene& scene, std::span<const DrawBatch> 
   }
 }
 
-// Movers where the frame's depth has them; the scene as if there were none.
+// Movers as if there were no scene, the scene as if there were no movers: at the middle of pixels, while the frame's
+// depth is that of its samples.
 void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
                                std::span<const PlacedMover> movers, FrameStats& stats) const {
   gpu::RasterState state;
-  state.depth_test = true;
+  state.depth_test = state.depth_write = true;
+  gpu::apply(state);
   surface_.use();
   surface_.set("u_base_texture", kBaseUnit);
   of_movers_.bind(of_movers_.surfaces_target);
   glClearBufferuiv(GL_COLOR, 0, kNothing);
+  glClear(GL_DEPTH_BUFFER_BIT);
   for (std::size_t i = 0; i < movers.size(); ++i) {
     glBindVertexArray(movers[i].mover->vertex_array.name());
     const Mat4 clip = clip_from_object(view, movers[i]);
@@ -125,8 +127,6 @@ void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::spa
                  id_of(i), state, stats);
   }
   of_scene_.bind(of_scene_.surfaces_target);
-  state.depth_write = true;
-  gpu::apply(state);
   glClearBufferuiv(GL_COLOR, 0, kNothing);
   glClear(GL_DEPTH_BUFFER_BIT);
   scene.bind_shown();
@@ -255,17 +255,16 @@ Status BrightPass::draw_light(const GpuScene& scene, const View& view, const Lit
 Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, const View& view,
                                                      std::span<const DrawBatch> shown,
                                                      std::span<const PlacedMover> movers, const FrameOptions& options,
-                                                     const gpu::Texture& depth, FrameStats& stats) {
+                                                     FrameStats& stats) {
   const std::vector<LitMovers> lights =
       find_lit(scene.pack().light_field.lights, movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   if (lights.empty()) return std::nullopt;
-  const BrightChange change{&of_movers_.change, &of_scene_.change, &of_scene_.surfaces};
-  Known now{scene.serial(),       view.clip_from_pack,  view.width,           view.height, depth.name(),
+  const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
+  Known now{scene.serial(),       view.clip_from_pack,  view.width,           view.height,
             options.mover_lights, options.light_points, options.visible_sets, {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
   if (now == known_) return change;
-  if (known_.width != now.width || known_.height != now.height || known_.depth != now.depth)
-    ORIEL_TRY_VOID(make_targets(view.width, view.height, depth));
+  if (known_.width != now.width || known_.height != now.height) ORIEL_TRY_VOID(make_targets(view.width, view.height));
   known_ = {};
   draw_surfaces(scene, view, shown, movers, stats);
   gpu::apply({});

@@ -21,7 +21,7 @@ namespace oriel {
 
 // What bright lights change, lux by pixel.
 struct BrightChange {
-  const gpu::Texture* on_movers = nullptr;       // what they add there; of the view's size
+  MoverChange on_movers;
   const gpu::Texture* on_scene = nullptr;        // what movers take of them; half the view's size, rounded up
   const gpu::Texture* scene_surfaces = nullptr;  // where that is: shaders/lib/lit_surface.glsl
 };
@@ -30,20 +30,20 @@ class BrightPass {
  public:
   static Result<BrightPass> create(gpu::Dialect dialect);
 
-  // shown: of the opaque scene. depth: of the frame, the movers included. Nothing where bright lights change nothing;
+  // shown: of the opaque scene. Nothing where bright lights change nothing;
   // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
   Result<std::optional<BrightChange>> draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
                                            std::span<const PlacedMover> movers, const FrameOptions& options,
-                                           const gpu::Texture& depth, FrameStats& stats);
+                                           FrameStats& stats);
 
  private:
   struct Canvas {
-    gpu::Texture surfaces, taken, change;
+    gpu::Texture depth, surfaces, taken, change;
     gpu::Framebuffer surfaces_target, taken_target, change_target;
-    Status make(int width, int height, const gpu::Texture& depth, bool stencil);
+    Status make(int width, int height);
     void bind(const gpu::Framebuffer& target) const;
   };
-  Status make_targets(int width, int height, const gpu::Texture& depth);
+  Status make_targets(int width, int height);
   void draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
                      std::span<const PlacedMover> movers, FrameStats& stats) const;
   void draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
@@ -62,7 +62,6 @@ class BrightPass {
     std::uint64_t scene = 0;
     Mat4 clip_from_pack{0};
     int width = 0, height = 0;
-    GLuint depth = 0;  // of the frame
     MoverLights lights = MoverLights::kShadowed;
     int points = 0;
     bool visible_sets = true;  // which batches are shown depends on it
@@ -73,7 +72,6 @@ class BrightPass {
   ShadowMaps maps_;
   gpu::Program surface_, shadow_, light_;
   gpu::VertexArray no_vertices_;
-  gpu::Texture scene_depth_;
   Canvas of_movers_, of_scene_;
   Known known_;
 };

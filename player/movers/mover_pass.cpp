@@ -79,13 +79,14 @@ void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<co
 }
 
 void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
-                     const gpu::Texture* change, FrameStats& stats) const {
+                     const MoverChange* change, FrameStats& stats) const {
   light_.use();
   light_.set("u_eye", view.eye);
   light_.set("u_base_texture", kBaseUnit);
   light_.set("u_reflectance", kReflectanceUnit);
   light_.set("u_normal_texture", kNormalUnit);
   light_.set("u_change", kChangeUnit);
+  light_.set("u_surfaces", kPlaceUnit);
   light_.set("u_codes", kWeightUnit);
   light_.set("u_table", kTableUnit);
   light_.set("u_weights", weights);
@@ -93,7 +94,7 @@ void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const Pl
   light_.set("u_changed", change != nullptr ? 1 : 0);
   light_.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
-  if (change != nullptr) change->bind(kChangeUnit);
+  if (change != nullptr) change->light->bind(kChangeUnit), change->surfaces->bind(kPlaceUnit);
   gpu::RasterState state;
   state.depth_test = true;
   state.stencil_ref = static_cast<GLint>(kMoverBits);

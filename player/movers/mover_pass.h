@@ -35,6 +35,12 @@ inline constexpr int kMaxShadowMovers = 16;  // of one light: others get its lig
 // In the stencil, where a mover is seen.
 inline constexpr GLuint kMoverBits = 0x7f;
 
+// What bright lights add to movers, lux by pixel of the view, and where: shaders/lib/lit_surface.glsl.
+struct MoverChange {
+  const gpu::Texture* light = nullptr;
+  const gpu::Texture* surfaces = nullptr;
+};
+
 class MoverPass {
  public:
   static Result<MoverPass> create(gpu::Dialect dialect);
@@ -42,10 +48,10 @@ class MoverPass {
   // Depth into the bound framebuffer.
   void draw_depth(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
                   FrameStats& stats) const;
-  // Light, over that depth. weights: of the diffuse part, the undirected reflection, the emission. change: what bright
-  // lights add, by pixel; may be null.
+  // Light, over that depth. weights: of the diffuse part, the undirected reflection, the emission. change: may be
+  // null.
   void draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
-            const gpu::Texture* change, FrameStats& stats) const;
+            const MoverChange* change, FrameStats& stats) const;
 
  private:
   gpu::Program depth_, light_;

@@ -329,6 +329,7 @@ std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* ar
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = app.get_option("--tonemap")->count() > 0;
+  out.sampled = app.get_option("--samples")->count() > 0;
   out.divided = app.get_option("--split")->count() > 0;
   const std::string complaint = contradiction(out);
   if (!complaint.empty()) {

@@ -27,6 +27,7 @@ struct PlayArguments {
   int width = 1280, height = 720;
   int supersample = 1;               // pixels averaged to one of a picture, on each axis
   bool sized = false;                // --size was given
+  bool sampled = false;              // --samples was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::vector<MoverMove> moves;
   double time_s = 0;           // of animations; the window's clock starts there

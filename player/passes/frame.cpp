@@ -81,7 +81,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
 
 Status Renderer::ensure_frame(int width, int height, int samples) {
   const int given = std::clamp(samples, 1, device_.samples);
-  if (frame_ && frame_->size() == IVec2(width, height) && frame_->samples() == given) return {};
+  if (frame_ && frame_->size() == IVec2(width, height) && frame_->asked == given) return {};
   if (width < 1 || height < 1 || width > device_.texture_size || height > device_.texture_size) {
     return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height,
                 device_.texture_size, device_.texture_size, device_.renderer);
@@ -225,9 +225,8 @@ Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene,
                                                           std::span<const DrawBatch> shown,
                                                           std::span<const PlacedMover> movers,
                                                           const FrameOptions& options, FrameStats& stats) {
-  ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] {
-    return bright_pass_.draw(scene, view, shown, movers, options, frame_->depth, stats);
-  }));
+  ORIEL_TRY(const auto change,
+            clock_.time(Pass::kMovers, [&] { return bright_pass_.draw(scene, view, shown, movers, options, stats); }));
   frame_->drawn().bind();
   glViewport(0, 0, view.width, view.height);
   return change;
@@ -274,7 +273,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
   ORIEL_TRY(const std::vector<Candidate> candidates,
             clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); }));
-  if (!candidates.empty() || !movers.empty()) frame_->resolve_depth_stencil();
+  if (!candidates.empty()) frame_->resolve_depth_stencil();
   std::set<std::uint32_t> reflective;
   for (const Candidate& candidate : candidates) {
     if (candidate.value == 0) continue;
@@ -290,7 +289,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
         mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission},
-                         change ? change->on_movers : nullptr, stats);
+                         change ? &change->on_movers : nullptr, stats);
       });
     }
     ORIEL_TRY(const float white, white_for(scene, options));
@@ -321,8 +320,7 @@ std::vector<float> Renderer::read_light() const {
 }
 
 Status Renderer::take_light(const FloatImage& rgba) {
-  ORIEL_TRY_VOID(
-      ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->samples() : 1));
+  ORIEL_TRY_VOID(ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->asked : 1));
   frame_->shows_samples = false;
   const std::size_t row = 4 * std::size_t{rgba.width};
   std::vector<float> upwards;

@@ -16,6 +16,7 @@ void FrameTarget::resolve_depth_stencil() const {
 
 Result<FrameTarget> make_frame_target(int width, int height, int samples) {
   FrameTarget target;
+  target.asked = samples;
   target.light = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
   target.depth = gpu::Texture(gpu::kDepthStencil, width, height, nullptr);
   if (samples > 1) {

@@ -12,6 +12,7 @@ struct FrameTarget {
   gpu::Framebuffer framebuffer;
   gpu::MultisampleTexture light_samples, depth_samples;  // none: a sample a pixel
   gpu::Framebuffer sampled;
+  int asked = 1;               // samples; the device may have given more
   bool shows_samples = false;  // what is shown is the mean of the samples, once each is tone-mapped; else `light`
 
   const gpu::Framebuffer& drawn() const { return light_samples ? sampled : framebuffer; }

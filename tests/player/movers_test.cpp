@@ -166,6 +166,27 @@ TEST_F(Movers, TheirShadowsTakeTheLampsLightAlone) {
               Vec3(0.5f, 0.25f, 1) * (kPi + 160) / kPi, 1e-2f);
 }
 
+// Bright lights are known by pixel, edges by sample: a mover has their light wherever it is seen, however it is turned.
+TEST_F(Movers, TiltedOnesHaveTheirLightWithSeveralSamples) {
+  const Pack pack = shadow_scene();
+  for (const Vec3& eye : {Vec3(3, 0.7f, 0.5f), Vec3(-3, 0.7f, 0.5f), Vec3(0.5f, 0.7f, 3), Vec3(0.4f, 0.7f, -3)}) {
+    const Camera camera = look_at(eye, Vec3(0), 0.6f);
+    FrameOptions options;
+    const Picture plain = draw(pack, camera, 48, 48, options);
+    options.samples = 4;
+    const Picture smooth = draw(pack, camera, 48, 48, options);
+    float darkest = 1e9f, least = 1e9f;  // of the mover, which is brighter in blue than what lies around it is in any
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 48; ++x) {
+        const auto is_mover = [](const Vec3& c) { return c.b > 1.5f * c.r && c.r > 0; };
+        if (is_mover(plain.at(x, y))) darkest = std::min(darkest, plain.at(x, y).b);
+        if (is_mover(smooth.at(x, y))) least = std::min(least, smooth.at(x, y).b);
+      }
+    EXPECT_GT(darkest, 10) << "the lamp is on it";
+    EXPECT_GT(least, 0.2f * darkest) << "a pixel, of which it covers a quarter or more, has lost the lamp";
+  }
+}
+
 TEST_F(Movers, WhatTheSceneShadesIsNotTakenTwice) {
   Pack pack = shadow_scene();
   add_quad(pack, {-3, 1, -3}, {6, 0, 0}, {0, 0, 6}, 1, 0);  // between lamp and mover, seen from above and below

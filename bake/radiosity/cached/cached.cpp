@@ -62,7 +62,9 @@ class CachedEstimator : public LightEstimator {
     RadiosityReport& report = light.report;
     report.sweeps = sweeps_.count, report.sweep_tail = sweeps_.tail, report.sweep_growth = sweeps_.growth;
     report.bounded_patches = sweeps_.bounded;
-    report.filter_drift = estimate_.energy_drift;
+    report.filter_drift = std::fabs(smooth_direct_.energy_drift) > std::fabs(estimate_.energy_drift)
+                              ? smooth_direct_.energy_drift
+                              : estimate_.energy_drift;
     report.ended_early = ended_early_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
@@ -281,27 +283,29 @@ class CachedEstimator : public LightEstimator {
     if (options_.enough) context_.finishable = true;
     const double goal = error * error;
     for (;;) {
-      Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
-                          static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
+      const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
+                                static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
       Part gathered =
           part({gathered_.samples, most_gathered(), kGatherGain, kGatherCost * static_cast<double>(gather_rays_),
                 frames_.squares(light(), estimate_.variance)});
-      if (direct.stuck + gathered.stuck > goal) direct.leave_stuck(), gathered.leave_stuck();
-      const double now = direct.mean + gathered.mean;
+      double now = direct.mean + gathered.mean;
+      if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      const bool direct_pays = direct.pays_more_than(gathered);
-      if (!direct_pays && particles_pay(lamps_, gathered_, light(), frames_)) {
+      const auto worst = [&](const Part& of) { return worst_of(graph_, not_kept(), shares_, of, now, goal, context_); };
+      std::vector<std::uint32_t> list;
+      if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
+        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+      } else if (particles_pay(lamps_, gathered_, light(), frames_)) {
         ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
         update_estimate();
-        continue;
+      } else if (!(list = worst(gathered)).empty()) {
+        ORIEL_TRY_VOID(refine_gathered(list));
+      } else if (!(list = worst(direct)).empty()) {
+        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+      } else {
+        return {};
       }
-      const auto worst = [&](const Part& of) { return worst_of(graph_, not_kept(), shares_, of, now, goal, context_); };
-      std::vector<std::uint32_t> list = worst(direct_pays ? direct : gathered);
-      const bool other = list.empty();
-      if (other) list = worst(direct_pays ? gathered : direct);
-      if (list.empty()) return {};
-      ORIEL_TRY_VOID(direct_pays != other ? refine_direct(list, direct.most) : refine_gathered(list));
     }
   }
 

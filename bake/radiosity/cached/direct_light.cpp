@@ -87,11 +87,13 @@ class DirectGroup {
   }
 
   void add_points(std::uint32_t i) {
+    // What casts sharp shadows sends the same ray from the same point.
+    const std::uint32_t samples_a_point = d_.t_.accel.scene().lights.empty() ? kSamplesAPoint : 1;
     for (int half = 0; half < kHalves; ++half) {
-      const std::uint32_t kept = d_.texels_.kept_sites(list_[i], half);
+      const std::uint32_t kept = d_.sites_.known(list_[i], half);
       for (std::uint32_t k = 0; k < per_half_; ++k) {
-        const bool again = k > kept && (k - kept) % kSamplesAPoint != 0;
-        const std::uint32_t point = k < kept ? k : kept + (k - kept) / kSamplesAPoint;
+        const bool again = k > kept && (k - kept) % samples_a_point != 0;
+        const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
         points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k});
       }
     }

@@ -20,7 +20,7 @@ void Part::measure(std::span<const std::uint32_t> texels, double share) {
     if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
   }
   if (share > 0) mean /= share, stuck /= share;
-  stuck_rays = all > 0 ? all_stuck / all : 0;
+  if (all > 0) rays *= 1 - all_stuck / all;
 }
 
 std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
@@ -29,9 +29,9 @@ std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::ui
   double seen = 0;
   for (const std::uint32_t i : texels) seen += shares[i];
   std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
-  const double excess = std::clamp(now - goal, kLeastAtOnce * part.mean, kMostAtOnce * part.mean);
+  const double excess = std::clamp(now - goal, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
   return worst_texels(graph, texels, part.squares, shares, part.samples,
-                      {.goal = goal * part.mean / now, .excess = excess * seen, .gain = part.gain}, context);
+                      {.goal = goal * part.open() / now, .excess = excess * seen, .gain = part.gain}, context);
 }
 
 }  // namespace oriel

@@ -28,8 +28,12 @@ TexelSite site_of(const SurfacePoint& s) {
   return {spawn_origin(s, s.geometric_normal), s.normal, s.geometric_normal};
 }
 
+std::uint32_t MoreSites::known(std::uint32_t i, int half) const {
+  return (texels_.has_many[i] ? kServe : 1) * texels_.kept_sites(i, half);
+}
+
 TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const {
-  if (k < (texels_.has_many[i] ? kServe : 1) * texels_.kept_sites(i, half)) return texels_.site_for(i, half, k);
+  if (k < known(i, half)) return texels_.site_for(i, half, k);
   const auto cut = texels_.cut.find(i);
   const bool divided = cut != texels_.cut.end();
   const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap

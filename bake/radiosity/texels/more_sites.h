@@ -22,6 +22,8 @@ class MoreSites {
 
   // The k-th site of a half, of as many as are asked for. The texel must be visible. Adds to rays.
   TexelSite at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const;
+  // So many of a half take no rays to find.
+  std::uint32_t known(std::uint32_t i, int half) const;
   // One of the triangles under the texel.
   std::uint32_t triangle(std::uint32_t i) const {
     const TexelMapPage& map = maps_[texels_.page[i]];
