@@ -22,18 +22,22 @@ Baked room(double error, double verify = 0) {
 }
 
 // Pixels that no bake knows.
-std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport) {
+constexpr std::uint64_t kSeed = 0x5ee;
+
+std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kSeed) {
   Context context;
-  return *find_frame_pixels(transport, b.atlas, eyes_in_the_open(transport, 1024, 0x5ee), 16, 0x5ee, context);
+  return *find_frame_pixels(transport, b.atlas, eyes_in_the_open(transport, 1024, seed), 16, seed, context);
 }
 
-Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints) {
+Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints,
+                           std::uint64_t seed = kSeed) {
   Context context;
   context.threads = threads;
+  context.seed = seed;
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   const Transport transport{accel, lights, {}};
-  return *certify(transport, b.atlas, b.texel_map, b.radiosity.pages, pixels_of(b, transport), what, asked, rays,
+  return *certify(transport, b.atlas, b.texel_map, b.radiosity.pages, pixels_of(b, transport, seed), what, asked, rays,
                   context);
 }
 
@@ -45,10 +49,10 @@ void spoil(Baked& b, float off) {
 }
 
 // The error that spoiling the light of `good` to that of `bad` adds where pixels read it.
-double added_error(const Baked& good, const Baked& bad) {
+double added_error(const Baked& good, const Baked& bad, std::uint64_t seed) {
   const Accel accel = *Accel::build(good.scene);
   const LightSet lights(good.scene);
-  const std::vector<FramePixel> pixels = pixels_of(good, {accel, lights, {}});
+  const std::vector<FramePixel> pixels = pixels_of(good, {accel, lights, {}}, seed);
   const auto shown = [](const Baked& b, const FramePixel& pixel) {
     DVec3 light(0);
     for (std::size_t k = 0; k < pixel.texel.size(); ++k)
@@ -59,7 +63,8 @@ double added_error(const Baked& good, const Baked& bad) {
   double sum = 0;
   for (const FramePixel& pixel : pixels) {
     const DVec3 is = shown(good, pixel) + DVec3(pixel.emitted), off = shown(bad, pixel) - shown(good, pixel);
-    sum += relative_square(off * off, is * is, floors2[pixel.eye]);
+    const DVec3 brighter = glm::max(is, is + off);  // as squared_error() divides
+    sum += relative_square(off * off, brighter * brighter, floors2[pixel.eye]);
   }
   return std::sqrt(sum / static_cast<double>(pixels.size()));
 }
@@ -70,14 +75,18 @@ TEST(HeldOut, TellTheErrorThatIsThere) {
   EXPECT_GT(good.pixels, 64u);
   Baked b = clean;
   spoil(b, 0.4f);
-  const Certificate spoilt = certificate_of(b, 0.05, kManyRays);
-  const double added = added_error(clean, b);
-  EXPECT_GT(added, 0.1) << "a third of it is left between texels";
-  const double expected = std::hypot(added, good.relative_error);
-  EXPECT_LE(spoilt.error_low, expected) << "the interval holds it";
-  EXPECT_GE(spoilt.error_high, expected);
-  EXPECT_GT(spoilt.error_low, 0.05) << "and says that it is not what the bake states, "
-                                    << b.radiosity.report.relative_error;
+  int held = 0;
+  constexpr int kTimes = 5;  // an interval of 95 % may miss once
+  for (std::uint64_t seed = kSeed; seed < kSeed + kTimes; ++seed) {
+    const Certificate spoilt = certificate_of(b, 0.05, kManyRays, 0, Ask::kPoints, seed);
+    const double added = added_error(clean, b, seed);
+    EXPECT_GT(added, 0.1) << "a third of it is left between texels";
+    const double expected = std::hypot(added, good.relative_error);
+    held += spoilt.error_low <= expected && expected <= spoilt.error_high;
+    EXPECT_GT(spoilt.error_low, 0.05) << "and says that it is not what the bake states, "
+                                      << b.radiosity.report.relative_error;
+  }
+  EXPECT_GE(held, kTimes - 1) << "the interval holds it";
 }
 
 // Texels of half a metre in a room of two are right and yet no light to look at.
