@@ -9,7 +9,7 @@ namespace {
 // Corners in the published unit, taken as millimetres, counter-clockwise from the front.
 using Corners = std::array<Vec3, 4>;
 
-void add(Mesh& mesh, const Corners& corners) {
+void add(SampleMesh& mesh, const Corners& corners) {
   const auto metres = [](const Vec3& p) { return Vec3(DVec3(p) / 1000.0); };
   add_corners(mesh, metres(corners[0]), metres(corners[1]), metres(corners[2]), metres(corners[3]));
 }
@@ -25,8 +25,8 @@ constexpr Corners kShortTop{{{130, 165, 65}, {82, 165, 225}, {240, 165, 272}, {2
 constexpr Corners kTallTop{{{423, 330, 247}, {265, 330, 296}, {314, 330, 456}, {472, 330, 406}}};
 
 // A block standing on the floor; its bottom is never seen.
-Mesh block(std::string name, std::uint32_t material, const Corners& top) {
-  Mesh mesh{std::move(name), material, {}, {}, {}, {}};
+SampleMesh block(std::string name, std::uint32_t material, const Corners& top) {
+  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
   add(mesh, top);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 a = top[i], b = top[(i + 1) % 4];
@@ -35,19 +35,19 @@ Mesh block(std::string name, std::uint32_t material, const Corners& top) {
   return mesh;
 }
 
-Mesh wall(std::string name, std::uint32_t material, const Corners& corners) {
-  Mesh mesh{std::move(name), material, {}, {}, {}, {}};
+SampleMesh wall(std::string name, std::uint32_t material, const Corners& corners) {
+  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
   add(mesh, corners);
   return mesh;
 }
 
 }  // namespace
 
-Scene make_cornell() {
-  Scene scene;
+SampleScene make_cornell() {
+  SampleScene scene;
   scene.name = "Cornell box";
   const auto material = [&](std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-    Material m;
+    SampleMaterial m;
     m.name = std::move(name);
     m.base_color = color;
     m.emission = emission;
@@ -61,7 +61,7 @@ Scene make_cornell() {
   const std::uint32_t light = material("light", Vec3(0.78f), 300.0f * Vec3(17, 12, 4));
 
   place(scene, wall("floor", white, kFloor));
-  Mesh ceiling{"ceiling", white, {}, {}, {}, {}};
+  SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
     add(ceiling, {{kCeiling[i], kCeiling[next], kLight[next], kLight[i]}});

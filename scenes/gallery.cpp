@@ -61,25 +61,25 @@ struct Palette {
   std::uint32_t ceiling, warm_white, sage, sand, terracotta, outside, lining;
 };
 
-Palette make_palette(Scene& scene, float floor_roughness) {
+Palette make_palette(SampleScene& scene, float floor_roughness) {
   scene.textures = {dark_tiles(512), oak_planks(512)};
   const auto diffuse = [&](std::string name, const Vec3& color) { return add_diffuse(scene, std::move(name), color); };
   Palette p{};
-  Material tiles;
+  SampleMaterial tiles;
   tiles.name = "polished tiles";
   tiles.base_color = Vec3(1);
   tiles.roughness = floor_roughness;
   tiles.specular = 1;
   tiles.texture = 0;
   p.tiles = add_material(scene, std::move(tiles));
-  Material oak;
+  SampleMaterial oak;
   oak.name = "oak";
   oak.base_color = Vec3(1);
   oak.texture = 1;
   p.oak = add_material(scene, std::move(oak));
   p.concrete = diffuse("concrete", Vec3(0.42f, 0.41f, 0.39f));
   p.stone = diffuse("stone", Vec3(0.55f, 0.52f, 0.46f));
-  Material wood;
+  SampleMaterial wood;
   wood.name = "dark wood";
   wood.base_color = Vec3(0.16f, 0.085f, 0.045f);
   wood.roughness = 0.7f;
@@ -117,12 +117,12 @@ std::uint32_t room_material(const Palette& p, const SolidPatch& patch) {
   }
 }
 
-void add_building(Scene& scene, const Palette& palette) {
+void add_building(SampleScene& scene, const Palette& palette) {
   const std::vector<Block> blocks = building();
   for (SolidPatch& patch : boundary_patches(blocks)) {
     // Nobody sees the ground under the slab.
     if (patch.air_tag == kOutside && patch.facing == Facing::kDown) continue;
-    Mesh mesh = std::move(patch.mesh);
+    SampleMesh mesh = std::move(patch.mesh);
     mesh.name = std::string(air_name(patch.air_tag)) + " " + facing_name(patch);
     mesh.material = patch.solid_tag == kPlatform ? palette.stone : room_material(palette, patch);
     if (mesh.material == palette.tiles) project_uvs(mesh, Vec3(0), Vec3(0.5f, 0, 0), Vec3(0, 0, 0.5f));
@@ -131,8 +131,8 @@ void add_building(Scene& scene, const Palette& palette) {
   }
 }
 
-void add_lights(Scene& scene) {
-  Material panel;
+void add_lights(SampleScene& scene) {
+  SampleMaterial panel;
   panel.name = "ceiling panel";
   panel.base_color = Vec3(0.8f);
   panel.emission = 1700.0f * Vec3(1, 0.93f, 0.82f);
@@ -140,9 +140,9 @@ void add_lights(Scene& scene) {
   const std::uint32_t metal = add_diffuse(scene, "luminaire", Vec3(0.7f));
   const Vec2 half(0.8f, 0.4f);
   const float below = -0.06f, above = 0.01f;  // about the ceiling; the housing reaches into it
-  Mesh housing{"luminaire housing", metal, {}, {}, {}, {}};
+  SampleMesh housing{"luminaire housing", metal, {}, {}, {}, {}};
   add_box(housing, Vec3(-half.x, below, -half.y), Vec3(half.x, above, half.y), kSides);
-  Mesh light{"luminaire panel", glow, {}, {}, {}, {}};
+  SampleMesh light{"luminaire panel", glow, {}, {}, {}, {}};
   add_quad(light, Vec3(-half.x, below, -half.y), Vec3(2 * half.x, 0, 0), Vec3(0, 0, 2 * half.y));
   const std::uint32_t housing_mesh = add_mesh(scene, std::move(housing)),
                       light_mesh = add_mesh(scene, std::move(light));
@@ -158,15 +158,15 @@ void add_lights(Scene& scene) {
 }
 
 // The sky behind B's window: a bright panel that closes the opening near its outer side, and glazing bars before it.
-void add_window(Scene& scene) {
-  Material sky;
+void add_window(SampleScene& scene) {
+  SampleMaterial sky;
   sky.name = "sky";
   sky.base_color = Vec3(0);
   sky.emission = 1400.0f * Vec3(0.80f, 0.92f, 1);
-  Mesh panel{"window sky", add_material(scene, std::move(sky)), {}, {}, {}, {}};
+  SampleMesh panel{"window sky", add_material(scene, std::move(sky)), {}, {}, {}, {}};
   add_quad(panel, Vec3(12.38f, 0.89f, 0.99f), Vec3(0, 0, 2.42f), Vec3(0, 1.62f, 0));
   place(scene, std::move(panel));
-  Mesh bars{"window bars", add_diffuse(scene, "window frame", Vec3(0.75f)), {}, {}, {}, {}};
+  SampleMesh bars{"window bars", add_diffuse(scene, "window frame", Vec3(0.75f)), {}, {}, {}, {}};
   for (const float z : {1.8f, 2.6f}) {
     add_box(bars, Vec3(12.30f, 0.89f, z - 0.025f), Vec3(12.35f, 2.51f, z + 0.025f), kSides);
   }
@@ -176,7 +176,7 @@ void add_window(Scene& scene) {
   place(scene, std::move(bars));
 }
 
-void add_cameras(Scene& scene) {
+void add_cameras(SampleScene& scene) {
   constexpr float kWide = 1.1f;
   scene.cameras = {
       {"entrance", Vec3(3.4f, 1.6f, 7.5f), Vec3(2.9f, 1.15f, 0), kWide},
@@ -191,15 +191,15 @@ void add_cameras(Scene& scene) {
   const std::array<Vec3, 9> waypoints{Vec3(3.4f, y, 7.1f),  Vec3(3.4f, y, 3.6f),   Vec3(8.6f, y, 3.6f),
                                       Vec3(9.1f, y, 1.0f),  Vec3(9.1f, y, -1.6f),  Vec3(7.95f, y, -3.6f),
                                       Vec3(8.4f, y, -6.6f), Vec3(10.2f, y, -6.6f), Vec3(10.4f, y, -2.9f)};
-  WalkOptions options;
+  TrackOptions options;
   options.vertical_fov_rad = kWide;
   scene.paths.push_back(walk_along("walk", waypoints, options));
 }
 
 }  // namespace
 
-Scene make_gallery(const GalleryOptions& options) {
-  Scene scene;
+SampleScene make_gallery(const GalleryOptions& options) {
+  SampleScene scene;
   scene.name = "Gallery";
   const Palette palette = make_palette(scene, options.floor_roughness);
   add_building(scene, palette);

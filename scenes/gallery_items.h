@@ -8,12 +8,12 @@
 namespace oriel::sample {
 
 // Four in room A, two in room C.
-void add_columns(Scene& scene, std::uint32_t stone);
-void add_pictures(Scene& scene, std::uint32_t frame);
+void add_columns(SampleScene& scene, std::uint32_t stone);
+void add_pictures(SampleScene& scene, std::uint32_t frame);
 // The plane mirror on B's south wall and the brushed metal panel on A's north wall.
-void add_mirror_and_panel(Scene& scene, std::uint32_t frame);
-void add_benches(Scene& scene, std::uint32_t wood);
+void add_mirror_and_panel(SampleScene& scene, std::uint32_t frame);
+void add_benches(SampleScene& scene, std::uint32_t wood);
 // A ball on a plinth in C, a vase on B's platform, a ring stack in A.
-void add_sculptures(Scene& scene, std::uint32_t stone);
+void add_sculptures(SampleScene& scene, std::uint32_t stone);
 
 }  // namespace oriel::sample

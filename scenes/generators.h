@@ -11,17 +11,17 @@ namespace oriel::sample {
 // The Cornell box from its published measurements (Cornell University Program of Computer Graphics, "The Cornell Box",
 // data of 1998), a thousandth of a unit being a millimetre: 0.55 m a side, open to the front, 38 diffuse triangles. The
 // light fills a hole in the ceiling.
-Scene make_cornell();
+SampleScene make_cornell();
 
 // Three connected rooms of a small museum: A with fluted columns and a polished floor, B with a mirror, stairs and a
 // window, C lit only through its doorway. Closed; 20 to 60 thousand triangles; a 600-frame walk.
 struct GalleryOptions {
   float floor_roughness = 0.1f;  // of the tiles, [0, 1]
 };
-Scene make_gallery(const GalleryOptions& options = {});
+SampleScene make_gallery(const GalleryOptions& options = {});
 
 // A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
-Scene make_studio();
+SampleScene make_studio();
 
 // A furnished room, 6 m a side and 2.7 m high, diffuse, twelve thousand triangles. Closed, it has a ceiling panel
 // and no camera; a room in a landscape has a window instead, and a camera.
@@ -34,13 +34,13 @@ struct RoomOptions {
 inline constexpr float kGroundSide = 1000, kDomeRadius = 1000;  // metres
 inline constexpr float kSkyLuminance = 3000;                    // cd/m²
 inline constexpr float kGroundReflectance = 0.2f;
-Scene make_room(const RoomOptions& options = {});
+SampleScene make_room(const RoomOptions& options = {});
 
 // A closed room of 8 m by 4 m, 2.7 m high, of what stands little proud of what is behind it: along one wall four
 // sections with a panel on the wall, a board hung before it (half of how far it stands out is a gap) and a skirting,
 // 1, 5, 10 and 20 mm proud; pictures in frames, a carpet, a cornice, a cupboard on a plinth. A camera for each kind of
 // edge. Diffuse; its light is a wide window and a ceiling panel, so that no hard shadow falls along an edge.
-Scene make_panels();
+SampleScene make_panels();
 inline constexpr std::array<int, 4> kProud_mm{1, 5, 10, 20};
 
 struct HouseOptions {
@@ -55,7 +55,7 @@ inline constexpr int kMaxHouseReflectors = 36;
 // 600-frame walk. Errors: kUsage for triangles below what the house needs at least or above 20 million, reflectors
 // out of [0, kMaxHouseReflectors], or a lawn (other than 0) out of [kLeastLawn, kMostLawn] square metres.
 inline constexpr double kLeastLawn = 1e3, kMostLawn = 1e8;
-Result<Scene> make_house(const HouseOptions& options);
+Result<SampleScene> make_house(const HouseOptions& options);
 // How many triangles make_house would make.
 Result<std::uint64_t> count_house(const HouseOptions& options);
 

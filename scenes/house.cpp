@@ -75,10 +75,10 @@ struct Palette {
   std::uint32_t ceiling, floor, trim, outside, polished_floor, polished_wood, mirror, panel, sky;
 };
 
-Palette make_palette(Scene& scene) {
+Palette make_palette(SampleScene& scene) {
   const auto add = [&](std::string name, const Vec3& color, float metallic, float roughness, float specular,
                        const Vec3& emission = Vec3(0)) {
-    Material m;
+    SampleMaterial m;
     m.name = std::move(name);
     m.base_color = color;
     m.metallic = metallic;
@@ -118,14 +118,14 @@ bool has_reflector(int room, Reflecting kind, int reflectors) {
   return false;
 }
 
-void add_building(Scene& scene, const Palette& palette, int reflectors) {
+void add_building(SampleScene& scene, const Palette& palette, int reflectors) {
   const std::vector<Block> blocks = building();
   for (SolidPatch& patch : boundary_patches(blocks)) {
     if (patch.air_tag == kOutside && patch.facing == Facing::kDown) continue;
     static constexpr std::array<const char*, 6> kNames{"east wall", "west wall",  "ceiling",
                                                        "floor",     "south wall", "north wall"};
     const auto facing = static_cast<std::size_t>(patch.facing);
-    Mesh mesh = std::move(patch.mesh);
+    SampleMesh mesh = std::move(patch.mesh);
     if (patch.air_tag == kOutside) {
       mesh.name = "outside " + std::to_string(facing);
       mesh.material = palette.outside;
@@ -145,8 +145,8 @@ void add_building(Scene& scene, const Palette& palette, int reflectors) {
   }
 }
 
-void add_windows_and_lights(Scene& scene, const Palette& palette) {
-  Mesh x_pane{"window x", palette.sky, {}, {}, {}, {}}, z_pane{"window z", palette.sky, {}, {}, {}, {}};
+void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
+  SampleMesh x_pane{"window x", palette.sky, {}, {}, {}, {}}, z_pane{"window z", palette.sky, {}, {}, {}, {}};
   const Vec3 size(kDoorX1 - kDoorX0, kDoorY - kSillY, kDoorZ1 - kDoorZ0);
   const float reach = 0.01f;  // into the reveals
   // Both about the middle of the opening's lower edge, facing +z; the second as wide as z openings.
@@ -155,7 +155,8 @@ void add_windows_and_lights(Scene& scene, const Palette& palette) {
   add_quad(z_pane, Vec3(-size.z / 2 - reach, -reach, 0), Vec3(size.z + 2 * reach, 0, 0),
            Vec3(0, size.y + 2 * reach, 0));
   const std::uint32_t on_z = add_mesh(scene, std::move(x_pane)), on_x = add_mesh(scene, std::move(z_pane));
-  Mesh panel{"ceiling panel", palette.panel, {}, {}, {}, {}}, housing{"panel housing", palette.trim, {}, {}, {}, {}};
+  SampleMesh panel{"ceiling panel", palette.panel, {}, {}, {}, {}},
+      housing{"panel housing", palette.trim, {}, {}, {}, {}};
   add_quad(panel, Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.9f, 0, 0), Vec3(0, 0, 0.9f));
   add_box(housing, Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.45f, 0.01f, 0.45f), kSides);
   const std::uint32_t panel_mesh = add_mesh(scene, std::move(panel)),
@@ -177,9 +178,9 @@ void add_windows_and_lights(Scene& scene, const Palette& palette) {
   }
 }
 
-void add_stairs(Scene& scene, const Palette& palette) {
+void add_stairs(SampleScene& scene, const Palette& palette) {
   const Vec3 c = Room{1, 1, 0}.corner();
-  Mesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
+  SampleMesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
   const float rise = kStorey / static_cast<float>(kRisers), reach = 0.01f;
   const float near = kRoomZ - kStairWidth + reach, far = kRoomZ + reach;  // a joint to the slab, and into the wall
   // Each step is a block down to the floor; only what shows: riser, tread, the side to the room. The last riser is the
@@ -195,7 +196,7 @@ void add_stairs(Scene& scene, const Palette& palette) {
   add_quad(stairs, c + Vec3(kStairX1 + reach, -reach, far), Vec3(0, 0, near - far), Vec3(0, top + reach, 0));
   place(scene, std::move(stairs));
   // The parapet around the opening above.
-  Mesh parapet{"parapet", palette.trim, {}, {}, {}, {}};
+  SampleMesh parapet{"parapet", palette.trim, {}, {}, {}, {}};
   const Vec3 up = c + Vec3(0, kStorey, 0);
   const float z0 = kRoomZ - kStairWidth;
   add_box(parapet, up + Vec3(kHoleX0 - 0.06f, -reach, z0 - 0.06f), up + Vec3(kStairX1, 0.9f, z0 - 0.01f),
@@ -232,16 +233,16 @@ std::vector<Placed> furniture_plan() {
   return plan;
 }
 
-void add_furniture(Scene& scene, const Palette& palette, double detail, int reflectors) {
+void add_furniture(SampleScene& scene, const Palette& palette, double detail, int reflectors) {
   std::array<std::vector<std::uint32_t>, kPieces> meshes;
   for (std::size_t piece = 0; piece < kPieces; ++piece) {
-    for (Mesh& mesh : make_piece(static_cast<Piece>(piece), detail)) {
+    for (SampleMesh& mesh : make_piece(static_cast<Piece>(piece), detail)) {
       mesh.material = palette.furniture[mesh.material];
       meshes[piece].push_back(add_mesh(scene, std::move(mesh)));
     }
   }
   const auto add_top = [&](std::string name, std::uint32_t material) {
-    Mesh top{std::move(name), material, {}, {}, {}, {}};
+    SampleMesh top{std::move(name), material, {}, {}, {}, {}};
     add_quad(top, Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
              Vec3(0, 0, -2 * kTableHalfWidth));
     return add_mesh(scene, std::move(top));
@@ -261,8 +262,8 @@ void add_furniture(Scene& scene, const Palette& palette, double detail, int refl
 }
 
 // On the -z wall, to the right of its opening.
-void add_mirrors(Scene& scene, const Palette& palette, int reflectors) {
-  Mesh glass{"mirror", palette.mirror, {}, {}, {}, {}}, frame{"mirror frame", palette.trim, {}, {}, {}, {}};
+void add_mirrors(SampleScene& scene, const Palette& palette, int reflectors) {
+  SampleMesh glass{"mirror", palette.mirror, {}, {}, {}, {}}, frame{"mirror frame", palette.trim, {}, {}, {}, {}};
   add_quad(glass, Vec3(-0.455f, -0.655f, 0.01f), Vec3(0.91f, 0, 0), Vec3(0, 1.31f, 0));
   add_frame(frame, 0.9f, 1.3f, 0.05f, 0.03f, 0.01f);
   const std::uint32_t glass_mesh = add_mesh(scene, std::move(glass)), frame_mesh = add_mesh(scene, std::move(frame));
@@ -274,7 +275,7 @@ void add_mirrors(Scene& scene, const Palette& palette, int reflectors) {
   }
 }
 
-void add_cameras(Scene& scene) {
+void add_cameras(SampleScene& scene) {
   const auto in = [](int x, int z, int floor, const Vec3& p) { return Room{x, z, floor}.corner() + p; };
   constexpr float kFov = 1.15f;
   scene.cameras = {
@@ -296,7 +297,7 @@ void add_cameras(Scene& scene) {
                                        in(1, 1, 1, {kRoomX - 0.45f, e, mz}),
                                        in(2, 1, 1, {mx, e, mz}),
                                        in(2, 0, 1, {mx, e, 1.2f})};
-  WalkOptions options;
+  TrackOptions options;
   options.corner_radius = 0.8;
   options.look_ahead = 1.1;
   options.vertical_fov_rad = kFov;
@@ -304,16 +305,16 @@ void add_cameras(Scene& scene) {
 }
 
 // Half the slab's height below the ground floor: it goes on under the house, as plain ground planes do.
-void add_lawn(Scene& scene, double area_m2) {
+void add_lawn(SampleScene& scene, double area_m2) {
   const auto side = static_cast<float>(std::sqrt(area_m2));
   const Vec3 middle(kRoomsX * (kRoomX + kWall) / 2, -kSlab / 2, kRoomsZ * (kRoomZ + kWall) / 2);
-  Mesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f)), {}, {}, {}, {}};
+  SampleMesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f)), {}, {}, {}, {}};
   add_quad(lawn, middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side));
   place(scene, std::move(lawn));
 }
 
-Scene house_without_furniture(Palette& palette, const HouseOptions& options) {
-  Scene scene;
+SampleScene house_without_furniture(Palette& palette, const HouseOptions& options) {
+  SampleScene scene;
   scene.name = "House";
   palette = make_palette(scene);
   add_building(scene, palette, options.reflectors);
@@ -347,7 +348,7 @@ double detail_for(std::uint64_t wanted) {
 }
 
 struct Sized {
-  Scene scene;
+  SampleScene scene;
   Palette palette{};
   double detail = 0;
   std::uint64_t triangles = 0;
@@ -381,7 +382,7 @@ Result<std::uint64_t> count_house(const HouseOptions& options) {
   return sized.triangles;
 }
 
-Result<Scene> make_house(const HouseOptions& options) {
+Result<SampleScene> make_house(const HouseOptions& options) {
   ORIEL_TRY(Sized sized, size_house(options));
   add_furniture(sized.scene, sized.palette, sized.detail, options.reflectors);
   add_cameras(sized.scene);

@@ -75,7 +75,7 @@ std::uint64_t count_triangles(const Primitive& p, double detail) {
   return p.kind == Kind::kBall ? 2 * n * (2 * n - 2) : 2 * n * (2 * n + 1);
 }
 
-void add_vase(Mesh& mesh, const Primitive& p, int n) {
+void add_vase(SampleMesh& mesh, const Primitive& p, int n) {
   std::vector<Vec2> profile;
   for (int i = 0; i <= n; ++i) {
     const double t = static_cast<double>(i) / n;
@@ -86,7 +86,7 @@ void add_vase(Mesh& mesh, const Primitive& p, int n) {
   add_lathe(mesh, p.centre, profile, 2 * n);
 }
 
-void add_primitive(Mesh& mesh, const Primitive& p, double detail) {
+void add_primitive(SampleMesh& mesh, const Primitive& p, double detail) {
   switch (p.kind) {
     case Kind::kRoundedBox:
       add_rounded_box(mesh, p.centre, p.size, p.radius, box_resolution(p, detail));
@@ -133,11 +133,11 @@ std::uint64_t count_triangles(Piece piece, double detail) {
   return count;
 }
 
-std::vector<Mesh> make_piece(Piece piece, double detail) {
+std::vector<SampleMesh> make_piece(Piece piece, double detail) {
   static constexpr std::array<const char*, kUpholsteries> kNames{"fabric", "wood", "ceramic", "linen", "metal"};
-  std::vector<Mesh> meshes;
+  std::vector<SampleMesh> meshes;
   for (std::size_t material = 0; material < kUpholsteries; ++material) {
-    Mesh mesh{
+    SampleMesh mesh{
         std::string(piece_name(piece)) + " " + kNames[material], static_cast<std::uint32_t>(material), {}, {}, {}, {}};
     for (const Primitive& p : piece_primitives(piece)) {
       if (static_cast<std::size_t>(p.material) == material) add_primitive(mesh, p, detail);

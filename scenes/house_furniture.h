@@ -29,6 +29,6 @@ inline constexpr float kTableHalfWidth = 0.45f, kTableHeight = 0.74f;
 
 std::uint64_t count_triangles(Piece piece, double detail);
 // One mesh for each material used; their material index is the Upholstery.
-std::vector<Mesh> make_piece(Piece piece, double detail);
+std::vector<SampleMesh> make_piece(Piece piece, double detail);
 
 }  // namespace oriel::sample

@@ -30,7 +30,7 @@ int report(const oriel::Error& error) {
   return static_cast<int>(error.code);
 }
 
-oriel::Result<oriel::sample::Scene> make_scene(const Arguments& arguments) {
+oriel::Result<oriel::sample::SampleScene> make_scene(const Arguments& arguments) {
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
   if (arguments.scene == "panels") return oriel::sample::make_panels();

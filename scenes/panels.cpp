@@ -15,32 +15,32 @@ struct Paints {
   std::uint32_t wall, wood, board, trim, floor, carpet, canvas;
 };
 
-Mesh empty(std::string name, std::uint32_t material) {
+SampleMesh empty(std::string name, std::uint32_t material) {
   return {std::move(name), material, {}, {}, {}, {}};
 }
 
-std::uint32_t add_glow(Scene& scene, std::string name, const Vec3& luminance) {
-  Material m;
+std::uint32_t add_glow(SampleScene& scene, std::string name, const Vec3& luminance) {
+  SampleMaterial m;
   m.name = std::move(name);
   m.emission = luminance;
   return add_material(scene, std::move(m));
 }
 
 // A rectangle around a hole that glows.
-void place_around_light(Scene& scene, std::string name, std::uint32_t material, std::string light_name,
+void place_around_light(SampleScene& scene, std::string name, std::uint32_t material, std::string light_name,
                         std::uint32_t light, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
                         const Vec2& high) {
-  Mesh mesh = empty(std::move(name), material), glow = empty(std::move(light_name), light);
+  SampleMesh mesh = empty(std::move(name), material), glow = empty(std::move(light_name), light);
   add_quad_around(mesh, origin, u, v, low, high);
   add_quad(glow, origin + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v);
   place(scene, std::move(mesh));
   place(scene, std::move(glow));
 }
 
-void add_walls(Scene& scene, const Paints& paints) {
+void add_walls(SampleScene& scene, const Paints& paints) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   const auto wall = [&](const char* name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
-    Mesh mesh = empty(name, material);
+    SampleMesh mesh = empty(name, material);
     add_quad(mesh, origin, u, v);
     place(scene, std::move(mesh));
   };
@@ -55,12 +55,12 @@ void add_walls(Scene& scene, const Paints& paints) {
 }
 
 // Faces that lie on wall or floor are left out, as in models made by hand; the board's are all there.
-void add_sections(Scene& scene, const Paints& paints) {
+void add_sections(SampleScene& scene, const Paints& paints) {
   for (std::size_t i = 0; i < kProud_mm.size(); ++i) {
     const float proud = 1e-3f * static_cast<float>(kProud_mm[i]), left = kSection * static_cast<float>(i) + kMargin,
                 right = left + kSection - 2 * kMargin;
     const auto box = [&](const char* name, std::uint32_t material, const Vec3& low, const Vec3& high, unsigned faces) {
-      Mesh mesh = empty(fmt::format("{} {} mm", name, kProud_mm[i]), material);
+      SampleMesh mesh = empty(fmt::format("{} {} mm", name, kProud_mm[i]), material);
       add_box(mesh, low, high, faces);
       place(scene, std::move(mesh));
     };
@@ -71,18 +71,18 @@ void add_sections(Scene& scene, const Paints& paints) {
   }
 }
 
-void add_things(Scene& scene, const Paints& paints) {
+void add_things(SampleScene& scene, const Paints& paints) {
   // Along the north wall, from wall to wall.
-  Mesh cornice = empty("cornice", paints.trim);
+  SampleMesh cornice = empty("cornice", paints.trim);
   add_box(cornice, Vec3(0, kRoom.y - kCornice, 0), Vec3(kRoom.x, kRoom.y, kCornice), kFront | kBottom);
   place(scene, std::move(cornice));
-  Mesh carpet = empty("carpet", paints.carpet);
+  SampleMesh carpet = empty("carpet", paints.carpet);
   add_box(carpet, Vec3(2.5f, 0, 1.2f), Vec3(5, 0.008f, 2.8f), kSides | kTop);
   place(scene, std::move(carpet));
   for (const auto& [name, size, z] :
        {std::tuple{"picture 1", Vec2(0.9f, 0.6f), 1.3f}, {"picture 2", Vec2(0.5f, 0.7f), 2.7f}}) {
-    Mesh frame = empty(std::string(name) + " frame", paints.wood),
-         canvas = empty(std::string(name) + " canvas", paints.canvas);
+    SampleMesh frame = empty(std::string(name) + " frame", paints.wood),
+               canvas = empty(std::string(name) + " canvas", paints.canvas);
     add_frame(frame, size.x, size.y, 0.05f, 0.025f, 0.01f);
     // Before the wall, and a little into the frame's inner sides.
     const Vec2 half = 0.5f * size + 0.004f;
@@ -93,14 +93,14 @@ void add_things(Scene& scene, const Paints& paints) {
   }
   // Set back by 5 cm all around under the cupboard, which stands 1 cm off the east wall.
   const float back = kRoom.x - 0.01f;
-  Mesh cupboard = empty("cupboard", paints.board), plinth = empty("plinth", paints.trim);
+  SampleMesh cupboard = empty("cupboard", paints.board), plinth = empty("plinth", paints.trim);
   add_box(cupboard, Vec3(back - 0.5f, 0.08f, 1.3f), Vec3(back, 0.95f, 2.7f));
   add_box(plinth, Vec3(back - 0.45f, 0, 1.35f), Vec3(back - 0.05f, 0.08f, 2.65f), kSides);
   place(scene, std::move(cupboard));
   place(scene, std::move(plinth));
 }
 
-void add_cameras(Scene& scene) {
+void add_cameras(SampleScene& scene) {
   constexpr float kFov = 0.8f;
   for (std::size_t i = 0; i < kProud_mm.size(); ++i) {
     const float middle = kSection * (static_cast<float>(i) + 0.5f);
@@ -117,8 +117,8 @@ void add_cameras(Scene& scene) {
 
 }  // namespace
 
-Scene make_panels() {
-  Scene scene;
+SampleScene make_panels() {
+  SampleScene scene;
   scene.name = "Panels";
   const Paints paints{
       add_diffuse(scene, "wall", Vec3(0.75f, 0.74f, 0.70f)),  add_diffuse(scene, "wood", Vec3(0.45f, 0.30f, 0.18f)),

@@ -17,7 +17,7 @@ constexpr float kDoorZ0 = 3.2f, kDoorZ1 = 4.2f, kDoorY = 2.1f;
 
 enum Air { kInside, kOpening };
 
-void add_walls(Scene& scene, const RoomOptions& options) {
+void add_walls(SampleScene& scene, const RoomOptions& options) {
   const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.78f)),
                       oak = add_diffuse(scene, "oak", {0.42f, 0.28f, 0.16f}),
                       ochre = add_diffuse(scene, "ochre", {0.68f, 0.54f, 0.30f}),
@@ -35,7 +35,7 @@ void add_walls(Scene& scene, const RoomOptions& options) {
   for (SolidPatch& patch : boundary_patches(blocks)) {
     if (patch.air_tag == kOutside && (options.closed || patch.facing == Facing::kDown)) continue;
     const char* place_of = patch.air_tag == kOutside ? "outside " : patch.air_tag == kOpening ? "opening " : "";
-    Mesh mesh = std::move(patch.mesh);
+    SampleMesh mesh = std::move(patch.mesh);
     mesh.name = std::string(place_of) + kNames[static_cast<std::size_t>(patch.facing)];
     mesh.material = patch.air_tag == kOutside        ? render
                     : patch.air_tag == kOpening      ? white
@@ -46,7 +46,7 @@ void add_walls(Scene& scene, const RoomOptions& options) {
   }
 }
 
-void add_furniture(Scene& scene) {
+void add_furniture(SampleScene& scene) {
   const std::array<std::uint32_t, kUpholsteries> covers{
       add_diffuse(scene, "fabric", {0.24f, 0.31f, 0.42f}), add_diffuse(scene, "wood", {0.33f, 0.19f, 0.10f}),
       add_diffuse(scene, "ceramic", {0.70f, 0.36f, 0.22f}), add_diffuse(scene, "linen", {0.74f, 0.70f, 0.61f}),
@@ -63,22 +63,22 @@ void add_furniture(Scene& scene) {
                                               {Piece::kVases, {5.3f, 0, 5.3f}, kPi},
                                               {Piece::kBed, {0.74f, 0, 5.0f}, kPi}}};
   for (const Placed& placed : kPlaced)
-    for (Mesh& mesh : make_piece(placed.piece, kDetail)) {
+    for (SampleMesh& mesh : make_piece(placed.piece, kDetail)) {
       mesh.material = covers[mesh.material];
       place(scene, std::move(mesh), placed.position, placed.yaw_rad);
     }
-  Mesh top{"table top", covers[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
+  SampleMesh top{"table top", covers[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
   add_quad(top, Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
            Vec3(0, 0, -2 * kTableHalfWidth));
   place(scene, std::move(top), kPlaced[1].position);
 }
 
-void add_lamp(Scene& scene) {
-  Material glow;
+void add_lamp(SampleScene& scene) {
+  SampleMaterial glow;
   glow.name = "ceiling panel";
   glow.emission = 2500.0f * Vec3(1, 0.93f, 0.82f);
-  Mesh panel{"ceiling panel", add_material(scene, std::move(glow)), {}, {}, {}, {}};
-  Mesh housing{"panel housing", add_diffuse(scene, "housing", Vec3(0.7f)), {}, {}, {}, {}};
+  SampleMesh panel{"ceiling panel", add_material(scene, std::move(glow)), {}, {}, {}, {}};
+  SampleMesh housing{"panel housing", add_diffuse(scene, "housing", Vec3(0.7f)), {}, {}, {}, {}};
   add_quad(panel, Vec3(-0.6f, -0.05f, -0.6f), Vec3(1.2f, 0, 0), Vec3(0, 0, 1.2f));
   add_box(housing, Vec3(-0.6f, -0.05f, -0.6f), Vec3(0.6f, 0.01f, 0.6f), kSides);
   const Vec3 middle(kRoom.x / 2, kRoom.y, kRoom.z / 2);
@@ -88,16 +88,16 @@ void add_lamp(Scene& scene) {
 
 // Ground under the room too, and a dome seen from inside whose rim is sunk, so that it meets the eye below the ground's
 // far edge. It reflects nothing, as sky domes are painted.
-void add_surroundings(Scene& scene) {
+void add_surroundings(SampleScene& scene) {
   const Vec3 middle(kRoom.x / 2, kGround, kRoom.z / 2);
-  Mesh ground{"ground", add_diffuse(scene, "paving", Vec3(kGroundReflectance)), {}, {}, {}, {}};
+  SampleMesh ground{"ground", add_diffuse(scene, "paving", Vec3(kGroundReflectance)), {}, {}, {}, {}};
   add_quad(ground, Vec3(-kGroundSide / 2, 0, kGroundSide / 2), Vec3(kGroundSide, 0, 0), Vec3(0, 0, -kGroundSide));
   place(scene, std::move(ground), middle);
-  Material sky;
+  SampleMaterial sky;
   sky.name = "sky";
   sky.base_color = Vec3(0);
   sky.emission = Vec3(kSkyLuminance);
-  Mesh dome{"sky dome", add_material(scene, std::move(sky)), {}, {}, {}, {}};
+  SampleMesh dome{"sky dome", add_material(scene, std::move(sky)), {}, {}, {}, {}};
   constexpr int kRings = 16;
   constexpr float kRim = -0.02f * kDomeRadius;
   std::vector<Vec2> profile;  // from the top: its front is the inside
@@ -113,8 +113,8 @@ void add_surroundings(Scene& scene) {
 
 }  // namespace
 
-Scene make_room(const RoomOptions& options) {
-  Scene scene;
+SampleScene make_room(const RoomOptions& options) {
+  SampleScene scene;
   scene.name = options.closed ? "Room" : "Room in a landscape";
   add_walls(scene, options);
   add_furniture(scene);

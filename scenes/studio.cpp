@@ -9,8 +9,8 @@ namespace {
 constexpr Vec3 kRoom{4, 2.7f, 5};  // from the origin
 constexpr float kPanel = 0.6f;     // side of the ceiling panel
 
-std::uint32_t metal(Scene& scene, std::string name, const Vec3& color, float roughness) {
-  Material m;
+std::uint32_t metal(SampleScene& scene, std::string name, const Vec3& color, float roughness) {
+  SampleMaterial m;
   m.name = std::move(name);
   m.base_color = color;
   m.metallic = 1;
@@ -19,22 +19,22 @@ std::uint32_t metal(Scene& scene, std::string name, const Vec3& color, float rou
   return add_material(scene, std::move(m));
 }
 
-std::uint32_t paint(Scene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-  Material m;
+std::uint32_t paint(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
+  SampleMaterial m;
   m.name = std::move(name);
   m.base_color = color;
   m.emission = emission;
   return add_material(scene, std::move(m));
 }
 
-void place_quad(Scene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
+void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
                 const Vec3& v) {
-  Mesh mesh{std::move(name), material, {}, {}, {}, {}};
+  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
   add_quad(mesh, origin, u, v);
   place(scene, std::move(mesh));
 }
 
-void add_walls(Scene& scene) {
+void add_walls(SampleScene& scene) {
   const std::uint32_t white = paint(scene, "white", Vec3(0.75f));
   const std::uint32_t floor = paint(scene, "oak", Vec3(0.42f, 0.28f, 0.16f));
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
@@ -45,7 +45,7 @@ void add_walls(Scene& scene) {
   place_quad(scene, "east wall", paint(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), x, z, y);
   // The ceiling around its panel: four strips, and the panel in the hole.
   const Vec3 low = 0.5f * (kRoom - kPanel), high = low + kPanel;
-  Mesh ceiling{"ceiling", white, {}, {}, {}, {}};
+  SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
   const auto strip = [&](float x0, float z0, float x1, float z1) {
     add_quad(ceiling, Vec3(x0, kRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0));
   };
@@ -58,36 +58,36 @@ void add_walls(Scene& scene) {
              Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel));
 }
 
-void add_balls(Scene& scene) {
+void add_balls(SampleScene& scene) {
   const auto ball = [&](std::string name, std::uint32_t material, const Vec3& centre, float radius) {
-    Mesh mesh{std::move(name), material, {}, {}, {}, {}};
+    SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
     add_sphere(mesh, centre, radius, 96, 48);
     place(scene, std::move(mesh));
   };
   ball("mirror ball", metal(scene, "chrome", Vec3(0.9f), 0), Vec3(1.3f, 0.4f, 2), 0.4f);
   ball("brushed ball", metal(scene, "brass", Vec3(0.9f, 0.7f, 0.35f), 0.25f), Vec3(2.4f, 0.3f, 2.5f), 0.3f);
-  Mesh block{"block", paint(scene, "green", Vec3(0.15f, 0.45f, 0.18f)), {}, {}, {}, {}};
+  SampleMesh block{"block", paint(scene, "green", Vec3(0.15f, 0.45f, 0.18f)), {}, {}, {}, {}};
   add_box(block, Vec3(1.75f, 0, 1.2f), Vec3(2.15f, 0.7f, 1.6f), kSides | kTop);
   place(scene, std::move(block));
 }
 
 // A standing lamp: foot and stem of satin steel, a glowing globe on top.
-void add_lamp(Scene& scene) {
+void add_lamp(SampleScene& scene) {
   const Vec3 foot(3.2f, 0, 1);
-  Mesh stand{"lamp stand", metal(scene, "satin steel", Vec3(0.7f), 0.15f), {}, {}, {}, {}};
+  SampleMesh stand{"lamp stand", metal(scene, "satin steel", Vec3(0.7f), 0.15f), {}, {}, {}, {}};
   const std::array<Vec2, 6> profile{
       {{0.16f, 0}, {0.16f, 0.02f}, {0.12f, 0.035f}, {0.02f, 0.05f}, {0.02f, 1.42f}, {0, 1.42f}}};
   add_lathe(stand, foot, profile, 32);
   place(scene, std::move(stand));
-  Mesh globe{"lamp globe", paint(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500)), {}, {}, {}, {}};
+  SampleMesh globe{"lamp globe", paint(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500)), {}, {}, {}, {}};
   add_sphere(globe, foot + Vec3(0, 1.54f, 0), 0.12f, 32, 16);
   place(scene, std::move(globe));
 }
 
 }  // namespace
 
-Scene make_studio() {
-  Scene scene;
+SampleScene make_studio() {
+  SampleScene scene;
   scene.name = "Studio";
   add_walls(scene);
   add_balls(scene);

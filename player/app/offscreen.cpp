@@ -35,7 +35,7 @@ class Studio {
         options_(arguments.frame),
         zone_(planned_zone(scene.pack())) {
     options_.timed = !arguments.stats.empty();
-    if (arguments.supersample > 1 && !arguments.sampled) options_.samples = 1;  // edges are smooth already
+    options_.samples = samples_of_picture(arguments);
     session_.shown_ev100 = arguments.ev100.value_or(0.0f);
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }

@@ -13,7 +13,8 @@ Status check_complete(const char* what, int width, int height) {
 
 }  // namespace
 
-Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, const Texture* depth, bool stencil) {
+Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d* color, const Texture2d* depth,
+                                        bool stencil) {
   Framebuffer framebuffer;
   GLuint name = 0;
   glGenFramebuffers(1, &name);
@@ -24,7 +25,7 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture* color, 
     const GLenum attachment = stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth->name(), 0);
   }
-  const Texture* any = color != nullptr ? color : depth;
+  const Texture2d* any = color != nullptr ? color : depth;
   ORIEL_TRY_VOID(check_complete(what, any != nullptr ? any->width() : 0, any != nullptr ? any->height() : 0));
   return framebuffer;
 }
@@ -78,7 +79,7 @@ void Framebuffer::attach_depth_layer(const TextureArray& depth, int layer) const
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
 }
 
-void Framebuffer::attach_color_level(const Texture& color, int level) const {
+void Framebuffer::attach_color_level(const Texture2d& color, int level) const {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), level);
 }
 

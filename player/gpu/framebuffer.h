@@ -11,7 +11,8 @@ class Framebuffer {
   Framebuffer() = default;
   // color and depth may be null; depth with a stencil is attached as both. Error kRuntime where the driver refuses the
   // combination. The textures must outlive the framebuffer.
-  static Result<Framebuffer> create(const char* what, const Texture* color, const Texture* depth, bool stencil = false);
+  static Result<Framebuffer> create(const char* what, const Texture2d* color, const Texture2d* depth,
+                                    bool stencil = false);
 
   // Both of the same number of samples; depth with its stencil.
   static Result<Framebuffer> create(const char* what, const MultisampleTexture& color, const MultisampleTexture& depth);
@@ -28,7 +29,7 @@ class Framebuffer {
   void resolve_color(const Framebuffer& samples, const IVec2& size) const;
   void resolve_depth_stencil(const Framebuffer& samples, const IVec2& size) const;
   // Draws into a level of a texture from now on.
-  void attach_color_level(const Texture& color, int level) const;
+  void attach_color_level(const Texture2d& color, int level) const;
   // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.
   void attach_depth_layer(const TextureArray& depth, int layer) const;
   explicit operator bool() const { return static_cast<bool>(handle_); }

@@ -30,7 +30,8 @@ void set_sampling(GLenum target, const TextureOptions& options) {
 
 }  // namespace
 
-Texture::Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options)
+Texture2d::Texture2d(const TextureFormat& format, int width, int height, const void* pixels,
+                     const TextureOptions& options)
     : format_(format), width_(width), height_(height), levels_(options.levels) {
   GLuint name = 0;
   glGenTextures(1, &name);
@@ -50,19 +51,19 @@ Texture::Texture(const TextureFormat& format, int width, int height, const void*
   if (options.make_mipmaps && levels_ > 1) glGenerateMipmap(GL_TEXTURE_2D);
 }
 
-void Texture::upload(int level, int row, int rows, const void* pixels) const {
+void Texture2d::upload(int level, int row, int rows, const void* pixels) const {
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage2D(GL_TEXTURE_2D, level, 0, row, std::max(1, width_ >> level), rows, format_.format, format_.type,
                   pixels);
 }
 
-void Texture::bind(int unit) const {
+void Texture2d::bind(int unit) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, handle_.name());
 }
 
-void Texture::limit_levels(int levels) const {
+void Texture2d::limit_levels(int levels) const {
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }

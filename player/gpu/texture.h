@@ -42,12 +42,12 @@ struct TextureOptions {
   bool make_mipmaps = false;  // fill the levels from level 0
 };
 
-class Texture {
+class Texture2d {
  public:
-  Texture() = default;
+  Texture2d() = default;
   // pixels: rows of width texels, row 0 first (v = 0), or nullptr for undefined contents. The caller keeps width and
   // height in [1, limits().texture_size].
-  Texture(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
+  Texture2d(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
 
   // All of a level; some of its rows.
   void upload(int level, const void* pixels) const { upload(level, 0, std::max(1, height_ >> level), pixels); }

@@ -43,10 +43,10 @@ SceneImages::SceneImages(ImageSource source, const std::vector<ImageUse>& uses, 
   maps_ = std::vector<ReflectorMaps>(counts[3]);
   surrounds_.resize(counts[4]);
   const std::array<std::uint8_t, 4> grey{188, 188, 188, 255}, flat{128, 128, 255, 255};
-  grey_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, grey.data());
-  flat_ = gpu::Texture(gpu::kRgba8, 1, 1, flat.data());
+  grey_ = gpu::Texture2d(gpu::kSrgbAlpha8, 1, 1, grey.data());
+  flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
   const Half4 one = halves_of(Vec3(1));
-  some_light_.texture = gpu::Texture(gpu::kRgba16f, 1, 1, one.data());
+  some_light_.texture = gpu::Texture2d(gpu::kRgba16f, 1, 1, one.data());
   some_light_.scale = kUnknownLux;
 }
 
@@ -252,7 +252,7 @@ void SceneImages::settle(Upload& upload) {
   switch (item.name.kind) {
     case ImageKind::kColor:
     case ImageKind::kNormal: {
-      gpu::Texture& texture = (item.name.kind == ImageKind::kColor ? colors_ : normals_)[i];
+      gpu::Texture2d& texture = (item.name.kind == ImageKind::kColor ? colors_ : normals_)[i];
       texture = std::move(textures[0].texture);
       texture.limit_levels(mipmaps_ ? texture.levels() : 1);
       if (!upload.image.texture.texels.empty()) texels_.emplace_back(i, std::move(upload.image.texture));
@@ -284,11 +284,11 @@ void SceneImages::settle(Upload& upload) {
   if (is_map(item.name.kind)) map_bytes_ += item.bytes[static_cast<std::size_t>(item.level)];
 }
 
-const gpu::Texture& SceneImages::color(std::uint32_t index) const {
+const gpu::Texture2d& SceneImages::color(std::uint32_t index) const {
   return colors_[index] ? colors_[index] : grey_;
 }
 
-const gpu::Texture& SceneImages::normal(std::uint32_t index) const {
+const gpu::Texture2d& SceneImages::normal(std::uint32_t index) const {
   return normals_[index] ? normals_[index] : flat_;
 }
 
@@ -296,7 +296,7 @@ const LoadedLightmap& SceneImages::light(std::uint32_t index) const {
   return lights_[index].texture ? lights_[index] : some_light_;
 }
 
-Result<const gpu::Texture*> SceneImages::points(std::uint32_t radiance_map) {
+Result<const gpu::Texture2d*> SceneImages::points(std::uint32_t radiance_map) {
   const auto found = points_.find(radiance_map);
   if (found != points_.end()) return &found->second;
   ORIEL_TRY(const RadianceMap map, source_.radiance_map(radiance_map));
@@ -331,7 +331,7 @@ void SceneImages::use_mipmaps(bool on) {
   if (on == mipmaps_) return;
   mipmaps_ = on;
   for (const auto* textures : {&colors_, &normals_})
-    for (const gpu::Texture& texture : *textures)
+    for (const gpu::Texture2d& texture : *textures)
       if (texture) texture.limit_levels(on ? texture.levels() : 1);
 }
 

@@ -15,9 +15,9 @@ namespace oriel {
 
 // Half floats of irradiance / scale (image_data.h). Without light: scale 0.
 struct LoadedLightmap {
-  gpu::Texture texture;
+  gpu::Texture2d texture;
   float scale = 0;
-  gpu::Texture direction;  // of a directional lightmap, else empty
+  gpu::Texture2d direction;  // of a directional lightmap, else empty
 };
 
 // All maps of a reflector.
@@ -68,13 +68,13 @@ class SceneImages {
   bool in_background() const { return options_.background; }
 
   // What stands for it where it is not there: grey, flat, the mean light of the others.
-  const gpu::Texture& color(std::uint32_t index) const;
-  const gpu::Texture& normal(std::uint32_t index) const;
+  const gpu::Texture2d& color(std::uint32_t index) const;
+  const gpu::Texture2d& normal(std::uint32_t index) const;
   const LoadedLightmap& light(std::uint32_t index) const;
   const ReflectorMaps& maps(std::uint32_t reflector) const { return maps_[reflector]; }  // that has() says are there
   const SurroundTextures& surround(std::uint32_t index) const { return surrounds_[index]; }
   // As points; null where there is no room for it. Uploaded when first asked for and kept.
-  Result<const gpu::Texture*> points(std::uint32_t radiance_map);
+  Result<const gpu::Texture2d*> points(std::uint32_t radiance_map);
   // A page with all that the bake knows of its texels, which only few ask for; in the background null until it is
   // there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
@@ -132,17 +132,17 @@ class SceneImages {
   std::size_t in_flight_ = 0;
   std::uint64_t bytes_in_flight_ = 0, map_bytes_ = 0;
   std::vector<Upload> uploads_;
-  std::vector<gpu::Texture> colors_, normals_;
+  std::vector<gpu::Texture2d> colors_, normals_;
   std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
-  std::map<std::uint32_t, gpu::Texture> points_;
+  std::map<std::uint32_t, gpu::Texture2d> points_;
   std::uint64_t points_bytes_ = 0;
   std::map<std::uint32_t, Result<LightmapPage>> pages_;
   std::set<std::uint32_t> coming_pages_;
   Mailbox<std::pair<std::uint32_t, Result<LightmapPage>>> made_pages_;
   std::vector<Error> page_errors_;  // not told yet
-  gpu::Texture grey_, flat_;
+  gpu::Texture2d grey_, flat_;
   LoadedLightmap some_light_;
   double lux_sum_ = 0;
   std::size_t lux_count_ = 0;

@@ -27,7 +27,7 @@ IVec2 pyramid_corner(int size, int level);
 SurroundPyramid make_surround_pyramid(const SurroundMap& map);
 
 struct SurroundTextures {
-  gpu::Texture light, inverse_distance;
+  gpu::Texture2d light, inverse_distance;
   int size = 1;
   float scale = 1;
   Vec2 range{0};

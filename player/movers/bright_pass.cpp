@@ -72,10 +72,10 @@ Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
 }
 
 Status BrightPass::Canvas::make(int width, int height) {
-  depth = gpu::Texture(gpu::kDepth32f, width, height, nullptr);
-  surfaces = gpu::Texture(gpu::kRgba32ui, width, height, nullptr);
-  taken = gpu::Texture(gpu::kRgba8, width, height, nullptr);
-  change = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
+  depth = gpu::Texture2d(gpu::kDepth32f, width, height, nullptr);
+  surfaces = gpu::Texture2d(gpu::kRgba32ui, width, height, nullptr);
+  taken = gpu::Texture2d(gpu::kRgba8, width, height, nullptr);
+  change = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
   ORIEL_TRY(surfaces_target, gpu::Framebuffer::create("surfaces", &surfaces, &depth));
   ORIEL_TRY(taken_target, gpu::Framebuffer::create("shadows", &taken, nullptr));
   ORIEL_TRY(change_target, gpu::Framebuffer::create("bright lights", &change, nullptr));

@@ -22,8 +22,8 @@ namespace oriel {
 // What bright lights change, lux by pixel.
 struct BrightChange {
   MoverChange on_movers;
-  const gpu::Texture* on_scene = nullptr;        // what movers take of them; half the view's size, rounded up
-  const gpu::Texture* scene_surfaces = nullptr;  // where that is: shaders/lib/lit_surface.glsl
+  const gpu::Texture2d* on_scene = nullptr;        // what movers take of them; half the view's size, rounded up
+  const gpu::Texture2d* scene_surfaces = nullptr;  // where that is: shaders/lib/lit_surface.glsl
 };
 
 class BrightPass {
@@ -38,7 +38,7 @@ class BrightPass {
 
  private:
   struct Canvas {
-    gpu::Texture depth, surfaces, taken, change;
+    gpu::Texture2d depth, surfaces, taken, change;
     gpu::Framebuffer surfaces_target, taken_target, change_target;
     Status make(int width, int height);
     void bind(const gpu::Framebuffer& target) const;

@@ -29,7 +29,7 @@ std::vector<PlacedMover> place_movers(const GpuScene& scene, const FrameOptions&
     placed.light =
         light_mover(pack.light_field, mover.transfer, box, pose, options.mover_lights == MoverLights::kHarmonics);
     placed.table =
-        gpu::Texture(gpu::kRgba32f, 3 * (placed.components + 1), mover.transfer.clusters, placed.light.table.data());
+        gpu::Texture2d(gpu::kRgba32f, 3 * (placed.components + 1), mover.transfer.clusters, placed.light.table.data());
     out.push_back(std::move(placed));
   }
   return out;

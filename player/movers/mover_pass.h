@@ -15,7 +15,7 @@ struct PlacedMover {
   Mat4 pack_from_object{1};
   Vec4 sphere{0};  // around it: centre in pack space, radius
   MoverLight light;
-  gpu::Texture table;  // of light
+  gpu::Texture2d table;  // of light
   bool normal_mapped = false;
   int components = 0;
 };
@@ -37,8 +37,8 @@ inline constexpr GLuint kMoverBits = 0x7f;
 
 // What bright lights add to movers, lux by pixel of the view, and where: shaders/lib/lit_surface.glsl.
 struct MoverChange {
-  const gpu::Texture* light = nullptr;
-  const gpu::Texture* surfaces = nullptr;
+  const gpu::Texture2d* light = nullptr;
+  const gpu::Texture2d* surfaces = nullptr;
 };
 
 class MoverPass {

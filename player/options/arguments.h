@@ -53,6 +53,11 @@ struct PlayArguments {
   bool gl_debug = false;
 };
 
+// Supersampled pictures have smooth edges already, and large frames.
+inline int samples_of_picture(const PlayArguments& arguments) {
+  return arguments.supersample > 1 && !arguments.sampled ? 1 : arguments.frame.samples;
+}
+
 // The arguments, or the exit code after help or a complaint was printed.
 std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv);
 

@@ -31,7 +31,7 @@ Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
 Result<std::optional<float>> DisplayPass::meter(const FrameTarget& frame) {
   const int width = (frame.light.width() + kBlock - 1) / kBlock, height = (frame.light.height() + kBlock - 1) / kBlock;
   if (!sums_ || sums_.width() != width || sums_.height() != height) {
-    sums_ = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
+    sums_ = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
     ORIEL_TRY(sums_framebuffer_, gpu::Framebuffer::create("exposure meter", &sums_, nullptr));
   }
   sums_framebuffer_.bind();

@@ -29,7 +29,7 @@ class DisplayPass {
  private:
   gpu::Program luminance_, tonemap_, tonemap_samples_;
   gpu::VertexArray no_vertices_;
-  gpu::Texture sums_;
+  gpu::Texture2d sums_;
   gpu::Framebuffer sums_framebuffer_;
 };
 

@@ -352,7 +352,7 @@ std::vector<std::int32_t> Renderer::read_reflective() const {
 
 Result<std::vector<std::uint8_t>> Renderer::read_display(float ev100, ToneCurve curve) {
   const int width = frame_->light.width(), height = frame_->light.height();
-  const gpu::Texture color(gpu::kRgba8, width, height, nullptr);
+  const gpu::Texture2d color(gpu::kRgba8, width, height, nullptr);
   ORIEL_TRY(const gpu::Framebuffer framebuffer, gpu::Framebuffer::create("picture", &color, nullptr));
   framebuffer.bind();
   display_.draw(*frame_, ev100, curve);

@@ -102,7 +102,7 @@ NdcRect ReflectorPass::visible_part(const NdcRect& screen, const View& view, std
 }
 
 void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                               const gpu::Texture& image, GLint value, const FrameOptions& options,
+                               const gpu::Texture2d& image, GLint value, const FrameOptions& options,
                                FrameStats& stats) const {
   gpu::apply(where_marked(value));
   compose_.use();
@@ -148,7 +148,7 @@ void ReflectorPass::set_surface(const gpu::Program& program, GpuScene& scene, co
   const auto row = material.fresnel_map;
   const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
   const bool sphere = options.reflectance == Reflectance::kSphereMap && fresnel != nullptr && fresnel->sphere_size > 1;
-  const gpu::Texture& reflectance =
+  const gpu::Texture2d& reflectance =
       sphere ? scene.sphere_map(static_cast<std::uint32_t>(row)) : scene.reflectance_tables();
   reflectance.bind(1);
   scene.bind_geometry();

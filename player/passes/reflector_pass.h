@@ -28,7 +28,7 @@ class ReflectorPass {
   // An image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
   // 0: adds to the frame wherever the depth leaves the reflector visible.
   void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                  const gpu::Texture& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
+                  const gpu::Texture2d& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
   // The same of an image that is as fine as the frame (rect.scale 1) and is convolved on the way: target.filled, all
   // levels.
   void draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,

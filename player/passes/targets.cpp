@@ -17,8 +17,8 @@ void FrameTarget::resolve_depth_stencil() const {
 Result<FrameTarget> make_frame_target(int width, int height, int samples) {
   FrameTarget target;
   target.asked = samples;
-  target.light = gpu::Texture(gpu::kRgba32f, width, height, nullptr);
-  target.depth = gpu::Texture(gpu::kDepthStencil, width, height, nullptr);
+  target.light = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  target.depth = gpu::Texture2d(gpu::kDepthStencil, width, height, nullptr);
   if (samples > 1) {
     target.light_samples = gpu::MultisampleTexture(gpu::kRgba32f, width, height, samples);
     target.depth_samples = gpu::MultisampleTexture(gpu::kDepthStencil, width, height, samples);

@@ -8,7 +8,7 @@ namespace oriel {
 // The frame: light in cd/m² (a: 0 nothing, 1 light, 2 a colour to be shown as it is), depth, stencil. With several
 // samples a pixel passes draw into those, and the frame itself is what resolve_…() last made of them.
 struct FrameTarget {
-  gpu::Texture light, depth;
+  gpu::Texture2d light, depth;
   gpu::Framebuffer framebuffer;
   gpu::MultisampleTexture light_samples, depth_samples;  // none: a sample a pixel
   gpu::Framebuffer sampled;

@@ -12,13 +12,13 @@ namespace {
 constexpr float kReach = 1.25f;
 
 // Only that level can be read: drawing into another one of the same texture is defined then.
-void bind_level(const gpu::Texture& texture, int unit, int level) {
+void bind_level(const gpu::Texture2d& texture, int unit, int level) {
   texture.bind(unit);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level);
 }
 
-void bind_all_levels(const gpu::Texture& texture, int unit, int levels) {
+void bind_all_levels(const gpu::Texture2d& texture, int unit, int levels) {
   texture.bind(unit);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
@@ -40,7 +40,7 @@ void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_
   const auto size_at = [&](int level) {
     return IVec2(gpu::level_size(rect.width, level), gpu::level_size(rect.height, level));
   };
-  const auto draw_level = [&](const gpu::Texture& texture, int level) {
+  const auto draw_level = [&](const gpu::Texture2d& texture, int level) {
     target.level_framebuffer.attach_color_level(texture, level);
     glViewport(0, 0, size_at(level).x, size_at(level).y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -49,7 +49,7 @@ void FillPass::draw(const ImageRect& rect, const ImageTarget& target, bool with_
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   target.level_framebuffer.bind();
-  const auto pull = [&](const gpu::Texture& texture, float reach) {
+  const auto pull = [&](const gpu::Texture2d& texture, float reach) {
     pull_.use();
     pull_.set("u_source", 0);
     pull_.set("u_reach", reach);

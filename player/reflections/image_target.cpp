@@ -44,14 +44,14 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
   ImageTarget target;
   gpu::TextureOptions options;
   options.levels = gpu::mip_levels(w, h);
-  target.sharp = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
+  target.sharp = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, options);
   options.mag_filter = GL_LINEAR;
   options.min_filter = GL_LINEAR_MIPMAP_NEAREST;  // dozens of taps a pixel need no blend of levels
-  target.filled = gpu::Texture(gpu::kRgba32f, w, h, nullptr, options);
+  target.filled = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, options);
   gpu::TextureOptions linear;
   linear.min_filter = linear.mag_filter = GL_LINEAR;
-  target.blurred = gpu::Texture(gpu::kRgba32f, w, h, nullptr, linear);
-  target.depth = gpu::Texture(gpu::kDepthStencil, w, h, nullptr);
+  target.blurred = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, linear);
+  target.depth = gpu::Texture2d(gpu::kDepthStencil, w, h, nullptr);
   ORIEL_TRY_VOID(gpu::check_gl("making the reflected image's textures"));
   ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth, true));
   ORIEL_TRY(target.level_framebuffer,

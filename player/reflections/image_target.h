@@ -25,7 +25,7 @@ Mat4 image_from_clip(const ImageRect& rect, const View& view);
 // holes, with its coarser levels; blurred: convolved. Textures are powers of two; an image uses their lower left
 // corner.
 struct ImageTarget {
-  gpu::Texture sharp, filled, blurred, depth;
+  gpu::Texture2d sharp, filled, blurred, depth;
   gpu::Framebuffer sharp_framebuffer;  // with depth and stencil
   gpu::Framebuffer level_framebuffer;  // no depth; passes attach what they draw into
 };

@@ -83,7 +83,7 @@ void MarchPass::measure(GpuScene& scene, const GpuReflector& reflector, const Vi
 void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
                             const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
                             const FrameOptions& options, FrameStats& stats) const {
-  const gpu::Texture& marched = target.blurred;  // M * K comes later
+  const gpu::Texture2d& marched = target.blurred;  // M * K comes later
   const float least_radius = kLeastRadius * static_cast<float>(rect.marched);
   target.level_framebuffer.bind();
   target.level_framebuffer.attach_color_level(marched, 0);

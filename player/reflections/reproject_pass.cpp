@@ -69,7 +69,7 @@ Status ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuRe
   const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);
   const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
-  ORIEL_TRY(const gpu::Texture* const points, scene.radiance_map(index));
+  ORIEL_TRY(const gpu::Texture2d* const points, scene.radiance_map(index));
   if (points == nullptr) return {};
   points->bind(0);
   program_.set("u_map_size", IVec2(width, height));

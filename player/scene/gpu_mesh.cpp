@@ -134,7 +134,7 @@ GpuMover upload_mover(const Mover& mover) {
   for (std::size_t v = 0; v < mover.transfer.vertices(); ++v)
     std::copy_n(mover.transfer.weight.begin() + static_cast<std::ptrdiff_t>(v * components), components,
                 codes.begin() + static_cast<std::ptrdiff_t>(v * texels * 4));
-  out.weights = gpu::Texture(gpu::kRgba16i, kWeightsWidth, static_cast<int>(rows), codes.data());
+  out.weights = gpu::Texture2d(gpu::kRgba16i, kWeightsWidth, static_cast<int>(rows), codes.data());
   return out;
 }
 

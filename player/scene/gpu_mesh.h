@@ -60,8 +60,8 @@ struct GpuMover {
   gpu::VertexArray vertex_array;  // attribute 7: the cluster of its transfer
   std::vector<gpu::Buffer> buffers;
   std::vector<DrawRange> ranges;
-  Bounds bounds;         // object space
-  gpu::Texture weights;  // of its transfer, four 16-bit codes a texel, vertex by vertex, kWeightsWidth texels a row
+  Bounds bounds;           // object space
+  gpu::Texture2d weights;  // of its transfer, four 16-bit codes a texel, vertex by vertex, kWeightsWidth texels a row
   int texels_a_vertex = 1;
 };
 inline constexpr int kWeightsWidth = 2048;

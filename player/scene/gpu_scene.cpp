@@ -194,10 +194,10 @@ void GpuScene::make_curved_reflectors(std::vector<std::uint32_t>& indices) {
 
 void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading) {
   const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
-  white_ = gpu::Texture(gpu::kSrgbAlpha8, 1, 1, white.data());
-  no_lightmap_.texture = gpu::Texture(gpu::kRgba8, 1, 1, white.data());
+  white_ = gpu::Texture2d(gpu::kSrgbAlpha8, 1, 1, white.data());
+  no_lightmap_.texture = gpu::Texture2d(gpu::kRgba8, 1, 1, white.data());
   const std::array<std::uint8_t, 4> flat{128, 128, 255, 255};
-  flat_ = gpu::Texture(gpu::kRgba8, 1, 1, flat.data());
+  flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
   reflectance_tables_ = upload_reflectance_tables(pack_.fresnel_maps);
   sphere_maps_.resize(pack_.fresnel_maps.size());
 
@@ -221,11 +221,11 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   images_ = std::make_unique<SceneImages>(ImageSource(pack_, std::move(deferred), std::move(elements)), uses, loading);
 }
 
-const gpu::Texture& GpuScene::albedo(std::int32_t index) const {
+const gpu::Texture2d& GpuScene::albedo(std::int32_t index) const {
   return index < 0 ? white_ : images_->color(static_cast<std::uint32_t>(index));
 }
 
-const gpu::Texture& GpuScene::normal_map(std::int32_t index) const {
+const gpu::Texture2d& GpuScene::normal_map(std::int32_t index) const {
   return index < 0 ? flat_ : images_->normal(static_cast<std::uint32_t>(index));
 }
 
@@ -233,8 +233,8 @@ const LoadedLightmap& GpuScene::lightmap(std::int32_t index) const {
   return index < 0 ? no_lightmap_ : images_->light(static_cast<std::uint32_t>(index));
 }
 
-const gpu::Texture& GpuScene::sphere_map(std::uint32_t fresnel_map) {
-  gpu::Texture& texture = sphere_maps_[fresnel_map];
+const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
+  gpu::Texture2d& texture = sphere_maps_[fresnel_map];
   if (!texture) texture = upload_sphere_map(pack_.fresnel_maps[fresnel_map]);
   return texture;
 }

@@ -40,10 +40,10 @@ struct GpuCurvedReflector {
 
 // K as shaders read it.
 struct GpuKernel {
-  gpu::Texture taps;
+  gpu::Texture2d taps;
   int count = 1, rows = 1;  // as KernelTaps
   float median = 0;
-  gpu::Texture fits;  // LobeFit by incidence, as upload_lobe_fits; none where the kernel has no fits
+  gpu::Texture2d fits;  // LobeFit by incidence, as upload_lobe_fits; none where the kernel has no fits
   bool blurs() const { return count > 1; }
 };
 
@@ -98,12 +98,12 @@ class GpuScene {
     (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
   }
   // White where index is -1.
-  const gpu::Texture& albedo(std::int32_t index) const;
+  const gpu::Texture2d& albedo(std::int32_t index) const;
   // Of Pack::normal_textures; one that tilts nothing where index is -1.
-  const gpu::Texture& normal_map(std::int32_t index) const;
+  const gpu::Texture2d& normal_map(std::int32_t index) const;
   // Scale 0 where index is -1.
   const LoadedLightmap& lightmap(std::int32_t index) const;
-  const gpu::Texture& reflectance_tables() const { return reflectance_tables_; }
+  const gpu::Texture2d& reflectance_tables() const { return reflectance_tables_; }
   // Whether a reflector's maps are there, or will be once bring_maps() is called. Errors of images.
   Result<bool> may_show_maps(const GpuReflector& reflector);
   void want_maps(const GpuReflector& reflector) { images_->want({ImageKind::kMaps, reflector.index}); }
@@ -113,7 +113,7 @@ class GpuScene {
   // The same of a curved reflector: whether its map is there.
   Result<bool> bring_surround_map(std::uint32_t index);
   // As points, uploaded on first use and kept; null where there is no room.
-  Result<const gpu::Texture*> radiance_map(std::uint32_t index) { return images_->points(index); }
+  Result<const gpu::Texture2d*> radiance_map(std::uint32_t index) { return images_->points(index); }
   // To march through, of an element of the reflector; layers as its maps.
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
@@ -123,7 +123,7 @@ class GpuScene {
   Result<const LightmapPage*> page(std::uint32_t index) { return images_->page(index, pack_.lightmaps[index]); }
   // Of radiance and surround maps on the device.
   std::uint64_t map_bytes() const { return images_->map_bytes(); }
-  const gpu::Texture& sphere_map(std::uint32_t fresnel_map);
+  const gpu::Texture2d& sphere_map(std::uint32_t fresnel_map);
   // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
   const GpuKernel& kernel(std::uint32_t material, KernelPlace place);
   const GpuKernel& mirror_kernel() { return kernel(-1, -1, KernelPlace::kLobe); }
@@ -152,8 +152,8 @@ class GpuScene {
   gpu::Buffer index_buffer_;
   std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
   std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
-  std::vector<gpu::Texture> sphere_maps_;
-  gpu::Texture white_, flat_, reflectance_tables_;
+  std::vector<gpu::Texture2d> sphere_maps_;
+  gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace>, GpuKernel> kernels_;
   std::unique_ptr<SceneImages> images_;  // reads pack_

@@ -5,7 +5,7 @@
 #include "formats/lobes/lobe_light.h"
 
 namespace oriel {
-gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
+gpu::Texture2d upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
   std::size_t width = 1;
   for (const FresnelMap& map : maps) width = std::max(width, map.table.size());
   const std::size_t height = std::max<std::size_t>(maps.size(), 1);
@@ -16,14 +16,14 @@ gpu::Texture upload_reflectance_tables(const std::vector<FresnelMap>& maps) {
   return {gpu::kRgba32f, static_cast<int>(width), static_cast<int>(height), texels.data()};
 }
 
-gpu::Texture upload_kernel_taps(const KernelTaps& taps) {
+gpu::Texture2d upload_kernel_taps(const KernelTaps& taps) {
   std::vector<Vec4> texels;
   for (const KernelTap& tap : taps.taps) texels.emplace_back(tap.at, tap.width, tap.weight);
   return {gpu::kRgba32f, taps.count, taps.rows, texels.data()};
 }
 
-gpu::Texture upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fresnel,
-                              std::span<const float> mean_factors) {
+gpu::Texture2d upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fresnel,
+                                std::span<const float> mean_factors) {
   constexpr int kRows = 33;
   std::vector<Vec4> texels;
   for (int i = 0; i < kRows; ++i) {
@@ -43,7 +43,7 @@ gpu::Texture upload_lobe_fits(const BrdfKernel& kernel, const FresnelMap& fresne
   return {gpu::kRgba32f, kRows, 2, texels.data()};
 }
 
-gpu::Texture upload_sphere_map(const FresnelMap& map) {
+gpu::Texture2d upload_sphere_map(const FresnelMap& map) {
   std::vector<Vec4> texels;
   for (const Vec3& r : map.sphere) texels.emplace_back(r, 1);
   gpu::TextureOptions options;

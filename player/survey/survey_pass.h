@@ -29,7 +29,7 @@ class SurveyPass {
   gpu::VertexArray zone_array_;
   std::vector<gpu::Buffer> zone_buffers_;
   GLsizei zone_corners_ = 0;
-  std::vector<gpu::Texture> pages_;
+  std::vector<gpu::Texture2d> pages_;
   Show painted_ = Show::kAll;
   std::uint64_t scene_ = 0;  // whose pages they are
 };

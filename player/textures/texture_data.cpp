@@ -52,7 +52,7 @@ bool TextureUpload::step(std::size_t bytes) {
   return true;
 }
 
-gpu::Texture upload_texture(TextureData data) {
+gpu::Texture2d upload_texture(TextureData data) {
   TextureUpload upload(std::move(data));
   upload.step(std::numeric_limits<std::size_t>::max());
   return std::move(upload.texture);

@@ -40,7 +40,7 @@ class TextureUpload {
   bool step(std::size_t bytes);
   std::size_t bytes_left() const { return left_; }
 
-  gpu::Texture texture;     // of data with layers 0
+  gpu::Texture2d texture;   // of data with layers 0
   gpu::TextureArray array;  // else
 
  private:
@@ -49,7 +49,7 @@ class TextureUpload {
   int row_ = 0;  // of the block
 };
 
-gpu::Texture upload_texture(TextureData data);
+gpu::Texture2d upload_texture(TextureData data);
 gpu::TextureArray upload_array(TextureData data);
 
 }  // namespace oriel

@@ -73,8 +73,8 @@ int add_indices(Glb& glb, const std::vector<std::uint32_t>& indices, std::size_t
   return static_cast<int>(glb.json["accessors"].size()) - 1;
 }
 
-void add_textures(Glb& glb, const Scene& scene) {
-  for (const Texture& texture : scene.textures) {
+void add_textures(Glb& glb, const SampleScene& scene) {
+  for (const PngTexture& texture : scene.textures) {
     const int view = add_view(glb, texture.png.size(), kNoTarget);
     glb.binary.put_array(std::span<const std::byte>(texture.png));
     glb.json["images"].push_back({{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
@@ -86,8 +86,8 @@ void add_textures(Glb& glb, const Scene& scene) {
   }
 }
 
-void add_materials(Glb& glb, const Scene& scene) {
-  for (const Material& material : scene.materials) {
+void add_materials(Glb& glb, const SampleScene& scene) {
+  for (const SampleMaterial& material : scene.materials) {
     Json pbr = {
         {"baseColorFactor", Json::array({material.base_color.r, material.base_color.g, material.base_color.b, 1})}};
     if (material.texture >= 0) pbr["baseColorTexture"] = {{"index", material.texture}};
@@ -108,8 +108,8 @@ void add_materials(Glb& glb, const Scene& scene) {
   }
 }
 
-void add_meshes(Glb& glb, const Scene& scene) {
-  for (const Mesh& mesh : scene.meshes) {
+void add_meshes(Glb& glb, const SampleScene& scene) {
+  for (const SampleMesh& mesh : scene.meshes) {
     Json attributes = {{"POSITION", add_floats(glb, mesh.positions, "VEC3", kVertices, true)},
                        {"NORMAL", add_floats(glb, mesh.normals, "VEC3", kVertices, false)}};
     if (scene.materials[mesh.material].texture >= 0) {
@@ -181,7 +181,7 @@ void add_path(Glb& glb, const Path& path) {
   glb.json["animations"].push_back(std::move(animation));
 }
 
-void add_nodes(Glb& glb, const Scene& scene) {
+void add_nodes(Glb& glb, const SampleScene& scene) {
   for (const Node& node : scene.nodes) {
     Json out = {{"name", node.name}, {"mesh", node.mesh}};
     if (node.position != Vec3(0)) out["translation"] = to_json(node.position);
@@ -191,7 +191,7 @@ void add_nodes(Glb& glb, const Scene& scene) {
     }
     glb.json["nodes"].push_back(std::move(out));
   }
-  for (const Camera& camera : scene.cameras) {
+  for (const SampleCamera& camera : scene.cameras) {
     add_camera_node(glb, camera.name, camera.vertical_fov_rad, camera.eye,
                     normalize_or(camera.target - camera.eye, Vec3(0, 0, -1)));
   }
@@ -205,8 +205,8 @@ bool all_finite(const std::vector<Vector>& values) {
   return std::all_of(floats.begin(), floats.end(), [](float f) { return std::isfinite(f); });
 }
 
-Status check(const Scene& scene) {
-  for (const Mesh& mesh : scene.meshes) {
+Status check(const SampleScene& scene) {
+  for (const SampleMesh& mesh : scene.meshes) {
     const std::size_t n = mesh.positions.size();
     if (n == 0 || mesh.indices.empty()) return invalid(mesh.name, "found an empty mesh, expected triangles");
     if (mesh.material >= scene.materials.size()) {
@@ -224,7 +224,7 @@ Status check(const Scene& scene) {
       return invalid(mesh.name, "found a vertex that is not finite");
     }
   }
-  for (const Material& material : scene.materials) {
+  for (const SampleMaterial& material : scene.materials) {
     if (material.texture >= static_cast<int>(scene.textures.size())) {
       return invalid(material.name, "found texture {}, expected below {}", material.texture, scene.textures.size());
     }
@@ -245,7 +245,7 @@ Status check(const Scene& scene) {
 
 }  // namespace
 
-Result<Bytes> write_glb(const Scene& scene) {
+Result<Bytes> write_glb(const SampleScene& scene) {
   ORIEL_TRY_VOID(check(scene));
   Glb glb;
   glb.json["asset"] = {{"version", "2.0"}, {"generator", "oriel-scenes"}};

@@ -9,24 +9,24 @@
 
 namespace oriel::sample {
 
-struct Texture {
+struct PngTexture {
   std::string name;
   Bytes png;
 };
 
 // glTF's metallic-roughness. The defaults are a purely diffuse surface: a dielectric without its specular lobe.
-struct Material {
+struct SampleMaterial {
   std::string name;
   Vec3 base_color{0.8f};  // linear
   float metallic = 0;
   float roughness = 1;
   float specular = 0;  // KHR_materials_specular
   Vec3 emission{0};    // cd/m²
-  int texture = -1;    // base colour, into Scene::textures; its meshes must have uvs
+  int texture = -1;    // base colour, into SampleScene::textures; its meshes must have uvs
 };
 
 // One primitive. positions and normals have one length, uvs that length or none.
-struct Mesh {
+struct SampleMesh {
   std::string name;
   std::uint32_t material = 0;
   std::vector<Vec3> positions;
@@ -45,7 +45,7 @@ struct Node {
   float yaw_rad = 0;  // turns +z towards +x
 };
 
-struct Camera {
+struct SampleCamera {
   std::string name;
   Vec3 eye{0}, target{0, 0, -1};
   float vertical_fov_rad = 1;
@@ -60,30 +60,30 @@ struct Path {
   std::vector<Vec3> forwards;  // unit
 };
 
-struct Scene {
+struct SampleScene {
   std::string name;
-  std::vector<Texture> textures;
-  std::vector<Material> materials;
-  std::vector<Mesh> meshes;
+  std::vector<PngTexture> textures;
+  std::vector<SampleMaterial> materials;
+  std::vector<SampleMesh> meshes;
   std::vector<Node> nodes;
-  std::vector<Camera> cameras;
+  std::vector<SampleCamera> cameras;
   std::vector<Path> paths;
 };
 
-std::uint32_t add_material(Scene& scene, Material material);
-std::uint32_t add_mesh(Scene& scene, Mesh mesh);
+std::uint32_t add_material(SampleScene& scene, SampleMaterial material);
+std::uint32_t add_mesh(SampleScene& scene, SampleMesh mesh);
 // A mesh used once: a mesh and its node, both with the mesh's name.
-void place(Scene& scene, Mesh mesh, const Vec3& position = Vec3(0), float yaw_rad = 0);
+void place(SampleScene& scene, SampleMesh mesh, const Vec3& position = Vec3(0), float yaw_rad = 0);
 // One more use of a mesh.
-void place(Scene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad = 0);
+void place(SampleScene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad = 0);
 
 // A purely diffuse material; its index.
-std::uint32_t add_diffuse(Scene& scene, std::string name, const Vec3& color);
+std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color);
 
 // Everything `factor` times as large about the origin, cameras and walks too. Radiance stays: light falls as before.
-void scale_scene(Scene& scene, double factor);
+void scale_scene(SampleScene& scene, double factor);
 
 // Triangles drawn: those of each node's mesh.
-std::uint64_t triangle_count(const Scene& scene);
+std::uint64_t triangle_count(const SampleScene& scene);
 
 }  // namespace oriel::sample

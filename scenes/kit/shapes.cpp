@@ -6,13 +6,13 @@
 namespace oriel::sample {
 namespace {
 
-std::uint32_t add_vertex(Mesh& mesh, const Vec3& position, const Vec3& normal) {
+std::uint32_t add_vertex(SampleMesh& mesh, const Vec3& position, const Vec3& normal) {
   mesh.positions.push_back(position);
   mesh.normals.push_back(normalize_or(normal, Vec3(0, 1, 0)));
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 
-void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+void add_triangle(SampleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }
 
@@ -26,7 +26,7 @@ struct Ring {
   bool pole = false;
 };
 
-Ring add_ring(Mesh& mesh, const Vec3& base, const Vec2& point, const Vec2& normal, int around) {
+Ring add_ring(SampleMesh& mesh, const Vec3& base, const Vec2& point, const Vec2& normal, int around) {
   Ring ring{static_cast<std::uint32_t>(mesh.positions.size()), point.x <= 0};
   if (ring.pole) {
     add_vertex(mesh, base + Vec3(0, point.y, 0), Vec3(0, normal.y < 0 ? -1 : 1, 0));
@@ -40,7 +40,7 @@ Ring add_ring(Mesh& mesh, const Vec3& base, const Vec2& point, const Vec2& norma
   return ring;
 }
 
-void join_rings(Mesh& mesh, const Ring& below, const Ring& above, int around) {
+void join_rings(SampleMesh& mesh, const Ring& below, const Ring& above, int around) {
   for (int i = 0; i < around; ++i) {
     const auto here = static_cast<std::uint32_t>(i), next = static_cast<std::uint32_t>((i + 1) % around);
     const std::uint32_t a = below.pole ? below.first : below.first + here;
@@ -54,11 +54,11 @@ void join_rings(Mesh& mesh, const Ring& below, const Ring& above, int around) {
 
 }  // namespace
 
-void add_quad(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v) {
+void add_quad(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v) {
   add_corners(mesh, origin, origin + u, origin + u + v, origin + v);
 }
 
-void add_corners(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 first = triangle_normal(a, b, c), second = triangle_normal(a, c, d);
   const std::uint32_t i = add_vertex(mesh, a, first);
   add_vertex(mesh, b, first);
@@ -74,7 +74,8 @@ void add_corners(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const 
   add_triangle(mesh, j, j + 1, j + 2);
 }
 
-void add_quad_around(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low, const Vec2& high) {
+void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
+                     const Vec2& high) {
   const auto at = [&](float s, float t) { return origin + s * u + t * v; };
   const std::array<Vec3, 4> outer{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
   const std::array<Vec3, 4> inner{at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)};
@@ -84,7 +85,7 @@ void add_quad_around(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& 
   }
 }
 
-void add_box(Mesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces) {
+void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces) {
   const Vec3 size = upper - lower;
   const Vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
   if (faces & kLeft) add_quad(mesh, lower, z, y);
@@ -95,7 +96,7 @@ void add_box(Mesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces) {
   if (faces & kFront) add_quad(mesh, lower + z, x, y);
 }
 
-void add_rounded_box(Mesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n) {
+void add_rounded_box(SampleMesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n) {
   const Vec3 half = 0.5f * size;
   if (n <= 1) {
     add_box(mesh, centre - half, centre + half);
@@ -130,7 +131,7 @@ void add_rounded_box(Mesh& mesh, const Vec3& centre, const Vec3& size, float rad
   }
 }
 
-void add_lathe(Mesh& mesh, const Vec3& base, std::span<const Vec2> profile, int around) {
+void add_lathe(SampleMesh& mesh, const Vec3& base, std::span<const Vec2> profile, int around) {
   if (profile.size() < 2) return;
   std::vector<Vec2> flat;  // by segment: the normal in the (radius, height) plane
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
@@ -149,7 +150,7 @@ void add_lathe(Mesh& mesh, const Vec3& base, std::span<const Vec2> profile, int 
   }
 }
 
-void add_sphere(Mesh& mesh, const Vec3& centre, float radius, int around, int along) {
+void add_sphere(SampleMesh& mesh, const Vec3& centre, float radius, int around, int along) {
   std::vector<Vec2> profile(static_cast<std::size_t>(along) + 1);
   for (int i = 0; i <= along; ++i) {
     const double theta = kPiD * i / along;
@@ -160,7 +161,7 @@ void add_sphere(Mesh& mesh, const Vec3& centre, float radius, int around, int al
   add_lathe(mesh, centre, profile, around);
 }
 
-void add_fluted_shaft(Mesh& mesh, const Vec3& base, const FlutedShaft& shaft) {
+void add_fluted_shaft(SampleMesh& mesh, const Vec3& base, const FlutedShaft& shaft) {
   const auto row = static_cast<std::uint32_t>(shaft.segments + 1);
   for (int f = 0; f < shaft.flutes; ++f) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -191,7 +192,7 @@ void add_fluted_shaft(Mesh& mesh, const Vec3& base, const FlutedShaft& shaft) {
   }
 }
 
-void add_frame(Mesh& mesh, float width, float height, float border, float depth, float sunk) {
+void add_frame(SampleMesh& mesh, float width, float height, float border, float depth, float sunk) {
   const Vec2 inner(0.5f * width, 0.5f * height), outer = inner + Vec2(border);
   const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -205,7 +206,7 @@ void add_frame(Mesh& mesh, float width, float height, float border, float depth,
   }
 }
 
-void project_uvs(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v) {
+void project_uvs(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v) {
   mesh.uvs.clear();
   for (const Vec3& p : mesh.positions) mesh.uvs.emplace_back(glm::dot(p - origin, u), glm::dot(p - origin, v));
 }

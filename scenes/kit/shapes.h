@@ -21,22 +21,23 @@ enum BoxFace : unsigned {
 };
 
 // The rectangle origin, +u, +u+v, +v; its front is the side that u × v points to.
-void add_quad(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
+void add_quad(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
 // Four corners, counter-clockwise from the front; flat shaded, also where they are not quite in a plane.
-void add_corners(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // The rectangle of add_quad around a hole from low to high, both shares of u and v in (0, 1); four faces without
 // T-junctions.
-void add_quad_around(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low, const Vec2& high);
+void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
+                     const Vec2& high);
 // Axis-aligned, lower < upper in each axis.
-void add_box(Mesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces = kAllFaces);
+void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces = kAllFaces);
 // A box whose edges and corners are rounded by `radius` (clamped to half the smallest size): 12 n² triangles. n = 1
 // gives the plain box.
-void add_rounded_box(Mesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n);
+void add_rounded_box(SampleMesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n);
 
 // A surface of revolution about the vertical through base: profile points are (radius, height), bottom to top for an
 // outer surface. Corners flatter than 35° are smooth. A radius of 0 is allowed at both ends.
-void add_lathe(Mesh& mesh, const Vec3& base, std::span<const Vec2> profile, int around);
-void add_sphere(Mesh& mesh, const Vec3& centre, float radius, int around, int along);
+void add_lathe(SampleMesh& mesh, const Vec3& base, std::span<const Vec2> profile, int around);
+void add_sphere(SampleMesh& mesh, const Vec3& centre, float radius, int around, int along);
 // A column's shaft with concave flutes that meet in sharp arrises; no caps. `segments` a flute across, `rings` upwards.
 struct FlutedShaft {
   float bottom_radius = 0.22f, top_radius = 0.19f;
@@ -44,13 +45,13 @@ struct FlutedShaft {
   float flute_depth = 0.014f;
   int flutes = 20, segments = 6, rings = 8;
 };
-void add_fluted_shaft(Mesh& mesh, const Vec3& base, const FlutedShaft& shaft);
+void add_fluted_shaft(SampleMesh& mesh, const Vec3& base, const FlutedShaft& shaft);
 
 // A picture frame about the rectangle |x| <= width/2, |y| <= height/2 in the plane z = 0, facing +z: border wide, from
 // z = -sunk to z = depth, its inner sides down to z = 0. No back.
-void add_frame(Mesh& mesh, float width, float height, float border, float depth, float sunk);
+void add_frame(SampleMesh& mesh, float width, float height, float border, float depth, float sunk);
 
 // uv = (dot(p - origin, u), dot(p - origin, v)) for all vertices: u and v in 1/m.
-void project_uvs(Mesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
+void project_uvs(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
 
 }  // namespace oriel::sample

@@ -23,7 +23,7 @@ struct SolidPatch {
   int solid_tag = 0;
   int air_tag = 0;  // kOutside where no block hollowed the air out
   Facing facing = Facing::kUp;
-  Mesh mesh;  // without name and material
+  SampleMesh mesh;  // without name and material
 };
 inline constexpr int kOutside = -1;
 

@@ -47,7 +47,7 @@ void append(void* context, void* data, int size) {
 }
 
 // color(u, v): sRGB in [0,1] at texel centres, v downwards.
-Texture paint(std::string name, int size, const std::function<Vec3(float, float)>& color) {
+PngTexture paint(std::string name, int size, const std::function<Vec3(float, float)>& color) {
   std::vector<std::uint8_t> texels;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -58,7 +58,7 @@ Texture paint(std::string name, int size, const std::function<Vec3(float, float)
       }
     }
   }
-  Texture texture{std::move(name), {}};
+  PngTexture texture{std::move(name), {}};
   stbi_write_png_to_func(append, &texture.png, size, size, 3, texels.data(), size * 3);
   return texture;
 }
@@ -70,7 +70,7 @@ Vec3 hex(std::uint32_t rgb) {
 
 }  // namespace
 
-Texture dark_tiles(int size) {
+PngTexture dark_tiles(int size) {
   return paint("dark tiles", size, [](float u, float v) {
     const float x = u * 4, y = v * 4;
     const int ix = static_cast<int>(x), iy = static_cast<int>(y);
@@ -84,7 +84,7 @@ Texture dark_tiles(int size) {
   });
 }
 
-Texture oak_planks(int size) {
+PngTexture oak_planks(int size) {
   return paint("oak planks", size, [](float u, float v) {
     const float x = u * 8;
     const int plank = static_cast<int>(x);
@@ -98,7 +98,7 @@ Texture oak_planks(int size) {
   });
 }
 
-Texture painting_blocks(int size) {
+PngTexture painting_blocks(int size) {
   struct Rect {
     float x0, y0, x1, y1;
     std::uint32_t color;
@@ -119,7 +119,7 @@ Texture painting_blocks(int size) {
   });
 }
 
-Texture painting_hills(int size) {
+PngTexture painting_hills(int size) {
   return paint("painting hills", size, [](float u, float v) {
     Vec3 color = glm::mix(hex(0x2B4C7E), hex(0xF3B06A), std::clamp(v * 1.7f, 0.0f, 1.0f));
     const float sun = glm::length(Vec2(u - 0.68f, v - 0.42f));
@@ -135,7 +135,7 @@ Texture painting_hills(int size) {
   });
 }
 
-Texture painting_circles(int size) {
+PngTexture painting_circles(int size) {
   struct Ring {
     float x, y, r, width;
     std::uint32_t color;
@@ -156,7 +156,7 @@ Texture painting_circles(int size) {
   });
 }
 
-Texture painting_stripes(int size) {
+PngTexture painting_stripes(int size) {
   static constexpr std::array<std::uint32_t, 5> kColors{0x0E7C7B, 0xD4F4DD, 0xD62246, 0x4B1D3F, 0x17BEBB};
   return paint("painting stripes", size, [](float u, float v) {
     const float x = u * 14 + 0.35f * smooth_noise(u, v, 8, 21);

@@ -54,7 +54,7 @@ double eased(double t, double ease) {
 
 }  // namespace
 
-Path walk_along(std::string name, std::span<const Vec3> waypoints, const WalkOptions& options) {
+Path walk_along(std::string name, std::span<const Vec3> waypoints, const TrackOptions& options) {
   ORIEL_CHECK_LE(std::size_t{2}, waypoints.size());
   const Line line = rounded(waypoints, options.corner_radius);
   const double total = line.lengths.back();

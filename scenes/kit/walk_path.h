@@ -7,7 +7,7 @@
 
 namespace oriel::sample {
 
-struct WalkOptions {
+struct TrackOptions {
   int frames = 600;
   double frames_per_second = 30;
   double corner_radius = 1.2;  // m: how far from a waypoint the path starts to turn
@@ -18,6 +18,6 @@ struct WalkOptions {
 
 // Straight lines between the waypoints (eye positions, at least two, distinct neighbours) with parabolic corners,
 // walked at constant speed but for the ends.
-Path walk_along(std::string name, std::span<const Vec3> waypoints, const WalkOptions& options = {});
+Path walk_along(std::string name, std::span<const Vec3> waypoints, const TrackOptions& options = {});
 
 }  // namespace oriel::sample

@@ -21,18 +21,18 @@ constexpr int kSupersampling = 2;
 
 // A polished floor of a dielectric, seen flat, under a lamp between it and a wall: its highlight lies to the eye's side
 // of the mirror direction all along the floor.
-sample::Scene floor_under_lamp() {
-  sample::Scene scene;
+sample::SampleScene floor_under_lamp() {
+  sample::SampleScene scene;
   scene.name = "floor under a lamp";
   const auto quad = [&](const char* name, float grey, float rough, float nits, const Vec3& corner, const Vec3& a,
                         const Vec3& b) {
-    sample::Material m;
+    sample::SampleMaterial m;
     m.name = name;
     m.base_color = Vec3(grey);
     m.roughness = rough;
     m.specular = 1;
     m.emission = Vec3(nits);
-    sample::Mesh mesh{name, add_material(scene, m), {}, {}, {}, {}};
+    sample::SampleMesh mesh{name, add_material(scene, m), {}, {}, {}, {}};
     add_corners(mesh, corner, corner + a, corner + a + b, corner + b);
     place(scene, std::move(mesh));
   };
@@ -44,11 +44,11 @@ sample::Scene floor_under_lamp() {
 }
 
 // A metal floor before a wall of bright and dark bands, open to the sky.
-sample::Scene polished_floor(float roughness) {
-  sample::Scene scene;
+sample::SampleScene polished_floor(float roughness) {
+  sample::SampleScene scene;
   scene.name = "polished floor";
   const auto material = [&](const char* name, float grey, float metallic, float rough) {
-    sample::Material m;
+    sample::SampleMaterial m;
     m.name = name;
     m.base_color = Vec3(grey);
     m.metallic = metallic;
@@ -58,7 +58,7 @@ sample::Scene polished_floor(float roughness) {
   const std::uint32_t metal = material("metal", 0.9f, 1, roughness);
   const std::uint32_t band[] = {material("bright", 0.9f, 0, 1), material("dark", 0.05f, 0, 1)};
   const auto quad = [&](const std::string& name, std::uint32_t m, const Vec3& corner, const Vec3& a, const Vec3& b) {
-    sample::Mesh mesh{name, m, {}, {}, {}, {}};
+    sample::SampleMesh mesh{name, m, {}, {}, {}, {}};
     add_corners(mesh, corner, corner + a, corner + a + b, corner + b);
     place(scene, std::move(mesh));
   };
@@ -85,7 +85,7 @@ void forget_factors(const fs::path& from, const fs::path& to) {
   EXPECT_TRUE(write_pack(to, pack));
 }
 
-Errors measure(const sample::Scene& sample) {
+Errors measure(const sample::SampleScene& sample) {
   const fs::path folder = fs::temp_directory_path() / ("oriel-kernel-" + std::to_string(::getpid()));
   fs::create_directories(folder);
   const auto glb = write_glb(sample);

@@ -26,7 +26,7 @@ class Start : public testing::Test {
   }
 
   // The first frame of the scene, linear, and the world position of its camera.
-  FloatImage first_frame(const sample::Scene& scene, const std::string& options, DVec3& eye) {
+  FloatImage first_frame(const sample::SampleScene& scene, const std::string& options, DVec3& eye) {
     EXPECT_TRUE(write_file_atomically(folder_ / "scene.glb", *sample::write_glb(scene)));
     EXPECT_EQ(
         test::run(folder_, "oriel-bake scene.glb -o scene.oriel --only radiosity --verify off --no-cache " + options),
@@ -85,9 +85,9 @@ TEST_F(Start, AHouseIsSeenFromOneOfItsRooms) {
 }
 
 TEST_F(Start, AnObjectAloneIsSeenFromOutside) {
-  sample::Scene scene;
+  sample::SampleScene scene;
   scene.name = "vase";
-  sample::Mesh vase{"vase", sample::add_diffuse(scene, "clay", Vec3(0.6f, 0.4f, 0.3f)), {}, {}, {}, {}};
+  sample::SampleMesh vase{"vase", sample::add_diffuse(scene, "clay", Vec3(0.6f, 0.4f, 0.3f)), {}, {}, {}, {}};
   sample::add_sphere(vase, Vec3(0, 0.2f, 0), 0.2f, 24, 12);
   sample::place(scene, std::move(vase));
   DVec3 eye(0);

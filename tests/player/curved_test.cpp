@@ -242,8 +242,8 @@ TEST_F(CurvedFrames, MarchAlikeOnBothSides) {
   const auto program = gpu::Program::create_from(
       "test", *gpu::assemble_shader("passes/screen/fullscreen.vert", gpu::Dialect::kDesktop330), fragment);
   ASSERT_TRUE(program) << program.error().text();
-  const gpu::Texture from(gpu::kRgba32f, kRays, 1, origins.data()), to(gpu::kRgba32f, kRays, 1, directions.data());
-  const gpu::Texture out(gpu::kRgba32f, kRays, 1, nullptr);
+  const gpu::Texture2d from(gpu::kRgba32f, kRays, 1, origins.data()), to(gpu::kRgba32f, kRays, 1, directions.data());
+  const gpu::Texture2d out(gpu::kRgba32f, kRays, 1, nullptr);
   const auto framebuffer = gpu::Framebuffer::create("test", &out, nullptr);
   ASSERT_TRUE(framebuffer);
   const gpu::VertexArray no_vertices = gpu::make_vertex_array();

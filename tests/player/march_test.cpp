@@ -261,8 +261,8 @@ void main() {
 )";
   const auto program = gpu::Program::create_from("march", *vertex, fragment);
   ASSERT_TRUE(program) << program.error().text();
-  const gpu::Texture a(gpu::kRgba32f, kRays, 1, starts.data()), b(gpu::kRgba32f, kRays, 1, directions.data());
-  const gpu::Texture out(gpu::kRgba32f, kRays, 1, nullptr);
+  const gpu::Texture2d a(gpu::kRgba32f, kRays, 1, starts.data()), b(gpu::kRgba32f, kRays, 1, directions.data());
+  const gpu::Texture2d out(gpu::kRgba32f, kRays, 1, nullptr);
   const auto framebuffer = gpu::Framebuffer::create("test", &out, nullptr);
   const gpu::VertexArray vertices = gpu::make_vertex_array();
   glBindVertexArray(vertices.name());

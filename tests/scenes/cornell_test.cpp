@@ -9,7 +9,7 @@ namespace {
 using namespace testing;
 
 TEST(Cornell, HasThePublishedMeasurements) {
-  const Scene scene = make_cornell();
+  const SampleScene scene = make_cornell();
   EXPECT_EQ(triangle_count(scene), 38u);
   Vec3 low(1e9f), high(-1e9f);
   double light_area = 0, short_top = 0;
@@ -27,7 +27,7 @@ TEST(Cornell, HasThePublishedMeasurements) {
 }
 
 TEST(Cornell, InMillimetresItHasThePublishedNumbers) {
-  Scene scene = make_cornell();
+  SampleScene scene = make_cornell();
   scale_scene(scene, 1000);
   Vec3 high(0);
   for (const Triangle& t : flatten(scene))
@@ -37,9 +37,9 @@ TEST(Cornell, InMillimetresItHasThePublishedNumbers) {
 }
 
 TEST(Cornell, IsSoundAndDiffuse) {
-  const Scene scene = make_cornell();
+  const SampleScene scene = make_cornell();
   for (const Triangle& t : flatten(scene)) EXPECT_EQ(fault(t), "") << scene.nodes[t.node].name;
-  for (const Material& material : scene.materials) {
+  for (const SampleMaterial& material : scene.materials) {
     EXPECT_EQ(material.metallic, 0);
     EXPECT_EQ(material.roughness, 1);
     EXPECT_EQ(material.specular, 0);
@@ -48,7 +48,7 @@ TEST(Cornell, IsSoundAndDiffuse) {
 }
 
 TEST(Cornell, ShowsOnlyFrontsAndIsOpenOnlyToTheCamera) {
-  const Scene scene = make_cornell();
+  const SampleScene scene = make_cornell();
   const auto triangles = flatten(scene);
   int hits = 0;
   for (const Vec3& eye : {Vec3(0.278f, 0.45f, 0.28f), Vec3(0.06f, 0.3f, 0.4f), Vec3(0.278f, 0.273f, 0.05f)}) {

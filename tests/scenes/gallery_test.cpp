@@ -11,8 +11,8 @@ namespace {
 
 using namespace testing;
 
-const Scene& gallery() {
-  static const Scene scene = make_gallery();
+const SampleScene& gallery() {
+  static const SampleScene scene = make_gallery();
   return scene;
 }
 const std::vector<Triangle>& gallery_triangles() {
@@ -21,9 +21,9 @@ const std::vector<Triangle>& gallery_triangles() {
 }
 
 TEST(Gallery, FloorIsAsRoughAsAsked) {
-  const auto tiles = [](const Scene& scene) {
+  const auto tiles = [](const SampleScene& scene) {
     return std::find_if(scene.materials.begin(), scene.materials.end(),
-                        [](const Material& m) { return m.name == "polished tiles"; })
+                        [](const SampleMaterial& m) { return m.name == "polished tiles"; })
         ->roughness;
   };
   EXPECT_FLOAT_EQ(tiles(gallery()), 0.1f);
@@ -31,7 +31,7 @@ TEST(Gallery, FloorIsAsRoughAsAsked) {
 }
 
 TEST(Gallery, HasWhatItPromises) {
-  const Scene& scene = gallery();
+  const SampleScene& scene = gallery();
   EXPECT_GE(triangle_count(scene), 20'000u);
   EXPECT_LE(triangle_count(scene), 60'000u);
   std::set<std::string> nodes;
@@ -41,7 +41,7 @@ TEST(Gallery, HasWhatItPromises) {
     EXPECT_TRUE(nodes.contains(name)) << name;
   }
   std::set<std::string> cameras;
-  for (const Camera& camera : scene.cameras) cameras.insert(camera.name);
+  for (const SampleCamera& camera : scene.cameras) cameras.insert(camera.name);
   for (const char* name : {"entrance", "mirror", "floor", "doorway", "stairs"})
     EXPECT_TRUE(cameras.contains(name)) << name;
   const auto material_of = [&](const char* name) {
@@ -65,7 +65,7 @@ TEST(Gallery, HasNoCoplanarOverlaps) {
 }
 
 TEST(Gallery, IsClosedAndShowsOnlyFronts) {
-  const Scene& scene = gallery();
+  const SampleScene& scene = gallery();
   std::vector<Vec3> eyes{Vec3(1, 0.3f, 7.7f), Vec3(11, 2.9f, 7), Vec3(6.5f, 3, -8)};
   for (std::size_t i = 0; i < 600; i += 100) eyes.push_back(scene.paths[0].eyes[i]);
   for (const Vec3& eye : eyes) {

@@ -64,7 +64,7 @@ std::vector<double> read_accessor(const Parsed& parsed, const nlohmann::json& ac
   return values;
 }
 
-void expect_valid(const Scene& scene) {
+void expect_valid(const SampleScene& scene) {
   SCOPED_TRACE(scene.name);
   const auto bytes = write_glb(scene);
   ASSERT_TRUE(bytes) << bytes.error().text();
@@ -97,11 +97,11 @@ void expect_valid(const Scene& scene) {
   EXPECT_EQ(*bytes, *write_glb(scene)) << "not deterministic";
 }
 
-Scene one_quad() {
-  Scene scene;
+SampleScene one_quad() {
+  SampleScene scene;
   scene.name = "quad";
-  add_material(scene, Material{});
-  Mesh mesh{"quad", 0, {}, {}, {}, {}};
+  add_material(scene, SampleMaterial{});
+  SampleMesh mesh{"quad", 0, {}, {}, {}, {}};
   add_quad(mesh, Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   place(scene, std::move(mesh));
   return scene;
@@ -127,8 +127,8 @@ TEST(Glb, GeneratorsAreDeterministic) {
 }
 
 TEST(Glb, AnotherUnitChangesNothingButSize) {
-  const Scene metres = make_gallery();
-  Scene scene = metres;
+  const SampleScene metres = make_gallery();
+  SampleScene scene = metres;
   scale_scene(scene, 1000);
   expect_valid(scene);
   EXPECT_EQ(scene.meshes[0].positions[1], 1000.0f * metres.meshes[0].positions[1]);
@@ -144,8 +144,8 @@ TEST(Glb, AnotherUnitChangesNothingButSize) {
 }
 
 TEST(Glb, LargeMeshesHaveWideIndices) {
-  Scene scene = one_quad();
-  Mesh& mesh = scene.meshes[0];
+  SampleScene scene = one_quad();
+  SampleMesh& mesh = scene.meshes[0];
   mesh.positions.clear();
   mesh.normals.clear();
   mesh.indices.clear();
@@ -156,24 +156,24 @@ TEST(Glb, LargeMeshesHaveWideIndices) {
 
 TEST(Glb, RefusesAnInconsistentScene) {
   const auto refused = [](auto&& change, const char* why) {
-    Scene scene = one_quad();
+    SampleScene scene = one_quad();
     change(scene);
     const auto bytes = write_glb(scene);
     ASSERT_FALSE(bytes) << why;
     EXPECT_EQ(bytes.error().code, ErrorCode::kInvalid) << why;
   };
-  refused([](Scene& s) { s.meshes[0].indices[0] = 4; }, "index out of range");
-  refused([](Scene& s) { s.meshes[0].indices.pop_back(); }, "two thirds of a triangle");
-  refused([](Scene& s) { s.meshes[0].normals.pop_back(); }, "a normal too few");
-  refused([](Scene& s) { s.meshes[0].material = 1; }, "no such material");
-  refused([](Scene& s) { s.nodes[0].mesh = 1; }, "no such mesh");
-  refused([](Scene& s) { s.materials[0].texture = 0; }, "a texture that is not there");
-  refused([](Scene& s) { s.meshes[0].positions[0].x = NAN; }, "not a number");
-  refused([](Scene& s) { s.paths.emplace_back(); }, "a path without keys");
+  refused([](SampleScene& s) { s.meshes[0].indices[0] = 4; }, "index out of range");
+  refused([](SampleScene& s) { s.meshes[0].indices.pop_back(); }, "two thirds of a triangle");
+  refused([](SampleScene& s) { s.meshes[0].normals.pop_back(); }, "a normal too few");
+  refused([](SampleScene& s) { s.meshes[0].material = 1; }, "no such material");
+  refused([](SampleScene& s) { s.nodes[0].mesh = 1; }, "no such mesh");
+  refused([](SampleScene& s) { s.materials[0].texture = 0; }, "a texture that is not there");
+  refused([](SampleScene& s) { s.meshes[0].positions[0].x = NAN; }, "not a number");
+  refused([](SampleScene& s) { s.paths.emplace_back(); }, "a path without keys");
 }
 
 TEST(Glb, CamerasLookTheirWay) {
-  Scene scene = one_quad();
+  SampleScene scene = one_quad();
   for (const Vec3& forward : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0),
                               Vec3(0, -1, 0), Vec3(0.6f, -0.64f, 0.48f), Vec3(-0.6f, 0.48f, -0.64f)}) {
     scene.cameras.push_back({"camera", Vec3(1, 2, 3), Vec3(1, 2, 3) + forward, 1});

@@ -33,7 +33,7 @@ TEST(House, HasTheReflectorsAskedFor) {
     ASSERT_TRUE(house) << house.error().text();
     int found = 0;
     for (const Node& node : house->nodes) {
-      const Material& material = house->materials[house->meshes[node.mesh].material];
+      const SampleMaterial& material = house->materials[house->meshes[node.mesh].material];
       if (material.specular > 0 && material.roughness < 0.5f) ++found;
     }
     EXPECT_EQ(found, reflectors);
@@ -57,7 +57,7 @@ TEST(House, IsSoundAtEverySize) {
     const auto house = make_house({wanted, 5});
     ASSERT_TRUE(house);
     // Instances repeat their mesh: one of each is enough.
-    Scene once = *house;
+    SampleScene once = *house;
     once.nodes.clear();
     for (std::uint32_t i = 0; i < once.meshes.size(); ++i) place(once, i, once.meshes[i].name, Vec3(0));
     for (const Triangle& t : flatten(once)) ASSERT_EQ(fault(t), "") << once.nodes[t.node].name << " of " << wanted;

@@ -10,14 +10,14 @@ namespace {
 
 using namespace testing;
 
-Scene scene_of(Mesh mesh) {
-  Scene scene;
-  add_material(scene, Material{});
+SampleScene scene_of(SampleMesh mesh) {
+  SampleScene scene;
+  add_material(scene, SampleMaterial{});
   place(scene, std::move(mesh));
   return scene;
 }
 
-void expect_sound(const Mesh& mesh) {
+void expect_sound(const SampleMesh& mesh) {
   const auto triangles = flatten(scene_of(mesh));
   ASSERT_FALSE(triangles.empty());
   for (const Triangle& t : triangles) ASSERT_EQ(fault(t), "");
@@ -40,9 +40,9 @@ TEST(Probe, SeesEachFault) {
   Triangle turned = t;
   turned.normals[1] = Vec3(0, 0, -1);
   EXPECT_NE(fault(turned), "");
-  Scene scene;
-  add_material(scene, Material{});
-  Mesh a{"a", 0, {}, {}, {}, {}}, b{"b", 0, {}, {}, {}, {}}, c{"c", 0, {}, {}, {}, {}};
+  SampleScene scene;
+  add_material(scene, SampleMaterial{});
+  SampleMesh a{"a", 0, {}, {}, {}, {}}, b{"b", 0, {}, {}, {}, {}}, c{"c", 0, {}, {}, {}, {}};
   add_quad(a, Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   add_quad(b, Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   place(scene, a);
@@ -55,29 +55,29 @@ TEST(Probe, SeesEachFault) {
 
 TEST(Shapes, AreSoundAndFaceOutwards) {
   for (const int n : {1, 2, 3, 7, 40}) {
-    Mesh mesh{"box", 0, {}, {}, {}, {}};
+    SampleMesh mesh{"box", 0, {}, {}, {}, {}};
     add_rounded_box(mesh, Vec3(1, 2, 3), Vec3(1, 0.5f, 2), 0.1f, n);
     expect_sound(mesh);
     EXPECT_EQ(mesh.triangle_count(), static_cast<std::size_t>(12 * n * n));
     EXPECT_GT(volume(flatten(scene_of(mesh))), n < 3 ? 0.5 : 0.85) << n;
   }
-  Mesh sphere{"sphere", 0, {}, {}, {}, {}};
+  SampleMesh sphere{"sphere", 0, {}, {}, {}, {}};
   add_sphere(sphere, Vec3(0), 1, 64, 32);
   expect_sound(sphere);
   const auto ball = flatten(scene_of(sphere));
   EXPECT_NEAR(volume(ball), 4 * kPiD / 3, 0.03);
   EXPECT_EQ(open_edges(ball), 0u);
   for (const Vec3& p : sphere.positions) EXPECT_NEAR(glm::length(p), 1, 1e-6);
-  Mesh shaft{"shaft", 0, {}, {}, {}, {}};
+  SampleMesh shaft{"shaft", 0, {}, {}, {}, {}};
   add_fluted_shaft(shaft, Vec3(0), {});
   expect_sound(shaft);
-  Mesh frame{"frame", 0, {}, {}, {}, {}};
+  SampleMesh frame{"frame", 0, {}, {}, {}, {}};
   add_frame(frame, 1, 0.7f, 0.05f, 0.03f, 0.01f);
   expect_sound(frame);
 }
 
 TEST(Shapes, AQuadThatIsNotPlanarIsFlatShaded) {
-  Mesh mesh{"bent", 0, {}, {}, {}, {}};
+  SampleMesh mesh{"bent", 0, {}, {}, {}, {}};
   add_corners(mesh, Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0.3f), Vec3(0, 1, 0));
   expect_sound(mesh);
   EXPECT_EQ(mesh.positions.size(), 6u);
@@ -88,8 +88,8 @@ TEST(SolidGrid, BuildingsAreClosed) {
                                      {Vec3(0.2f), Vec3(2.4f, 2.8f, 3.8f), false, 1},
                                      {Vec3(2.6f, 0.2f, 0.2f), Vec3(4.8f, 2.8f, 3.8f), false, 2},
                                      {Vec3(2.4f, 0.2f, 1), Vec3(2.6f, 2.2f, 2), false, 3}};
-  Scene scene;
-  add_material(scene, Material{});
+  SampleScene scene;
+  add_material(scene, SampleMaterial{});
   std::vector<std::pair<int, int>> tags;
   for (SolidPatch& patch : boundary_patches(blocks)) {
     tags.emplace_back(patch.air_tag, static_cast<int>(patch.facing));

@@ -13,7 +13,7 @@ struct Extent {
   Vec3 lower{1e9f}, upper{-1e9f};
 };
 
-Extent extent_of(const Scene& scene, const std::string& name) {
+Extent extent_of(const SampleScene& scene, const std::string& name) {
   Extent extent;
   for (const Triangle& t : flatten(scene))
     if (scene.nodes[t.node].name == name)
@@ -22,11 +22,11 @@ Extent extent_of(const Scene& scene, const std::string& name) {
 }
 
 TEST(Panels, IsSoundAndClosed) {
-  const Scene scene = make_panels();
+  const SampleScene scene = make_panels();
   const auto triangles = flatten(scene);
   for (const Triangle& t : triangles) EXPECT_EQ(fault(t), "") << scene.nodes[t.node].name;
   EXPECT_EQ(coplanar_overlaps(scene), std::vector<std::string>{});
-  for (const Camera& camera : scene.cameras)
+  for (const SampleCamera& camera : scene.cameras)
     for (const Vec3& direction : directions(500)) {
       const auto seen = cast(triangles, camera.eye, direction);
       ASSERT_TRUE(seen) << "a hole seen from " << camera.name;
@@ -35,7 +35,7 @@ TEST(Panels, IsSoundAndClosed) {
 }
 
 TEST(Panels, EverySectionIsAsProudAsItsNameSays) {
-  const Scene scene = make_panels();
+  const SampleScene scene = make_panels();
   for (const int proud : kProud_mm) {
     const double metres = 1e-3 * proud;
     for (const char* what : {"panel", "skirting"}) {
@@ -50,9 +50,9 @@ TEST(Panels, EverySectionIsAsProudAsItsNameSays) {
 }
 
 TEST(Panels, EveryCameraSeesItsEdges) {
-  const Scene scene = make_panels();
+  const SampleScene scene = make_panels();
   const auto triangles = flatten(scene);
-  for (const Camera& camera : scene.cameras) {
+  for (const SampleCamera& camera : scene.cameras) {
     const Vec3 forward = glm::normalize(camera.target - camera.eye);
     int seen_of_it = 0;
     for (const Vec3& direction : directions(8000)) {

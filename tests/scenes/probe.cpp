@@ -9,11 +9,11 @@
 
 namespace oriel::sample::testing {
 
-std::vector<Triangle> flatten(const Scene& scene) {
+std::vector<Triangle> flatten(const SampleScene& scene) {
   std::vector<Triangle> triangles;
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];
-    const Mesh& mesh = scene.meshes[node.mesh];
+    const SampleMesh& mesh = scene.meshes[node.mesh];
     const double c = std::cos(node.yaw_rad), s = std::sin(node.yaw_rad);
     const auto turn = [&](const Vec3& v) { return Vec3(DVec3(c * v.x + s * v.z, v.y, -s * v.x + c * v.z)); };
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -115,7 +115,7 @@ std::array<DVec2, 3> flattened(const Triangle& t, int drop) {
 
 }  // namespace
 
-std::vector<std::string> coplanar_overlaps(const Scene& scene) {
+std::vector<std::string> coplanar_overlaps(const SampleScene& scene) {
   const std::vector<Triangle> triangles = flatten(scene);
   // Planes by their unsigned normal and offset: faces of either side.
   using Key = std::array<long, 4>;

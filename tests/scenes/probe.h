@@ -17,7 +17,7 @@ struct Triangle {
   DVec3 cross() const { return glm::cross(DVec3(p[1]) - DVec3(p[0]), DVec3(p[2]) - DVec3(p[0])); }
 };
 
-std::vector<Triangle> flatten(const Scene& scene);
+std::vector<Triangle> flatten(const SampleScene& scene);
 
 // What is wrong with a triangle: no area, a normal that is not unit or on its back. Empty where nothing is.
 std::string fault(const Triangle& triangle);
@@ -35,7 +35,7 @@ double distance_to(const Triangle& triangle, const Vec3& point);
 double clearance(const std::vector<Triangle>& triangles, const Vec3& point);
 
 // Pairs of nodes with triangles in one plane (within 0.1 mm) that overlap by more than 1 mm², as "a / b".
-std::vector<std::string> coplanar_overlaps(const Scene& scene);
+std::vector<std::string> coplanar_overlaps(const SampleScene& scene);
 
 // Directed edges without their reverse, vertices being equal where their coordinates are: 0 for closed surfaces.
 std::size_t open_edges(const std::vector<Triangle>& triangles);

@@ -12,20 +12,20 @@ constexpr RoomOptions kLandscape{.closed = false}, kWithDoor{.closed = false, .d
     kAlone{.closed = false, .surroundings = false};
 constexpr Vec3 kMiddle{3, 1.6f, 3};
 
-const std::string& name_of(const Scene& scene, const std::vector<Triangle>& triangles, const Seen& seen) {
+const std::string& name_of(const SampleScene& scene, const std::vector<Triangle>& triangles, const Seen& seen) {
   return scene.nodes[triangles[seen.triangle].node].name;
 }
 
 TEST(Room, IsSoundWhateverIsAroundIt) {
   for (const RoomOptions& options : {RoomOptions{}, kLandscape, kWithDoor, kAlone}) {
-    const Scene scene = make_room(options);
+    const SampleScene scene = make_room(options);
     for (const Triangle& t : flatten(scene)) ASSERT_EQ(fault(t), "") << scene.nodes[t.node].name;
     EXPECT_EQ(coplanar_overlaps(scene), std::vector<std::string>{});
   }
 }
 
 TEST(Room, ClosedItHasNoCameraAndShowsFrontsOnly) {
-  const Scene scene = make_room();
+  const SampleScene scene = make_room();
   EXPECT_TRUE(scene.cameras.empty());
   EXPECT_TRUE(scene.paths.empty());
   const auto triangles = flatten(scene);
@@ -38,7 +38,7 @@ TEST(Room, ClosedItHasNoCameraAndShowsFrontsOnly) {
 
 TEST(Room, InALandscapeNoSightLeavesTheDome) {
   for (const RoomOptions& options : {kLandscape, kWithDoor}) {
-    const Scene scene = make_room(options);
+    const SampleScene scene = make_room(options);
     const auto triangles = flatten(scene);
     for (const Vec3& direction : directions(500)) {
       const auto seen = cast(triangles, scene.cameras[0].eye, direction);
@@ -60,7 +60,7 @@ TEST(Room, InALandscapeNoSightLeavesTheDome) {
 }
 
 TEST(Room, TheSurroundingsAreAsLargeAsSaid) {
-  const Scene scene = make_room(kLandscape);
+  const SampleScene scene = make_room(kLandscape);
   double ground = 0, top = 0;
   for (const Triangle& t : flatten(scene)) {
     if (scene.nodes[t.node].name == "ground") ground += 0.5 * glm::length(t.cross());
@@ -71,7 +71,7 @@ TEST(Room, TheSurroundingsAreAsLargeAsSaid) {
 }
 
 TEST(Room, TheSurroundingsCanBeLeftOutAndNothingElseChanges) {
-  const Scene all = make_room(kLandscape), alone = make_room(kAlone);
+  const SampleScene all = make_room(kLandscape), alone = make_room(kAlone);
   ASSERT_EQ(all.nodes.size(), alone.nodes.size() + 2);
   for (std::size_t i = 0; i < alone.nodes.size(); ++i) {
     EXPECT_EQ(all.nodes[i].name, alone.nodes[i].name);
@@ -84,7 +84,7 @@ TEST(Room, TheSurroundingsCanBeLeftOutAndNothingElseChanges) {
 
 TEST(Room, OneCanWalkOutByTheDoor) {
   const auto walls = flatten(make_room(kLandscape));
-  const Scene scene = make_room(kWithDoor);
+  const SampleScene scene = make_room(kWithDoor);
   const auto triangles = flatten(scene);
   const Vec3 eye(5, 1, 3.7f), out(1, 0, 0);
   EXPECT_LT(cast(walls, eye, out)->distance, 1.1);

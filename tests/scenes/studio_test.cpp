@@ -9,7 +9,7 @@ namespace {
 using namespace testing;
 
 TEST(Studio, IsSoundAndClosed) {
-  const Scene scene = make_studio();
+  const SampleScene scene = make_studio();
   const auto triangles = flatten(scene);
   for (const Triangle& t : triangles) EXPECT_EQ(fault(t), "") << scene.nodes[t.node].name;
   EXPECT_TRUE(coplanar_overlaps(scene).empty());
@@ -21,9 +21,9 @@ TEST(Studio, IsSoundAndClosed) {
 }
 
 TEST(Studio, HoldsWhatCurvedReflectorsNeed) {
-  const Scene scene = make_studio();
+  const SampleScene scene = make_studio();
   int metals = 0, lamps = 0;
-  for (const Material& material : scene.materials) {
+  for (const SampleMaterial& material : scene.materials) {
     metals += material.metallic > 0;
     lamps += material.emission.r > 0;
   }

@@ -285,7 +285,7 @@ class CachedEstimator : public LightEstimator {
     for (;;) {
       const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
                                 static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
-      Part gathered =
+      const Part gathered =
           part({gathered_.samples, most_gathered(), kGatherGain, kGatherCost * static_cast<double>(gather_rays_),
                 frames_.squares(light(), estimate_.variance)});
       double now = direct.mean + gathered.mean;

@@ -51,7 +51,6 @@ class DirectGroup {
       sums.value[list_[i]] = tallies_[i].total;
       sums.difference[list_[i]] = tallies_[i].difference;
       sums.variance[list_[i]] = tallies_[i].variance;
-      sums.sampled[list_[i]] = tallies_[i].sampled;
       sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
       sums.per_half[list_[i]] = per_half_;
       if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
@@ -74,8 +73,8 @@ class DirectGroup {
   // By texel. Of the light at hand, by half: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
   struct Tally {
     std::array<Vec3, kHalves> open{}, weight{}, passed{};
-    Vec4 from{0};                            // Σ moments of weights * transmittance, by luminance
-    Vec3 total{0}, variance{0}, sampled{0};  // of all lights so far
+    Vec4 from{0};                // Σ moments of weights * transmittance, by luminance
+    Vec3 total{0}, variance{0};  // of all lights so far
     Vec4 moments{0};
     Vec3 difference{0};  // of the halves' light
     Vec3 uneven{0};      // what the halves' points differ by, all lights together
@@ -219,7 +218,7 @@ class DirectGroup {
       t.total += value;
       add_moments(t, value);
       const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
-      t.sampled += 0.25f * difference * difference;
+      t.variance += 0.25f * difference * difference;
       t.difference += difference;
       forget_light(t);
     }
@@ -275,7 +274,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   };
   loop.results = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
-      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.sampled[t], sums.uneven[t], sums.per_half[t]);
+      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
     }
   };
@@ -286,7 +285,7 @@ void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share
   constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
   const float least = std::max(share, kUneven);
   const auto uncertain = [&](std::uint32_t i) {
-    const Vec3 noise = sums.variance[i] + sums.sampled[i], light2 = sums.value[i] * sums.value[i];
+    const Vec3 noise = sums.variance[i], light2 = sums.value[i] * sums.value[i];
     return max_component(noise - share * share * light2) > 0 ||
            max_component(noise + sums.uneven[i] - least * least * light2) > 0;
   };

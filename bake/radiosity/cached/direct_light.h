@@ -9,10 +9,9 @@ namespace oriel {
 // What the direct estimate of a texel knows. Lux.
 struct DirectSums {
   std::vector<Vec3> value;
-  std::vector<Vec3> difference;         // of its halves, which share neither points nor rays
-  std::vector<Vec3> variance;           // of value's closed forms, predicted from the mix of lit and dark samples
-  std::vector<Vec3> sampled;            // of the rest, from one difference of halves
-  std::vector<Vec3> uneven;             // of the closed forms' means over the texel, likewise from one difference
+  std::vector<Vec3> difference;  // of its halves, which share neither points nor rays
+  std::vector<Vec3> variance;    // of value: closed forms by their mix of lit and dark samples, the rest by halves
+  std::vector<Vec3> uneven;      // of the closed forms' means over the texel, likewise from one difference
   std::vector<std::uint32_t> per_half;  // samples of each half for each light
   std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless asked for
 
@@ -20,14 +19,13 @@ struct DirectSums {
       : value(texels),
         difference(texels),
         variance(texels),
-        sampled(texels),
         uneven(texels),
         per_half(texels),
         moments(directional ? texels : 0) {}
 
   void take(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];
-    variance[i] = from.variance[k], sampled[i] = from.sampled[k], uneven[i] = from.uneven[k];
+    variance[i] = from.variance[k], uneven[i] = from.uneven[k];
     if (!from.moments.empty()) moments[i] = from.moments[k];
     per_half[i] = from.per_half[k];
   }

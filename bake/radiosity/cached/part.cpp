@@ -1,7 +1,6 @@
 #include "bake/radiosity/cached/part.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace oriel {
 namespace {
@@ -20,7 +19,7 @@ void Part::measure(std::span<const std::uint32_t> texels, double share) {
     if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
   }
   if (share > 0) mean /= share, stuck /= share;
-  if (all > 0) rays *= 1 - all_stuck / all;
+  open_rays = all > 0 ? rays * (1 - all_stuck / all) : rays;
 }
 
 std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,

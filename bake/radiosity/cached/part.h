@@ -14,12 +14,12 @@ struct Part {
 
   // Over the pixels that show `texels`, which are so large a share of all.
   void measure(std::span<const std::uint32_t> texels, double share);
-  // The mean square, and of it what has all its samples and stays; `rays` becomes those of the rest.
-  double mean = 0, stuck = 0;
+  double mean = 0, stuck = 0;  // the mean square, and of it what has all its samples and stays
+  double open_rays = 0;        // of `rays` those of the rest
   double open() const { return mean - stuck; }
 
   // Where errors fall with the rays spent on them, those do most that are spent where this is larger.
-  bool pays_more_than(const Part& other) const { return open() * other.rays > other.open() * rays; }
+  bool pays_more_than(const Part& other) const { return open() * other.open_rays > other.open() * open_rays; }
 };
 
 // Those of the measured texels (in coherent_order) whose refinement brings the part nearer to its share of the goal, as

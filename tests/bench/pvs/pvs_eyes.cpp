@@ -70,8 +70,8 @@ class Numbers {
     Numbers out(pack);
     ORIEL_TRY(out.program_,
               gpu::Program::create_from("numbers", {"numbers.vert", kVertex, {}}, {"numbers.frag", kFragment, {}}));
-    out.color_ = gpu::Texture(gpu::kRgba8, kWidth, kHeight, nullptr);
-    out.depth_ = gpu::Texture(gpu::kDepth32f, kWidth, kHeight, nullptr);
+    out.color_ = gpu::Texture2d(gpu::kRgba8, kWidth, kHeight, nullptr);
+    out.depth_ = gpu::Texture2d(gpu::kDepth32f, kWidth, kHeight, nullptr);
     ORIEL_TRY(out.target_, gpu::Framebuffer::create("numbers", &out.color_, &out.depth_));
     out.vertex_array_ = gpu::make_vertex_array();
     glBindVertexArray(out.vertex_array_.name());
@@ -122,7 +122,7 @@ class Numbers {
   const Pack* pack_;
   Bounds bounds_;
   gpu::Program program_;
-  gpu::Texture color_, depth_;
+  gpu::Texture2d color_, depth_;
   gpu::Framebuffer target_;
   gpu::VertexArray vertex_array_;
   std::vector<gpu::Buffer> buffers_;

@@ -124,7 +124,7 @@ TEST(Programs, PlacesOfEveryDriverAreNamed) {
 TEST(Framebuffers, AnImpossibleOneIsRefused) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context);
-  const gpu::Texture color(gpu::kRgba8, 4, 4, nullptr);
+  const gpu::Texture2d color(gpu::kRgba8, 4, 4, nullptr);
   const auto wrong = gpu::Framebuffer::create("a test", nullptr, &color);  // colour as depth
   ASSERT_FALSE(wrong);
   EXPECT_NE(wrong.error().text().find("a test: found framebuffer status"), std::string::npos) << wrong.error().text();
@@ -147,8 +147,8 @@ std::vector<Vec4> run_shader(const std::string& library, const std::string& body
   EXPECT_TRUE(program) << (program ? "" : program.error().text());
   if (!program) return {};
   const int count = static_cast<int>(a.size());
-  const gpu::Texture in_a(gpu::kRgba32f, count, 1, a.data()), in_b(gpu::kRgba32f, count, 1, b.data());
-  const gpu::Texture out(gpu::kRgba32f, count, 1, nullptr);
+  const gpu::Texture2d in_a(gpu::kRgba32f, count, 1, a.data()), in_b(gpu::kRgba32f, count, 1, b.data());
+  const gpu::Texture2d out(gpu::kRgba32f, count, 1, nullptr);
   const auto framebuffer = gpu::Framebuffer::create("test", &out, nullptr);
   const gpu::VertexArray vertices = gpu::make_vertex_array();
   glBindVertexArray(vertices.name());
@@ -351,7 +351,7 @@ TEST_F(SharedMaths, ReflectanceTable) {
   FresnelMap map, other;
   for (int i = 0; i < 17; ++i) map.table.emplace_back(random(0, 1), random(0, 1), random(0, 1));
   other.table.assign(30, Vec3(0.5f));
-  const gpu::Texture table = upload_reflectance_tables({other, map});
+  const gpu::Texture2d table = upload_reflectance_tables({other, map});
   std::vector<Vec4> angles;
   for (int i = 0; i <= 300; ++i) angles.emplace_back(static_cast<float>(i) / 300, 0, 0, 0);
   table.bind(2);

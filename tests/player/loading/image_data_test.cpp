@@ -112,7 +112,7 @@ TEST(TextureUpload, InSlicesIsTheSameAsAtOnce) {
   ASSERT_TRUE(context) << context.error().text();
   ASSERT_TRUE(gpu::open_device());
   const Texture texture = texture_of(37, 21, [](std::uint32_t i) { return static_cast<std::uint8_t>(i * 37 % 251); });
-  const auto pixels_of = [](const gpu::Texture& uploaded) {
+  const auto pixels_of = [](const gpu::Texture2d& uploaded) {
     std::vector<std::uint8_t> out;
     for (int level = 0; level < uploaded.levels(); ++level) {
       const int w = std::max(1, uploaded.width() >> level), h = std::max(1, uploaded.height() >> level);
