@@ -1,5 +1,6 @@
 // Baked light on a surface of the scene that stands still.
 #include "passes/surface.glsl"
+#include "lib/lightmap_uv.glsl"
 
 uniform sampler2D u_lightmap;
 uniform float u_lightmap_scale;  // lux; 0: nothing was baked
@@ -10,12 +11,12 @@ const bool u_directional = false;
 uniform bool u_directional;
 #endif
 
-centroid in vec2 v_lightmap_uv;
+centroid in vec3 v_lightmap_uv;
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.
 vec3 irradiance_on(vec3 tilted) {
-  vec3 irradiance = texture(u_lightmap, v_lightmap_uv).rgb * u_lightmap_scale;
+  vec3 irradiance = texture(u_lightmap, lightmap_uv(v_lightmap_uv)).rgb * u_lightmap_scale;
   if (!gl_FrontFacing) return vec3(0.0);
   if (!u_normal_mapped || !u_directional) return irradiance;
-  return irradiance * directional_ratio(texture(u_direction, v_lightmap_uv).xyz, tilted, front_normal());
+  return irradiance * directional_ratio(texture(u_direction, lightmap_uv(v_lightmap_uv)).xyz, tilted, front_normal());
 }

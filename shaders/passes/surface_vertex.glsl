@@ -11,7 +11,7 @@ invariant gl_Position;
 out vec3 v_position;
 out vec3 v_normal;
 out vec2 v_uv;
-centroid out vec2 v_lightmap_uv;  // beside a triangle's edge lies another chart's light
+centroid out vec3 v_lightmap_uv;  // lib/lightmap_uv.glsl
 out vec4 v_color;
 out vec2 v_normal_uv;
 out vec4 v_tangent;
@@ -21,7 +21,7 @@ void main() {
   v_position = a_position;
   v_normal = a_normal;
   v_uv = a_uv;
-  v_lightmap_uv = a_lightmap_uv;
+  v_lightmap_uv = vec3(a_lightmap_uv, 1.0 + float(min(gl_VertexID, 0)));  // 1 that no driver takes for a constant
   v_color = a_color;
   v_normal_uv = a_normal_uv;
   v_tangent = a_tangent;

@@ -1,4 +1,6 @@
 // What is known of a surface, in colours to be shown as they are.
+#include "lib/lightmap_uv.glsl"
+
 uniform sampler2D u_base_texture;
 uniform float u_alpha;
 uniform float u_alpha_cutoff;  // negative: no cut-outs
@@ -14,7 +16,7 @@ uniform vec3 u_tint;
 in vec3 v_position;
 in vec3 v_normal;
 in vec2 v_uv;
-centroid in vec2 v_lightmap_uv;
+centroid in vec3 v_lightmap_uv;
 in vec4 v_color;
 in vec2 v_normal_uv;
 in vec4 v_tangent;
@@ -31,7 +33,7 @@ vec3 plain() {
 
 void main() {
   if (u_alpha_cutoff >= 0.0 && texture(u_base_texture, v_uv).a * u_alpha * v_color.a < u_alpha_cutoff) discard;
-  vec3 shown = u_surveyed && gl_FrontFacing ? texture(u_survey, v_lightmap_uv).rgb : kNothing;
+  vec3 shown = u_surveyed && gl_FrontFacing ? texture(u_survey, lightmap_uv(v_lightmap_uv)).rgb : kNothing;
   if (u_mode == 1) shown = u_added;
   if (u_mode == 2) shown = plain();
   o_light = vec4(shown, 2.0);

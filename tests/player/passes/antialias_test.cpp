@@ -76,6 +76,40 @@ TEST_F(Antialias, ALampsEdgeIsShownBetweenWallAndWhite) {
   EXPECT_GT(between, edge(40));
 }
 
+// A floor of strips that run away from the eye, all in one lit chart of a dark page: wherever a pixel is cut by a
+// strip's edge, its light is the chart's.
+TEST_F(Antialias, LightIsReadInsideOfCharts) {
+  constexpr std::uint32_t kPage = 256, kFirst = 224, kEnd = 232;  // texels of the chart, both ways
+  Pack pack;
+  pack.materials.resize(1);
+  pack.materials[0].base_color = Vec3(0.5f), pack.materials[0].metallic = 0;
+  LightmapPage page = flat_page(Vec3(0));
+  page.width = page.height = kPage;
+  page.irradiance.assign(kPage * kPage, Vec3(0)), page.standard_error.assign(kPage * kPage, Vec3(0));
+  page.state.assign(kPage * kPage, TexelState::kValid);
+  for (std::uint32_t y = kFirst; y < kEnd; ++y)
+    for (std::uint32_t x = kFirst; x < kEnd; ++x) page.irradiance[y * kPage + x] = Vec3(kPi);
+  pack.lightmaps = {page};
+  constexpr int kStrips = 50;
+  for (int i = 0; i < kStrips; ++i)
+    add_quad(pack, {-2.0f + 4.0f * static_cast<float>(i) / kStrips, 0, 3}, {4.0f / kStrips, 0, 0}, {0, 0, -8}, 0, 0);
+  for (Vec2& uv : pack.mesh.lightmap_uvs)  // half a texel within the chart
+    uv = (static_cast<float>(kFirst) + 0.5f + uv * static_cast<float>(kEnd - kFirst - 1)) / static_cast<float>(kPage);
+  Camera camera;
+  camera.eye = {0, 0.1f, 2};
+  const Picture plain = draw(pack, camera, kSize, kSize, sampled(1));
+  const Picture smooth = draw(pack, camera, kSize, kSize, sampled(4));
+  int floor = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      if (plain.at(x, y).g < 0.49f || y + 1 == kSize) continue;
+      floor += 1;
+      if (y == 0 || plain.at(x, y - 1).g < 0.49f || plain.at(x, y + 1).g < 0.49f) continue;  // the horizon
+      EXPECT_NEAR(smooth.at(x, y).g, 0.5f, 0.002f) << x << ' ' << y;
+    }
+  EXPECT_GT(floor, 500);
+}
+
 TEST_F(Antialias, NoMoreSamplesThanTheDeviceHas) {
   const Picture most = draw(lamp_before_wall(), facing_camera(), kSize, kSize, sampled(64));
   EXPECT_GT(count(most).between, edge(40));
