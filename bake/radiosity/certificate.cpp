@@ -187,6 +187,24 @@ MeanSquare mean_square(std::span<const HeldOut> samples) {
   return {mean, 1.96 * std::sqrt(squares / (n * std::max(1.0, n - 1)))};
 }
 
+// What holds most of the squared error: a mean may be that of a few crevices.
+std::vector<WorstPixel> worst_of(std::span<const HeldOut> samples, const Scene& scene) {
+  constexpr std::size_t kMost = 8;
+  constexpr double kLeastShare = 0.01;
+  std::vector<WorstPixel> worst;
+  double sum = 0;
+  for (const HeldOut& h : samples) {
+    const double path = luminance(Vec3(h.mean())), square = h.square();
+    sum += square;
+    worst.push_back({h.pixel->triangle, point_on(scene, h.pixel->triangle, h.pixel->barycentric),
+                     path > 0 ? luminance(Vec3(h.baked)) / path - 1 : 0, square});
+  }
+  std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  while (worst.size() > kMost || (!worst.empty() && !(worst.back().share >= kLeastShare * sum))) worst.pop_back();
+  for (WorstPixel& w : worst) w.share = sum > 0 ? w.share / sum : 0;
+  return worst;
+}
+
 }  // namespace
 
 double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& estimates, const DVec3& floor2) {
@@ -222,6 +240,7 @@ Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std:
   state_bias(compared, c);
   const MeanSquare square = mean_square(compared);
   c.relative_error = std::sqrt(std::max(0.0, square.mean));
+  c.worst = worst_of(compared, transport.accel.scene());
   c.error_low = std::sqrt(std::max(0.0, square.mean - square.interval));
   c.error_high = std::sqrt(std::max(0.0, square.mean + square.interval));
   return c;

@@ -69,6 +69,14 @@ struct SeamReport {
   double moved = 0;                    // by how much, rms over all surfaces, relative to the light of each texel
 };
 
+// A pixel whose light is far off.
+struct WorstPixel {
+  std::uint32_t triangle = 0;  // that it shows
+  Vec3 position{0};            // scene space, m
+  double off = 0;              // (baked - paths) / paths, luminance
+  double share = 0;            // of the squared error of all pixels compared
+};
+
 // What unbiased paths at held-out pixels say of the light that frames show (certificate.h).
 struct Certificate {
   std::size_t pixels = 0;                // compared
@@ -81,6 +89,7 @@ struct Certificate {
   // Asked where the error was missed and that may be why; 0: not asked.
   double texel_error = 0;
   std::uint64_t rays = 0;
+  std::vector<WorstPixel> worst;  // eight at most, worst first; none holds less than a hundredth
 };
 
 // What an edit of the scene left of the light of the bake before (RadiosityOptions::reuse_error).

@@ -109,6 +109,18 @@ double largest_compression_error(const BakeFacts& f) {
   return most;
 }
 
+Json worst_json(const BakeFacts& f) {
+  Json out = Json::array();
+  for (const WorstPixel& w : f.radiosity.certificate.worst) {
+    const DVec3 p = f.scene.origin + DVec3(w.position);
+    out.push_back({{"surface", f.scene.surfaces[f.scene.triangle_surface[w.triangle]].name},
+                   {"at", {p.x, p.y, p.z}},
+                   {"off", w.off},
+                   {"share", w.share}});
+  }
+  return out;
+}
+
 // What is off by how much, part by part: asked for, stated by the estimate itself, measured on what it did not know.
 Json errors_json(const BakeFacts& f) {
   const Certificate& c = f.radiosity.certificate;
@@ -256,7 +268,8 @@ std::string plan_json(const BakeFacts& f) {
           {"relative_error_95_low", f.radiosity.certificate.error_low},
           {"relative_error_95_high", f.radiosity.certificate.error_high},
           {"texel_error", f.radiosity.certificate.texel_error},
-          {"rays", f.radiosity.certificate.rays}}},
+          {"rays", f.radiosity.certificate.rays},
+          {"worst", worst_json(f)}}},
         {"refinements", f.radiosity.refinements},
         {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},

@@ -55,6 +55,10 @@ int bench(int argc, char** argv) {
   std::printf("frame error %.2f %% (%.2f to %.2f %%), %+.2f %% ± %.2f %% brighter, %zu pixels, %.1f Mrays\n",
               100 * c->relative_error, 100 * c->error_low, 100 * c->error_high, 100 * c->bias, 100 * c->bias_interval,
               c->pixels, static_cast<double>(c->rays) * 1e-6);
+  for (const WorstPixel& w : c->worst)
+    std::printf("  %4.1f %% of its square: %+.0f %% at %.3f %.3f %.3f\n", 100 * w.share, 100 * w.off,
+                static_cast<double>(w.position.x), static_cast<double>(w.position.y),
+                static_cast<double>(w.position.z));
   return 0;
 }
 

@@ -89,6 +89,27 @@ TEST(HeldOut, TellTheErrorThatIsThere) {
   EXPECT_GE(held, kTimes - 1) << "the interval holds it";
 }
 
+// One surface is wrong: the worst pixels are its.
+TEST(HeldOut, NameTheWorst) {
+  Baked b = room(0.02);
+  const std::uint32_t wrong = b.scene.surfaces[0].first_triangle, end = wrong + b.scene.surfaces[0].triangle_count;
+  for (std::size_t p = 0; p < b.texel_map.size(); ++p)
+    for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
+      const std::uint32_t t = b.texel_map[p].fragments[b.texel_map[p].first[i]].triangle;
+      if (t >= wrong && t < end) b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]] *= 2.0f;
+    }
+  const Certificate c = certificate_of(b, 0.05, kManyRays);
+  ASSERT_GT(c.worst.size(), 3u);
+  double share = 0, last = 1;
+  for (const WorstPixel& w : c.worst) {
+    EXPECT_TRUE(w.triangle >= wrong && w.triangle < end) << w.triangle;
+    EXPECT_NEAR(w.off, 1, 0.3);
+    EXPECT_LE(w.share, last);
+    share += last = w.share;
+  }
+  EXPECT_LE(share, 1);
+}
+
 // Texels of half a metre in a room of two are right and yet no light to look at.
 TEST(HeldOut, TellOfTexelsThatAreTooLarge) {
   const auto certificate = [](float texel_m) {
