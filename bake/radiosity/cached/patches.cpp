@@ -219,8 +219,8 @@ class Solver {
   }
 
   // Adds what one sweep finds to `next`; returns the norm of the change.
-  // `share`: of each patch's own light (and `floor`), weighed by area. A sunlit wall outside is done after a bounce,
-  // and its light would drown a room's that is not.
+  // `share`: of each patch's own light (and `floor`), all patches alike, since there are as many as people look there.
+  // Sunlit ground outside is done after a bounce: by its light or by its area it would drown a room that is not.
   struct Change {
     double absolute = 0, share = 0;
   };
@@ -254,7 +254,7 @@ Solver::Change Solver::sweep_once(Context& context, const std::vector<Vec3>& now
       const Vec3 d = glm::abs(next[p] - now[p]);
       const double moved = double{d.r} + d.g + d.b, light = double{next[p].r} + next[p].g + next[p].b + floor;
       change[run].absolute += patches_[p].area_m2 * moved;
-      if (light > 0) change[run].share += patches_[p].area_m2 * moved / light;
+      if (light > 0) change[run].share += moved / light;
     }
   });
   Change total;
@@ -282,6 +282,7 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
   solution_.assign(patches_.size(), Vec3(0));
   double area = 0, scale = 0;
   for (const Patch& patch : patches_) area += patch.area_m2;
+  const auto patches = static_cast<double>(patches_.size());
   Change before;
   // A geometric tail, from the ratio q of the last two changes; the first sweep only has its own size to go by.
   const auto tail = [](double change, double q, double of) { return q < 1 ? change / of * q / (1 - q) : change / of; };
@@ -297,7 +298,7 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
     if (!(change.absolute > 0) || !(scale > 0)) return End::kDone;
     const double q = ratio(change.absolute, before.absolute), q_share = ratio(change.share, before.share);
     result.growth = q;
-    result.tail = std::max(tail(change.absolute, q, scale), tail(change.share, q_share, area));
+    result.tail = std::max(tail(change.absolute, q, scale), tail(change.share, q_share, patches));
     before = change;
     if (q < 1 && q_share < 1 && result.tail < options_.tolerance) return End::kDone;
     if (watches && q > 1 && result.count >= kPatience) return End::kGrows;
