@@ -194,10 +194,10 @@ std::vector<WorstPixel> worst_of(std::span<const HeldOut> samples, const Scene& 
   std::vector<WorstPixel> worst;
   double sum = 0;
   for (const HeldOut& h : samples) {
-    const double path = luminance(Vec3(h.mean())), square = h.square();
+    const double square = h.square();
     sum += square;
     worst.push_back({h.pixel->triangle, point_on(scene, h.pixel->triangle, h.pixel->barycentric),
-                     path > 0 ? luminance(Vec3(h.baked)) / path - 1 : 0, square});
+                     luminance(Vec3(h.baked)), luminance(Vec3(h.mean())), square});
   }
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
   while (worst.size() > kMost || (!worst.empty() && !(worst.back().share >= kLeastShare * sum))) worst.pop_back();

@@ -71,10 +71,10 @@ struct SeamReport {
 
 // A pixel whose light is far off.
 struct WorstPixel {
-  std::uint32_t triangle = 0;  // that it shows
-  Vec3 position{0};            // scene space, m
-  double off = 0;              // (baked - paths) / paths, luminance
-  double share = 0;            // of the squared error of all pixels compared
+  std::uint32_t triangle = 0;   // that it shows
+  Vec3 position{0};             // scene space, m
+  double baked = 0, paths = 0;  // luminance, cd/m²
+  double share = 0;             // of the squared error of all pixels compared
 };
 
 // What unbiased paths at held-out pixels say of the light that frames show (certificate.h).

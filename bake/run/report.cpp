@@ -115,7 +115,8 @@ Json worst_json(const BakeFacts& f) {
     const DVec3 p = f.scene.origin + DVec3(w.position);
     out.push_back({{"surface", f.scene.surfaces[f.scene.triangle_surface[w.triangle]].name},
                    {"at", {p.x, p.y, p.z}},
-                   {"off", w.off},
+                   {"baked_cd_m2", w.baked},
+                   {"measured_cd_m2", w.paths},
                    {"share", w.share}});
   }
   return out;

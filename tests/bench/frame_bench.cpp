@@ -56,9 +56,9 @@ int bench(int argc, char** argv) {
               100 * c->relative_error, 100 * c->error_low, 100 * c->error_high, 100 * c->bias, 100 * c->bias_interval,
               c->pixels, static_cast<double>(c->rays) * 1e-6);
   for (const WorstPixel& w : c->worst)
-    std::printf("  %4.1f %% of its square: %+.0f %% at %.3f %.3f %.3f\n", 100 * w.share, 100 * w.off,
-                static_cast<double>(w.position.x), static_cast<double>(w.position.y),
-                static_cast<double>(w.position.z));
+    std::printf("  %4.1f %% of its square: %.3g for %.3g cd/m2 (%+.0f %%) at %.3f %.3f %.3f\n", 100 * w.share, w.baked,
+                w.paths, 100 * (w.baked / w.paths - 1), static_cast<double>(w.position.x),
+                static_cast<double>(w.position.y), static_cast<double>(w.position.z));
   return 0;
 }
 
