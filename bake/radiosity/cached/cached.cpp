@@ -167,8 +167,9 @@ class CachedEstimator : public LightEstimator {
   // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
   // though the few samples met none.
   Status first_direct() {
-    // Closed forms do not tell where light comes from, samples do.
-    const std::uint32_t first = options_.directional ? 4 * kFirstDirect : kFirstDirect;
+    // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
+    const bool few_tell = options_.directional || direct_light_.samples_lights();
+    const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
     // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
     std::vector<std::uint32_t> crowded = order_;
@@ -187,7 +188,7 @@ class CachedEstimator : public LightEstimator {
       std::erase_if(list, [&](std::uint32_t i) {
         return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
       });
-      keep_uncertain(direct_, graph_, round == 0 ? 0 : kUncertain, list);
+      keep_uncertain(direct_, graph_, round == 0 ? 0 : kUncertain, context_, list);
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
     known_now_.first_direct = direct_.value;

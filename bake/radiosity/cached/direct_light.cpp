@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bake/jobs/units.h"
+#include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -281,8 +282,15 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
   return parallel_units(context, loop, &rays);
 }
 
-void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list) {
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
+                    std::vector<std::uint32_t>& list) {
   constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
+  constexpr float kWide = 0.1f;     // of the surroundings' light
+  std::vector<float> wide_noise(sums.value.size()), wide_light(sums.value.size());
+  for (std::size_t i = 0; i < wide_noise.size(); ++i)
+    wide_noise[i] = luminance(sums.variance[i]), wide_light[i] = luminance(sums.value[i]);
+  wide_noise = typical_errors(graph, std::move(wide_noise), context);
+  wide_light = typical_errors(graph, std::move(wide_light), context);
   const float least = std::max(share, kUneven);
   const auto uncertain = [&](std::uint32_t i) {
     const Vec3 noise = sums.variance[i], light2 = sums.value[i] * sums.value[i];
@@ -291,7 +299,8 @@ void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share
   };
   std::erase_if(list, [&](std::uint32_t i) {
     const auto beside = graph.of(i);
-    return !uncertain(i) && std::none_of(beside.begin(), beside.end(), uncertain);
+    return wide_noise[i] <= kWide * kWide * wide_light[i] * wide_light[i] && !uncertain(i) &&
+           std::none_of(beside.begin(), beside.end(), uncertain);
   });
 }
 

@@ -31,8 +31,11 @@ struct DirectSums {
   }
 };
 
-// Keeps those of the list whose direct light, or a neighbour's, is uncertain by more than that share of it.
-void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, std::vector<std::uint32_t>& list);
+// Keeps those of the list whose direct light, or a neighbour's, is uncertain by more than that share of it, and those
+// in whose wide surroundings (typical_errors) it is by a tenth. Where few samples meet a light, as the sky through a
+// window, texels that were asked again because one did would come down to the truth and the others stay dark.
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
+                    std::vector<std::uint32_t>& list);
 
 class DirectLight {
  public:
@@ -41,6 +44,8 @@ class DirectLight {
   // True where every emitting surface has a closed form; false: surfaces are left to sampling (textured emitters, more
   // polygons than it pays to visit one by one), see LightSet.
   bool closed_form() const { return closed_form_; }
+  // Some light is found by chance: emitters without closed forms, the sky, many punctual lights.
+  bool samples_lights() const { return !closed_form_ || t_.lights.samples_sky() || many_punctual_; }
   std::size_t light_count() const { return polygons_.size(); }
 
   // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
