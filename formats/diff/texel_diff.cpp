@@ -15,13 +15,6 @@ struct Pair {
   double first = 0, second = 0, first_error = 0, second_error = 0;
 };
 
-bool same_texels(const Pack& a, const Pack& b) {
-  return a.mesh.lightmap_uvs == b.mesh.lightmap_uvs &&
-         std::ranges::equal(a.lightmaps, b.lightmaps, [](const LightmapPage& p, const LightmapPage& q) {
-           return p.width == q.width && p.height == q.height;
-         });
-}
-
 // Channels' errors are taken as one.
 double error_of(const LightmapPage& page, std::size_t texel) {
   return page.standard_error.empty() ? 0 : luminance(page.standard_error[texel]);
@@ -44,6 +37,13 @@ double root(double mean_square) {
 }
 
 }  // namespace
+
+bool same_texels(const Pack& a, const Pack& b) {
+  return a.mesh.lightmap_uvs == b.mesh.lightmap_uvs &&
+         std::ranges::equal(a.lightmaps, b.lightmaps, [](const LightmapPage& p, const LightmapPage& q) {
+           return p.width == q.width && p.height == q.height;
+         });
+}
 
 std::optional<TexelDiff> diff_texels(const Pack& first, const Pack& second) {
   if (!same_texels(first, second)) return std::nullopt;

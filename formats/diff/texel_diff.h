@@ -8,6 +8,9 @@
 
 namespace oriel {
 
+// Whether the lightmaps' pages and the meshes' lightmap coordinates are the same.
+bool same_texels(const Pack& first, const Pack& second);
+
 // Over texels that are valid in both packs, of luminance: root mean squares of relative differences, as shares. "Net"
 // is without what the first pack's standard errors alone make of it (its square is taken off), 0 at least.
 struct TexelDiff {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "formats/core/file.h"
+#include "formats/diff/error_bands.h"
 #include "formats/diff/pack_diff.h"
 #include "formats/diff/texel_diff.h"
 #include "formats/inspect/commands.h"
@@ -90,8 +91,38 @@ void print_texels(const TexelDiff& t) {
   row("bias of the mean", t.bias);
 }
 
-void print_markdown(const PackDiff& diff, const std::optional<TexelDiff>& texels,
-                    const std::map<std::string, Kind>& kinds, const DiffOptions& options) {
+// Both tell of texels; nothing where the atlases differ.
+struct OfTexels {
+  std::optional<TexelDiff> all;
+  std::optional<ErrorBands> bands;
+  const std::vector<MeshPart>& parts;
+};
+
+void print_bands(const ErrorBands& bands, const std::vector<MeshPart>& parts) {
+  constexpr std::size_t kListed = 12;
+  fmt::print(
+      "\n## Where the difference lies\n\nBy size on the surface, in texels, % of the light around; visible: contrast "
+      "over what the nearest eye just notices.\n\n| surface | texels |");
+  for (std::size_t k = 0; k < kErrorBands; ++k) fmt::print(" {}–{} |", 1u << k, 2u << k);
+  fmt::print(" wider | visible |\n|---|---|");
+  for (std::size_t k = 0; k < kErrorBands + 2; ++k) fmt::print("---|");
+  const auto row = [](const std::string& name, const BandErrors& e) {
+    fmt::print("\n| {} | {} |", name, e.texels);
+    for (const double band : e.band) fmt::print(" {:.2g} |", 100 * band);
+    fmt::print(" {:.2g} | {:.2g} |", 100 * e.wider, e.visible);
+  };
+  row("all", bands.all);
+  for (std::size_t i = 0; i < std::min(kListed, bands.parts.size()); ++i)
+    row(parts[bands.parts[i].part].name, bands.parts[i].errors);
+  fmt::print("\n");
+}
+
+nlohmann::ordered_json bands_json(const BandErrors& e) {
+  return {{"texels", e.texels}, {"bands", e.band}, {"wider", e.wider}, {"visible", e.visible}};
+}
+
+void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, Kind>& kinds,
+                    const DiffOptions& options) {
   fmt::print("## Light\n\nMean of the first pack: {:.4g} lux. Largest change of a surface: {:.2f} %.\n\n",
              diff.mean_lux, 100 * diff.largest());
   fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
@@ -108,7 +139,8 @@ void print_markdown(const PackDiff& diff, const std::optional<TexelDiff>& texels
   if (changed > listed) fmt::print("\n{} more changed less.\n", changed - listed);
   if (diff.surfaces.size() > changed)
     fmt::print("\n{} surfaces did not change by more than their noise.\n", diff.surfaces.size() - changed);
-  if (texels) print_texels(*texels);
+  if (texels.all) print_texels(*texels.all);
+  if (texels.bands) print_bands(*texels.bands, texels.parts);
   fmt::print("\n## Sections\n\n| kind | before | after | bytes before | bytes after |\n|---|---|---|---|---|\n");
   for (const auto& [name, kind] : kinds)
     fmt::print("| {} | {} | {} | {} | {} |\n", name, kind.sections[0], kind.sections[1], kind.bytes[0], kind.bytes[1]);
@@ -118,8 +150,7 @@ void print_markdown(const PackDiff& diff, const std::optional<TexelDiff>& texels
     fmt::print("| {} | {} | {} |\n", o.name, shortened(o.before), shortened(o.after));
 }
 
-void print_json(const PackDiff& diff, const std::optional<TexelDiff>& texels, const std::map<std::string, Kind>& kinds,
-                bool good) {
+void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, Kind>& kinds, bool good) {
   nlohmann::ordered_json out;
   out["schema"] = kJsonSchema;
   out["within_tolerance"] = good;
@@ -140,16 +171,24 @@ void print_json(const PackDiff& diff, const std::optional<TexelDiff>& texels, co
                                {"change", diff.share(s)},
                                {"before_error_lux", s.before_error_lux},
                                {"after_error_lux", s.after_error_lux}});
-  if (texels)
-    out["texels"] = {{"count", texels->texels},
-                     {"mean_lux", texels->mean_lux},
-                     {"difference", texels->difference},
-                     {"noise", texels->noise},
-                     {"stated", texels->stated},
-                     {"net", texels->net},
-                     {"net_without_worst_hundredth", texels->net_without_worst},
-                     {"net_of_brighter", texels->net_of_brighter},
-                     {"bias", texels->bias}};
+  if (const auto& t = texels.all)
+    out["texels"] = {{"count", t->texels},
+                     {"mean_lux", t->mean_lux},
+                     {"difference", t->difference},
+                     {"noise", t->noise},
+                     {"stated", t->stated},
+                     {"net", t->net},
+                     {"net_without_worst_hundredth", t->net_without_worst},
+                     {"net_of_brighter", t->net_of_brighter},
+                     {"bias", t->bias}};
+  if (texels.bands) {
+    out["bands"] = {{"all", bands_json(texels.bands->all)}, {"surfaces", nlohmann::ordered_json::array()}};
+    for (const PartBands& p : texels.bands->parts) {
+      auto json = bands_json(p.errors);
+      json["name"] = texels.parts[p.part].name;
+      out["bands"]["surfaces"].push_back(std::move(json));
+    }
+  }
   for (const auto& [name, kind] : kinds)
     out["sections"][name] = {{"before", {{"sections", kind.sections[0]}, {"bytes", kind.bytes[0]}}},
                              {"after", {{"sections", kind.sections[1]}, {"bytes", kind.bytes[1]}}}};
@@ -167,7 +206,7 @@ int diff(const std::filesystem::path& before, const std::filesystem::path& after
   const auto b = open(after);
   if (!b) return report(b.error());
   const PackDiff diff = diff_packs(a->pack, b->pack);
-  const std::optional<TexelDiff> texels = diff_texels(a->pack, b->pack);
+  const OfTexels texels{diff_texels(a->pack, b->pack), error_bands(a->pack, b->pack), a->pack.mesh.parts};
   const bool good = within(diff, options.tolerance);
   const auto kinds = kinds_of(a->index, b->index);
   if (options.json)

@@ -85,7 +85,8 @@ class CachedEstimator : public LightEstimator {
   // Direct light, its bounces on coarse patches, and the first rays that gather these.
   Status begin(const Goal& goal) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
-    shares_ = typical_errors(graph_, frames_.shares(), context_);
+    beside_ = with_chart_neighbours(graph_, texels_);
+    shares_ = typical_errors(beside_, frames_.shares(), context_);
     little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
     recall();
     ORIEL_TRY_VOID(first_direct());
@@ -188,7 +189,7 @@ class CachedEstimator : public LightEstimator {
       std::erase_if(list, [&](std::uint32_t i) {
         return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
       });
-      keep_uncertain(direct_, graph_, round == 0 ? 0 : kUncertain, context_, list);
+      keep_uncertain(direct_, beside_, round == 0 ? 0 : kUncertain, context_, list);
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
     }
     known_now_.first_direct = direct_.value;
@@ -293,7 +294,7 @@ class CachedEstimator : public LightEstimator {
       if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
       if (now <= goal) return {};
       if ((ended_early_ = done())) return {};
-      const auto worst = [&](const Part& of) { return worst_of(graph_, not_kept(), shares_, of, now, goal, context_); };
+      const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
         ORIEL_TRY_VOID(refine_direct(list, direct.most));
@@ -363,8 +364,8 @@ class CachedEstimator : public LightEstimator {
   MoreSites sites_;
   DirectLight direct_light_;
   Surroundings around_;
-  TexelGraph graph_;
-  Sweeps sweeps_;  // bounces on patches
+  TexelGraph graph_, beside_;  // texels that smooth each other; and those that tell of each other's errors
+  Sweeps sweeps_;              // bounces on patches
   DirectSums direct_;
   HalfSums gathered_;
   LampLight lamps_;

@@ -162,4 +162,16 @@ Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& tex
   return graph;
 }
 
+TexelGraph with_chart_neighbours(TexelGraph graph, const Texels& texels) {
+  constexpr std::array<std::array<int, 2>, 4> kAhead{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};  // the others look back
+  for (std::uint32_t a = 0; a < texels.count(); ++a)
+    for (const auto& [dx, dy] : kAhead) {
+      const std::uint32_t b =
+          texels.at(texels.page[a], static_cast<int>(texels.x[a]) + dx, static_cast<int>(texels.y[a]) + dy);
+      if (b != kNoTexel && texels.chart[b] == texels.chart[a] && texels.visible[a] > 0 && texels.visible[b] > 0)
+        link(graph, a, b);
+    }
+  return graph;
+}
+
 }  // namespace oriel

@@ -20,4 +20,8 @@ struct TexelGraph {
 Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, Context& context,
                                    std::atomic<std::uint64_t>& rays);
 
+// And those that lie beside a texel on its chart, whichever way they look, where it has places left: the flutes of a
+// column, whose light differs, though not who sees them and what it takes to light them.
+TexelGraph with_chart_neighbours(TexelGraph graph, const Texels& texels);
+
 }  // namespace oriel

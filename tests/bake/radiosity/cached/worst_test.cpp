@@ -5,6 +5,8 @@
 
 #include <numeric>
 
+#include "tests/bake/radiosity/listed.h"
+
 namespace oriel {
 namespace {
 
@@ -50,6 +52,30 @@ TEST(LittleSeen, AreThoseThatTogetherFillLittle) {
   EXPECT_EQ(little_seen(all, shares, 0.0035), (std::vector<bool>{false, true, true, true, false}));
   EXPECT_EQ(little_seen(all, shares, 0.0025), (std::vector<bool>{false, false, true, true, false}));
   EXPECT_EQ(little_seen(all, shares, 0), std::vector<bool>(5)) << "no error was asked for: all count";
+}
+
+// On a ball of texels as large as half its radius none continues another, and none would be refined for what its
+// neighbours tell: those that few pixels happened to show kept their first eight rays.
+TEST(ChartNeighbours, AreThereHoweverASurfaceBends) {
+  test::SceneParts parts;
+  parts.sphere("ball", parts.diffuse(Vec3(0.5f)), Vec3(0), 1, 3);
+  const test::Listed ball(parts.finish(), 0.6f);
+  Context context;
+  std::atomic<std::uint64_t> rays{0};
+  const TexelGraph graph = *find_neighbours(ball.transport(), ball.texels, context, rays);
+  const TexelGraph beside = with_chart_neighbours(graph, ball.texels);
+  std::size_t alone = 0, alone_beside = 0;
+  for (std::uint32_t i = 0; i < ball.texels.count(); ++i) {
+    alone += graph.count[i] == 0, alone_beside += beside.count[i] == 0;
+    EXPECT_TRUE(std::ranges::equal(graph.of(i), beside.of(i).first(graph.count[i]))) << i;
+    for (const std::uint32_t j : beside.of(i)) {
+      const auto back = beside.of(j);
+      EXPECT_NE(std::ranges::find(back, i), back.end()) << i << " and " << j;
+      EXPECT_EQ(std::ranges::count(beside.of(i), j), 1);
+    }
+  }
+  EXPECT_GT(alone, 0u);
+  EXPECT_EQ(alone_beside, 0u);
 }
 
 }  // namespace
