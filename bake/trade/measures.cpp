@@ -1,7 +1,9 @@
 #include "bake/trade/measures.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "formats/diff/error_bands.h"
 #include "formats/metrics/display.h"
 
 namespace oriel::trade {
@@ -57,8 +59,8 @@ Measures measures_from(const Json& json) {
   m.renderer = json.value("renderer", "");
   if (json.contains("texels")) {
     const Json& texels = json["texels"];
-    m.texels =
-        TexelError{texels.at("count"), texels.at("relRMSE"), texels.at("nRMSE"), texels.at("bias"), texels.at("noise")};
+    m.texels = TexelError{texels.at("count"), texels.at("relRMSE"), texels.at("nRMSE"),  texels.at("bias"),
+                          texels.at("noise"), texels.at("clouds"),  texels.at("visible")};
   }
   if (json.contains("frames"))
     for (const Json& frame : json["frames"]) m.frames.push_back(frame_from(frame));
@@ -120,6 +122,12 @@ Result<TexelError> texel_error(const Pack& pack, const Pack& reference) {
   e.n_rmse = without(all.n_rmse * all.n_rmse, own.n_rmse * own.n_rmse);
   e.bias = all.bias;
   e.noise = all.noise;
+  if (const auto bands = error_bands(reference, pack)) {
+    constexpr std::size_t kFirst = 2, kEnd = 5;  // 4 to 32 texels
+    for (std::size_t k = kFirst; k < kEnd; ++k) e.clouds += bands->all.band[k] * bands->all.band[k];
+    e.clouds = std::sqrt(e.clouds);
+    e.visible = bands->all.visible;
+  }
   return e;
 }
 
@@ -181,11 +189,9 @@ Json as_json(const Measures& m) {
   if (m.frame_ms) json["frame_ms"] = *m.frame_ms;
   if (!m.renderer.empty()) json["renderer"] = m.renderer;
   if (m.texels)
-    json["texels"] = {{"count", m.texels->texels},
-                      {"relRMSE", m.texels->rel_rmse},
-                      {"nRMSE", m.texels->n_rmse},
-                      {"bias", m.texels->bias},
-                      {"noise", m.texels->noise}};
+    json["texels"] = {{"count", m.texels->texels},   {"relRMSE", m.texels->rel_rmse}, {"nRMSE", m.texels->n_rmse},
+                      {"bias", m.texels->bias},      {"noise", m.texels->noise},      {"clouds", m.texels->clouds},
+                      {"visible", m.texels->visible}};
   for (const CameraError& frame : m.frames) json["frames"].push_back(frame_json(frame));
   return json;
 }

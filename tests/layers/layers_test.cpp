@@ -94,7 +94,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
   m["bake/plan"] = plus(m["bake/plan/doctor"], {"bake/plan/doctor"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
-  m["bake/trade"] = plus(assets, {"bake/jobs", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
+  m["bake/trade"] =
+      plus(assets, {"bake/jobs", "formats/diff", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
   m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
   m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page", "bake/cli"});
   m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});            // a subcommand that needs no scene

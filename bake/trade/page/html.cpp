@@ -90,7 +90,7 @@ std::optional<double> frame_ms(const Measures& m) {
   return m.frame_ms;
 }
 
-constexpr std::array<Column, 14> kColumns = {{
+constexpr std::array<Column, 16> kColumns = {{
     {"bake s", "{:.2f}", 1, "frames_by_bake", bake_s},
     {"bake CPU s", "{:.2f}", 1, "", bake_cpu_s},
     {"frame ms", "{:.1f}", 1, "frames_by_ms", frame_ms},
@@ -99,6 +99,8 @@ constexpr std::array<Column, 14> kColumns = {{
     {"texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
     {"texels bias %", "{:+.2f}", 100, "", of_texels<&TexelError::bias>},
     {"texels noise %", "{:.2f}", 100, "", of_texels<&TexelError::noise>},
+    {"clouds %", "{:.2f}", 100, "", of_texels<&TexelError::clouds>},
+    {"visible", "{:.1f}", 1, "", of_texels<&TexelError::visible>},
     {"frames relRMSE %", "{:.2f}", 100, "", of_frames<&CameraError::sum>},
     {"D %", "{:.2f}", 100, "", of_frames<&CameraError::diffuse>},
     {"S %", "{:.2f}", 100, "", specular_error},

@@ -66,10 +66,10 @@ std::string csv_row(const Row& row) {
     line += ",,,";
   line += fmt::format(",{}", number(m.frame_ms));
   if (m.texels)
-    line += fmt::format(",{},{:.6g},{:.6g},{:.6g},{:.6g}", m.texels->texels, m.texels->rel_rmse, m.texels->n_rmse,
-                        m.texels->bias, m.texels->noise);
+    line += fmt::format(",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", m.texels->texels, m.texels->rel_rmse,
+                        m.texels->n_rmse, m.texels->bias, m.texels->noise, m.texels->clouds, m.texels->visible);
   else
-    line += ",,,,,";
+    line += ",,,,,,,";
   for (const auto& value : {frame_error(m, &CameraError::sum), frame_error(m, &CameraError::diffuse), specular_error(m),
                             frame_error(m, &CameraError::noise), mean_flip(m), psnr(m)})
     line += fmt::format(",{}", number(value));
@@ -114,7 +114,8 @@ std::string trade_json(const Trade& trade) {
 std::string trade_csv(const Trade& trade) {
   std::string text =
       "knob,setting,published,bake_options,play_options,paths,bake_s,bake_cpu_s,bytes,frame_ms,texels,texel_relRMSE,"
-      "texel_nRMSE,texel_bias,texel_noise,frame_sum,frame_D,frame_S,frame_noise,flip,psnr_db,fronts,failure\r\n";
+      "texel_nRMSE,texel_bias,texel_noise,texel_clouds,texel_visible,frame_sum,frame_D,frame_S,frame_noise,flip,psnr_"
+      "db,fronts,failure\r\n";
   for (const Row& row : trade.rows) text += csv_row(row);
   return text;
 }

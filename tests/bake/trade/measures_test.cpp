@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace oriel::trade {
@@ -84,6 +85,31 @@ TEST(TexelError, IsNetOfTheReferencesNoise) {
   EXPECT_NEAR(e->bias, 0.1, 1e-6);
   EXPECT_NEAR(e->noise, 0.06, 1e-5);
   EXPECT_EQ(texel_error(page(4, 100, 0), page(4, 100, 6))->rel_rmse, 0) << "lost in the noise, not below 0";
+}
+
+TEST(TexelError, TellsClouds) {
+  const auto wall = [](float contrast) {
+    Pack pack;
+    for (const Vec2& uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)})
+      pack.mesh.positions.emplace_back(uv.x, uv.y, 0), pack.mesh.lightmap_uvs.push_back(uv);
+    pack.mesh.indices = {0, 1, 2, 0, 2, 3};
+    pack.mesh.parts.push_back({"wall", 0, 6, 0, 0});
+    LightmapPage p{32, 32, {}, {}, {}};
+    for (int i = 0; i < 1024; ++i) p.irradiance.emplace_back((i % 32 / 8 + i / 256) % 2 ? 1 + contrast : 1 - contrast);
+    p.standard_error.resize(1024), p.state.assign(1024, TexelState::kValid);
+    pack.lightmaps = {p};
+    return pack;
+  };
+  const auto e = texel_error(wall(0.1f), wall(0));
+  ASSERT_TRUE(e);
+  EXPECT_NEAR(e->clouds, 0.1 / std::sqrt(1.01), 1e-5);
+  EXPECT_GT(e->visible, 1);
+  Measures measures;
+  measures.texels = *e;
+  const auto read = measures_from_json(as_json(measures).dump());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->texels->clouds, e->clouds);
+  EXPECT_EQ(read->texels->visible, e->visible);
 }
 
 TEST(TexelError, RefusesAnotherAtlas) {
