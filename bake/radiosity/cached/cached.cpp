@@ -95,10 +95,8 @@ class CachedEstimator : public LightEstimator {
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
-    if (options_.bounces != 1) {  // the gather itself is one
-      const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
-      ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
-    }
+    const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);

@@ -33,6 +33,7 @@ struct Patch {
   std::vector<PatchLink> links;       // weights divided by the number of rays
   DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
                                       // sky, emitters behind mirrors
+  Vec3 unreflected{0};                // of it what comes straight from sky and emitters
   double area_m2 = 0;
   std::uint32_t x = 0, y = 0;         // of its block
   std::uint64_t stream = 0;           // of its random numbers: its block's, which no other block's shape changes
@@ -105,7 +106,8 @@ class Solver {
       return traced;
     };
     loop.results = [&](std::size_t g, Archive& archive) {
-      for (std::size_t p = g * kGroup; p < group_end(g); ++p) archive(patches_[p].source, patches_[p].links);
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p)
+        archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
     };
     return parallel_units(context, loop, &rays);
   }
@@ -165,6 +167,7 @@ class Solver {
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
+      patches_[first + i].unreflected += answers.unreflected[i] * (kPi * share);
       if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
         link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
     }
@@ -225,7 +228,7 @@ class Solver {
     double absolute = 0, share = 0;
   };
   Change sweep_once(Context& context, const std::vector<Vec3>& now, double floor, std::vector<Vec3>& next);
-  // Sweeps from the dark until little is missing or there is enough; watches: or until their changes grow.
+  // Sweeps from what is not reflected until little is missing or there is enough; watches: or until their changes grow.
   enum class End { kDone, kGrows, kStopped };
   End run(Context& context, bool watches, Sweeps& result);
   // Bounds the patches whose light grows from sweep to sweep; how many.
@@ -277,9 +280,11 @@ void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
 }
 
 Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
-  const int most = options_.most > 0 ? options_.most : around_.transport().options.max_bounces;
+  const int most = options_.most.value_or(around_.transport().options.max_bounces);
   std::vector<Vec3> next(patches_.size());
-  solution_.assign(patches_.size(), Vec3(0));
+  solution_.resize(patches_.size());
+  std::ranges::transform(patches_, solution_.begin(), &Patch::unreflected);
+  if (most == 0) return End::kDone;
   double area = 0, scale = 0;
   for (const Patch& patch : patches_) area += patch.area_m2;
   const auto patches = static_cast<double>(patches_.size());
@@ -335,7 +340,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
   }
   if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
   const int most = around_.transport().options.max_bounces;
-  if (options_.most == 0 && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
+  if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
     warn_of_no_end(context, result);
   return {};
 }
@@ -362,10 +367,6 @@ void Solver::interpolate(Context& context, Sweeps& result) {
     }
   });
 }
-
-}  // namespace
-
-namespace {
 
 // Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
 Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, const Surroundings& around,

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
@@ -17,7 +18,7 @@ struct SweepOptions {
   // with what is lit and seen lose light: 0.25 % a bounce with 2, 0.5 % with 4 in a furnished room of 13 cm texels.
   std::uint32_t side = 1;
   std::uint32_t rays_per_patch = 64;
-  int most = 0;                       // sweeps; 0: until the tolerance holds, or as many as paths have bounces
+  std::optional<int> most = {};       // sweeps; none: until the tolerance holds, or as many as paths have bounces
   std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
   double tolerance = 1e-3;            // of the mean: bound on what further sweeps could add
   double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
@@ -29,7 +30,8 @@ inline SweepOptions sweep_options(const RadiosityOptions& options, double error,
   constexpr double kCoarseTarget = 0.04;        // errors from which coarser bounces do
   constexpr double kTime = 0.3;                 // of what is left
   constexpr std::size_t kMaxLinks = 64u << 20;  // 1 GiB
-  SweepOptions how{.most = std::max(0, options.bounces - 1), .enough = options.enough};
+  SweepOptions how{.enough = options.enough};
+  if (options.bounces > 0) how.most = options.bounces - 1;  // the gather itself is one
   how.tolerance = kTailShare * std::max(error, 1e-3);
   if (options.left) how.seconds = kTime * options.left();
   how.side = error >= kCoarseTarget ? 2 : 1;

@@ -35,6 +35,7 @@ Surroundings::Surroundings(const Transport& transport, const Texels& texels, boo
 void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> about, Answers& answers) const {
   answers.hits.resize(rays.size());
   answers.light.assign(rays.size(), Vec3(0));
+  answers.unreflected.assign(rays.size(), Vec3(0));
   answers.texel.assign(rays.size(), kNoTexel);
   answers.share.assign(rays.size(), 1.0f);
   answers.links.clear();
@@ -43,7 +44,8 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = answers.hits[i];
     if (!hit) {
-      answers.light[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
+      answers.unreflected[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
+      answers.light[i] = answers.unreflected[i];
       continue;
     }
     const Kind kind = kinds_[hit.triangle];
@@ -94,8 +96,8 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
   const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
   const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
-  answers.light[number] = light.scattered + (lamps_ ? light.lamps : Vec3(0)) +
-                          (closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted);
+  answers.unreflected[number] = closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted;
+  answers.light[number] = light.scattered + (lamps_ ? light.lamps : Vec3(0)) + answers.unreflected[number];
 }
 
 float Surroundings::sky_weight(const Vec3& direction, const GatherRay& about) const {

@@ -30,7 +30,8 @@ struct Answers {
   std::vector<Link> links;   // in order of rays
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
   std::vector<Vec3> light;
-  std::uint64_t rays = 0;  // traced, beyond the batch itself
+  std::vector<Vec3> unreflected;  // of it what comes straight from the sky and from emitters
+  std::uint64_t rays = 0;         // traced, beyond the batch itself
 };
 
 class Surroundings {

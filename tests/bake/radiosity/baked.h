@@ -46,7 +46,9 @@ inline Baked bake(Scene scene, float texel_m, const RadiosityOptions& options, i
   b.texel_map = *build_texel_map(b.atlas, context);
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
-  b.radiosity = *bake_radiosity({accel, lights, {}}, b.atlas, b.texel_map, options, context);
+  PathOptions paths;
+  if (options.bounces > 0) paths.max_bounces = options.bounces;
+  b.radiosity = *bake_radiosity({accel, lights, paths}, b.atlas, b.texel_map, options, context);
   return b;
 }
 
