@@ -280,7 +280,7 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
   }
   if (!options.with_material) leave_out_kernels(materials, result.omissions);
   fill_pack(scene, std::move(materials), std::move(mesh), pack);
-  ORIEL_TRY(const Start start, choose_start(options, baked, context, pack));
+  ORIEL_TRY(const Start start, choose_start(options, prepared.region, baked, context, pack));
   if (!pack.visible_sets.empty())
     pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
   if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");

@@ -4,14 +4,15 @@
 
 namespace oriel {
 
-Result<Start> choose_start(const BakeOptions& options, const BakedScene& baked, Context& context, Pack& pack) {
+Result<Start> choose_start(const BakeOptions& options, const EyeRegion& region, const BakedScene& baked,
+                           Context& context, Pack& pack) {
   if (!pack.cameras.empty() || !pack.paths.empty()) return Start::kOfScene;
-  std::vector<WalkGrid> floors = pack.walk_grids;
-  if (floors.empty()) {
+  std::vector<WalkGrid> floors = region.grids;
+  if (options.eyes.source != EyeSource::kWalk) {
     EyeOptions walk;  // people walk whatever eyes reflections are planned for
     walk.walk = options.eyes.walk;
-    ORIEL_TRY(EyeRegion region, find_eye_region(baked.accel, walk, context));
-    floors = std::move(region.grids);
+    ORIEL_TRY(EyeRegion walked, find_eye_region(baked.accel, walk, context));
+    floors = std::move(walked.grids);
   }
   const SurfaceLight light = [&](const Hit& hit, const Vec3& towards_eye) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye});

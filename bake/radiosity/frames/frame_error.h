@@ -9,15 +9,19 @@ namespace oriel {
 
 // Of the mean diffuse radiance that an eye sees: darker pixels are held against this.
 inline constexpr double kFrameFloor = 0.1;
+// Of the mean over all eyes: in darker places all is black.
+inline constexpr double kDarkFloor = 1e-3;
 
-// The squared relative error of a pixel, mean over channels: error² / (light² + floor²), floor = kFrameFloor times the
-// mean light that the eye sees.
+// The squared relative error of a pixel, mean over channels: error² / (light² + floor²), floor² = (kFrameFloor times
+// the mean light A that the eye sees)² + (kDarkFloor times that of all eyes)².
 //
 // An eye tells a step ΔL in luminance from L where it exceeds a threshold. In the light that it is adapted to, the mean
 // A of what it sees, Weber's law holds: ΔL = k L with k = 1 to 2 %. Far below A the threshold no longer falls with L,
 // since light scattered in the eye and the display's black lie over dark places: a few percent of A, and the threshold
 // there is k times what is seen, L and veil together. That of L² + (A / 10)² has both limits. So
 // error / threshold = (error / √(L² + (A / 10)²)) / k, and a root mean square of 1 to 2 % is what can just be seen.
+// Nobody adapts to a closed shell in an instant, nor does a display show it beside the rest: a thousandth of the mean
+// over all eyes is black.
 //
 // light2 is the square of the true light. Of an estimate with variance v that is (estimate)² + v: a dark pixel that is
 // not known at all counts as its light, not as more.
@@ -38,10 +42,14 @@ std::vector<DVec3> frame_floors2(std::span<const FramePixel> pixels, const Light
     if (eye >= sum.size()) sum.resize(eye + 1, DVec3(0)), count.resize(eye + 1);
     sum[eye] += light(i), ++count[eye];
   }
+  DVec3 all(0);
+  double eyes = 0;
   for (std::size_t e = 0; e < sum.size(); ++e) {
-    const DVec3 floor = kFrameFloor * sum[e] / std::max(1.0, count[e]);
-    sum[e] = floor * floor;
+    sum[e] /= std::max(1.0, count[e]);
+    all += sum[e], eyes += count[e] > 0;
   }
+  const DVec3 dark = kDarkFloor * all / std::max(1.0, eyes);
+  for (DVec3& mean : sum) mean = kFrameFloor * kFrameFloor * mean * mean + dark * dark;
   return sum;
 }
 

@@ -8,6 +8,7 @@
 #include "bake/jobs/units.h"
 #include "bake/run/stages/deadline.h"
 #include "bake/run/stages/inputs.h"
+#include "bake/walk/lit_eyes.h"
 #include "bake/walk/scene_unit.h"
 #include "formats/core/color.h"
 
@@ -61,6 +62,10 @@ Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& contex
 Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   ORIEL_TRY(prepared.region,
             timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, options.eyes, context); }));
+  const LightSet lights(prepared.scene());
+  if (options.eyes.source == EyeSource::kWalk && (!lights.empty() || luminance(prepared.scene().sky) > 0))
+    ORIEL_TRY_VOID(leave_the_dark({*prepared.accel, lights, path_options(options)}, prepared.region, context));
+  if (!prepared.region.note.empty()) prepared.omissions.push_back(prepared.region.note);
   if (prepared.region.left_out_m2 > 0)
     prepared.omissions.push_back(fmt::format(
         "eye region: {:.0f} m² of open ground are not walked on, where neither a roof nor a camera is near (--eyes)",

@@ -223,7 +223,6 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   const Accel& accel = *prepared.accel;
   FoundReflections all;
   all.region = prepared.region;
-  if (!all.region.note.empty()) all.omissions.push_back(all.region.note);
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
