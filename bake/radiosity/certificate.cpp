@@ -199,9 +199,10 @@ std::vector<WorstPixel> worst_of(std::span<const HeldOut> samples, const Scene& 
     worst.push_back({h.pixel->triangle, point_on(scene, h.pixel->triangle, h.pixel->barycentric),
                      luminance(Vec3(h.baked)), luminance(Vec3(h.mean())), square});
   }
+  if (!(sum > 0)) return {};  // less than the paths' noise
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
   while (worst.size() > kMost || (!worst.empty() && !(worst.back().share >= kLeastShare * sum))) worst.pop_back();
-  for (WorstPixel& w : worst) w.share = sum > 0 ? w.share / sum : 0;
+  for (WorstPixel& w : worst) w.share = std::min(w.share / sum, 1.0);
   return worst;
 }
 

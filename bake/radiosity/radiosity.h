@@ -74,7 +74,7 @@ struct WorstPixel {
   std::uint32_t triangle = 0;   // that it shows
   Vec3 position{0};             // scene space, m
   double baked = 0, paths = 0;  // luminance, cd/m²
-  double share = 0;             // of the squared error of all pixels compared
+  double share = 0;             // of the squared error of all pixels compared, at most 1: their noise may be negative
 };
 
 // What unbiased paths at held-out pixels say of the light that frames show (certificate.h).

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/diff/error_bands.h"
+#include "formats/diff/texel_diff.h"
 #include "formats/metrics/display.h"
 
 namespace oriel::trade {
@@ -100,10 +101,8 @@ std::optional<double> psnr(const Measures& measures) {
 
 Result<TexelError> texel_error(const Pack& pack, const Pack& reference) {
   const auto& pages = pack.lightmaps;
-  bool same = pages.size() == reference.lightmaps.size();
-  for (std::size_t p = 0; same && p < pages.size(); ++p)
-    same = pages[p].width == reference.lightmaps[p].width && pages[p].height == reference.lightmaps[p].height;
-  if (!same) return invalid("lightmaps", "found pages that are not those of the reference, expected the same atlas");
+  if (!same_texels(pack, reference))
+    return invalid("lightmaps", "found texels that are not those of the reference, expected the same atlas");
   std::vector<std::uint8_t> baked;
   for (std::size_t p = 0; p < pages.size(); ++p)
     for (std::size_t i = 0; i < pages[p].state.size(); ++i)

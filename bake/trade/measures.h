@@ -54,7 +54,7 @@ std::optional<double> specular_error(const Measures& measures);
 std::optional<double> mean_flip(const Measures& measures);
 std::optional<double> psnr(const Measures& measures);
 
-// Error kInvalid where the packs' lightmaps are not on the same pages or share no baked texel.
+// Error kInvalid where the packs' texels are not the same or none is baked in both.
 Result<TexelError> texel_error(const Pack& pack, const Pack& reference);
 // What formats/metrics says of the whole frame, S of its reflectors.
 CameraError frame_error_of(const std::string& camera, const Comparison& comparison);

@@ -243,7 +243,7 @@ Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options,
   region.grids = storeys(plan, kept, options.walk);
   if (region.grids.empty())
     region.note = fmt::format(
-        "eye region: found no floor with {:.2g} m of head room to stand on; radiance maps are planned for {}",
+        "eye region: found no floor with {:.2g} m of head room to stand on; the bake is planned for {}",
         options.walk.head_room_m, region.points.empty() ? "eyes anywhere in the scene" : "the cameras' eyes");
   return region;
 }

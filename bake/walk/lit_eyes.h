@@ -7,8 +7,9 @@
 namespace oriel {
 
 // A house that is a shell, lit from outside, has floors on which it is pitch-dark. Where floors were found, no camera
-// is given, and no path from any of 256 eyes on them finds light, eyes are instead at up to 64 places in and around the
-// scene (half its size) whose paths do, with a note. Left as it is where the scene is dark everywhere. Error kStopped.
+// is given, and paths from 128 eyes on them find next to no light beside what is seen from places in and around the
+// scene (half its size), eyes are at up to 64 of these that see light, with a note. Left as it is where the scene is
+// dark everywhere. Error kStopped.
 Status leave_the_dark(const Transport& transport, EyeRegion& region, Context& context);
 
 }  // namespace oriel

@@ -58,12 +58,14 @@ std::vector<Block> joined(const std::vector<Block>& blocks, std::vector<std::uin
   return larger;
 }
 
-std::vector<Vec3> eyes_of(const Pack& pack) {
+std::vector<Vec3> eyes_of(const Pack& reference, const Pack& pack) {
   std::vector<Vec3> all;
-  for (const Camera& camera : pack.cameras) all.push_back(camera.eye);
-  for (const WalkGrid& grid : pack.walk_grids)
-    for (std::size_t cell = 0; cell < grid.floor_y.size(); ++cell)
-      if (grid.walkable(cell)) all.push_back(grid.eye(cell));
+  for (const Pack* of : {&reference, &pack}) {
+    for (const Camera& camera : of->cameras) all.push_back(camera.eye);
+    for (const WalkGrid& grid : of->walk_grids)
+      for (std::size_t cell = 0; cell < grid.floor_y.size(); ++cell)
+        if (grid.walkable(cell)) all.push_back(grid.eye(cell));
+  }
   std::vector<Vec3> some;
   const std::size_t count = std::min(all.size(), kMostEyes);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
@@ -81,7 +83,7 @@ double side_degrees(const TexelPlace& place, const std::vector<Vec3>& eyes) {
 // Texels valid in both packs whose centres lie on a surface.
 std::vector<Block> blocks_of(const Pack& reference, const Pack& pack) {
   const auto places = texel_places(reference);
-  const std::vector<Vec3> eyes = eyes_of(reference);
+  const std::vector<Vec3> eyes = eyes_of(reference, pack);
   std::vector<Block> blocks;
   for (std::size_t p = 0; p < places.size(); ++p) {
     const LightmapPage &truth = reference.lightmaps[p], &page = pack.lightmaps[p];

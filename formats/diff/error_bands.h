@@ -37,8 +37,8 @@ struct ErrorBands {
 };
 
 // Of a pack against a reference of the same atlas; texels count alike, for they are as large as people see them. Eyes
-// are the pack's cameras and the cells of its walk grids; without any, 2 m away. Nothing where the atlases differ
-// or no texel is valid in both.
+// are the cameras of both packs and the cells of their walk grids; without any, 2 m away. Nothing where the atlases
+// differ or no texel is valid in both.
 std::optional<ErrorBands> error_bands(const Pack& reference, const Pack& pack);
 
 }  // namespace oriel

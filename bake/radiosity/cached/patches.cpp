@@ -96,7 +96,7 @@ class Solver {
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
     loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
-      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps());
+      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;

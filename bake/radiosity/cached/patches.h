@@ -20,7 +20,7 @@ struct SweepOptions {
   std::uint32_t rays_per_patch = 64;
   std::optional<int> most = {};       // sweeps; none: until the tolerance holds, or as many as paths have bounces
   std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
-  double tolerance = 1e-3;            // of the mean: bound on what further sweeps could add
+  double tolerance = 1e-3;            // of the light, bound on what further sweeps could add: see Sweeps::tail
   double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
 };
 
@@ -42,8 +42,9 @@ inline SweepOptions sweep_options(const RadiosityOptions& options, double error,
 struct Sweeps {
   std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
   int count = 0;
-  double tail = 0;          // the bound reached: what all further sweeps together add at most, relative to the mean
-  double growth = 0;        // of the last sweep's change over the one's before: below 1 where light dies away
+  double tail = 0;    // the bound reached: what all further sweeps together add at most; the larger of that relative to
+                      // the mean and of the mean over patches, each relative to its own light
+  double growth = 0;  // of the last sweep's change over the one's before: below 1 where light dies away
   std::size_t bounded = 0;  // patches whose weights were bounded
   std::size_t patches = 0;
 };

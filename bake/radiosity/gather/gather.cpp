@@ -143,7 +143,7 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half, around.near(), around.lamps(), around.survival());
+    key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), texels.eyes);
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {

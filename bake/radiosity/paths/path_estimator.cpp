@@ -80,7 +80,7 @@ class PathEstimator : public LightEstimator {
     UnitLoop loop{
         .stage = "paths", .count = runs_.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (until - taken_)};
     loop.inputs = [&](std::size_t r, Archive& key) {
-      key(task_.options.directional, runs_[r].page, runs_[r].first, runs_[r].last, taken_, until);
+      key(task_.options.directional, task_.options.eyes, runs_[r].page, runs_[r].first, runs_[r].last, taken_, until);
       sums_of(r, key);  // paths are added to them
     };
     loop.compute = [&](std::size_t r) {

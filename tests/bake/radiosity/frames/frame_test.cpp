@@ -139,6 +139,20 @@ TEST(FrameError, HasAFloorOfATenthOfWhatTheEyeSees) {
   EXPECT_FLOAT_EQ(one.shares()[0], 1);
 }
 
+TEST(FrameError, HoldsWhatIsBlackBesideTheRestAgainstThat) {
+  TexelMapPage map{2, 1, {0, 1}, {}, {}};
+  std::vector<FramePixel> pixels(2);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    pixels[i].eye = i, pixels[i].transfer = Vec3(1);
+    pixels[i].texel[0] = i, pixels[i].share = {1, 0, 0, 0};
+  }
+  const FrameError error(pixels, std::span(&map, 1), {true, true});
+  const std::vector<float> squares =
+      error.squares(std::vector{Vec3(100), Vec3(1e-4f)}, std::vector{Vec3(1), Vec3(1e-8f)});
+  EXPECT_NEAR(squares[0] * 2, 1 / (1e4 + 1 + 100), 1e-7);
+  EXPECT_NEAR(squares[1] * 2, 1e-8 / std::pow(1e-3 * 50, 2), 1e-8) << "it would be a half beside its own eye's mean";
+}
+
 // Of two rooms alike the one that nobody sees gets a few rays a texel, the other is as good as was asked.
 TEST(Effort, GoesWherePeopleLook) {
   const auto bake_for = [](std::vector<Vec3> eyes) {
