@@ -6,13 +6,13 @@
 
 #include "formats/assets/bilinear.h"
 #include "formats/core/color.h"
+#include "formats/image/texel_centres.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kFinest = 4;  // times the page
 constexpr std::uint32_t kGutter = 2;  // texels of the page that are filled around surfaces
-constexpr float kInside = -1e-4f;     // least barycentric coordinate: a centre on an edge belongs to both sides
 
 Vec3 texture_color(const Texture& texture, const Vec2& uv) {
   const TexelsAround around = texels_around(uv, texture.width, texture.height, texture.wrap_s, texture.wrap_t);
@@ -83,28 +83,13 @@ class PageRaster {
 
  private:
   void draw_triangle(std::uint32_t material, const std::uint32_t* v) {
-    std::array<DVec2, 3> p;
-    for (std::size_t c = 0; c < 3; ++c) p[c] = DVec2(pack_.mesh.lightmap_uvs[v[c]]) * DVec2(width_, height_) - 0.5;
-    const auto cross = [](const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; };
-    const double area = cross(p[1] - p[0], p[2] - p[0]);
-    if (area == 0) return;
-    const auto range = [](double a, double b, double c, std::uint32_t size) {
-      const double low = std::max(std::ceil(std::min({a, b, c})), 0.0);
-      return std::pair(static_cast<std::uint32_t>(low),
-                       static_cast<std::uint32_t>(std::clamp(std::floor(std::max({a, b, c})) + 1, 0.0, double(size))));
-    };
-    const auto [x0, x1] = range(p[0].x, p[1].x, p[2].x, width_);
-    const auto [y0, y1] = range(p[0].y, p[1].y, p[2].y, height_);
-    for (std::uint32_t y = y0; y < y1; ++y)
-      for (std::uint32_t x = x0; x < x1; ++x) {
-        const DVec2 at(x, y);
-        const Vec3 b(cross(p[1] - at, p[2] - at) / area, cross(p[2] - at, p[0] - at) / area,
-                     cross(p[0] - at, p[1] - at) / area);
-        if (!(std::min({b.x, b.y, b.z}) >= kInside && std::max({b.x, b.y, b.z}) <= 1 - kInside)) continue;
-        const std::size_t to = std::size_t{y} * width_ + x;
-        light_[to] = radiance(material, v, b);
-        covered_[to] = 1;
-      }
+    std::array<Vec2, 3> uv;
+    for (std::size_t c = 0; c < 3; ++c) uv[c] = pack_.mesh.lightmap_uvs[v[c]];
+    for_texel_centres(uv, width_, height_, [&](std::uint32_t x, std::uint32_t y, const Vec3& b) {
+      const std::size_t to = std::size_t{y} * width_ + x;
+      light_[to] = radiance(material, v, b);
+      covered_[to] = 1;
+    });
   }
 
   // The player's shading equation without images: wide lobes of the mean reflectance.

@@ -42,7 +42,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
       plus(assets, {"formats/pack", "formats/pack/encoding", "formats/visibility"});  // what lies inside each
   m["formats/pack"] =
       plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/pack/sections", "formats/visibility"});
-  m["formats/diff"] = plus(assets, {"formats/pack", "formats/metrics"});  // two packs beside each other
+  m["formats/diff"] =
+      plus(assets, {"formats/pack", "formats/image", "formats/metrics"});  // two packs beside each other
   m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
   m["formats/export"] =
       plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/image/bc6h", "formats/metrics"});
