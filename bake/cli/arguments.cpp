@@ -76,9 +76,11 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->check(CLI::IsMember({"cached", "reference"}))
       ->capture_default_str();
   auto* error =
-      app.add_option("--error", texts.error,
-                     "The error asked for, as people see it: root mean square over the pixels that eyes in the "
-                     "scene see, relative, dark ones to a tenth of the mean. Work stops there")
+      app.add_option(
+             "--error", texts.error,
+             "The error asked for, as people see it: root mean square over the pixels that eyes in the "
+             "scene see, relative, dark ones to a tenth of the mean. Work stops there; where none is given, also when "
+             "a scene has had its share of rays (a minute or two), with the error that is stated then")
           ->check(checked(parse_fraction, "SHARE"))
           ->capture_default_str();
   texts.error_option = error;
@@ -232,6 +234,7 @@ Status resolve(const Texts& texts, Arguments& args) {
   } else {
     ORIEL_TRY(bake.radiosity.error, parse_fraction(texts.error));
     bake.radiosity.samples = most_texel_rays(bake.radiosity);
+    if (texts.error_option->count() == 0) bake.radiosity.most_rays = kDefaultMostRays;
   }
   bake.memory_given = !texts.memory_limit.empty();
   if (bake.memory_given) {

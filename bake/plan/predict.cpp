@@ -74,6 +74,11 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   return pilot;
 }
 
+double most_refining_rays(const RadiosityOptions& options, double texels) {
+  if (options.most_rays == 0) return HUGE_VAL;
+  return std::max(static_cast<double>(options.most_rays), static_cast<double>(kMostTexelMean) * texels);
+}
+
 Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   const double texels = texels_of(in.prepared.texel_map);
   const double n[2] = {pilots[0].texels, pilots[1].texels};
@@ -86,9 +91,12 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
   const RadiosityReport& report = fine.radiosity.report;
   // Where the limit of rays a texel ends the work, texels all cost about that.
   const bool limited = report.relative_error > kMissed * pilot_options(in).error && pilot_options(in).error > 0;
-  const double rays = limited
-                          ? static_cast<double>(report.rays) * texels / n[1]
-                          : at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
+  double rays = limited ? static_cast<double>(report.rays) * texels / n[1]
+                        : at_all([](const LightmapPilot& p) { return static_cast<double>(p.radiosity.report.rays); });
+  // Where refinement ends for its rays, squared errors stay larger by what was cut.
+  const double first = static_cast<double>(report.first_rays) * texels / n[1];
+  const double cut = std::max(1.0, (rays - first) / most_refining_rays(in.options.radiosity, texels));
+  rays = std::min(rays, first + (rays - first) / cut);
   const double verify = in.options.radiosity.verify;
   c.rays = static_cast<std::uint64_t>(rays * (1 + verify));
   c.seconds = fine.seconds * rays * (1 + kSlowPaths * verify) / std::max(1.0, static_cast<double>(report.rays));
@@ -98,7 +106,7 @@ Component extrapolate(const CensusInput& in, const LightmapPilot (&pilots)[2]) {
     return p.texels * p.radiosity.report.relative_error * p.radiosity.report.relative_error;
   });
   const double reached = std::sqrt(squares / std::max(1.0, texels));
-  c.error = std::max(reached, pilot_options(in).error);
+  c.error = std::max(reached, pilot_options(in).error) * std::sqrt(cut);
   return c;
 }
 
@@ -114,8 +122,8 @@ void add_limits(const CensusInput& in, Prediction& p) {
       p.limits.push_back({"--error", error, light->error, holds,
                           fmt::format("--error {:.3g} %: {:.3g} % predicted{}", 100 * error, 100 * light->error,
                                       holds ? ""
-                                            : fmt::format(", {:.2g} times too much: rays a texel are limited; a "
-                                                          "finer --texel or a larger --error",
+                                            : fmt::format(", {:.2g} times too much: rays are limited; a finer "
+                                                          "--texel, or an --error that is named",
                                                           light->error / error))});
   }
   if (time <= 0) return;

@@ -61,7 +61,7 @@ void summarize(const RadiosityTask& task, Radiosity& light) {
 }
 
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
-  ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.context, task.rays));
+  ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.context, task.quick_rays));
   if (seams.points.empty()) return {};
   const auto power = [&] { return luminance(Vec3(incident_power(task, light))); };
   const double before = power(), error = task.options.error;
@@ -102,7 +102,7 @@ class DarkEstimator : public LightEstimator {
 
 Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task) {
   if (is_dark(task.transport)) {
-    ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.context, task.rays));
+    ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays));
     return std::make_unique<DarkEstimator>(std::move(texels));
   }
   if (task.options.estimator == Estimator::kCached) return make_cached_estimator(task);
@@ -139,7 +139,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
 
 Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const FramePixel> held_out,
                         const Radiosity& light) {
-  const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.rays));
+  const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
   const RadiosityOptions& options = task.options;
   const double goal = options.error > 0 ? options.error : light.report.relative_error;
   auto c = certify(task.transport, task.atlas, task.map, light.pages, held_out, what, goal, at_most, task.context,
@@ -176,7 +176,7 @@ Result<std::optional<Goal>> next_goal(const RadiosityTask& task, const Goal& las
   Certificate& c = report.certificate;
   const double asked2 = options.error * options.error, square = c.relative_error * c.relative_error;
   const bool missed = options.error > 0 && c.relative_error > kTolerated * options.error && c.error_low > options.error;
-  if (!missed || report.ended_early || report.refinements == kRefinements) return std::nullopt;
+  if (!missed || report.ended_early || report.out_of_rays || report.refinements == kRefinements) return std::nullopt;
   if (options.enough && options.enough()) return std::nullopt;
   const double noise2 = report.relative_error * report.relative_error;
   double stays = std::max(square - noise2, 0.0);
@@ -220,10 +220,10 @@ Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional) {
 Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context) {
-  std::atomic<std::uint64_t> rays{0};
+  std::atomic<std::uint64_t> rays{0}, quick_rays{0};
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             pixels_of(transport, atlas, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
-  const RadiosityTask task{transport, atlas, texel_map, pixels, options, context, rays};
+  const RadiosityTask task{transport, atlas, texel_map, pixels, options, context, rays, quick_rays};
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
   Radiosity light;
   Goal goal{.error = options.error};
@@ -241,7 +241,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     if (!next) break;
     goal = *next;
   }
-  light.report.rays = rays;
+  light.report.rays = rays + quick_rays;
   if (options.hidden == Hidden::kBlack) darken_all_hidden(task, light);
   return light;
 }

@@ -16,6 +16,9 @@ struct FilterOptions {
 };
 
 inline constexpr int kRefinements = 2;  // after verification
+// RadiosityOptions::most_rays of a bake for which nobody named an error: a minute or two of two cores. And what a texel
+// may have on average, where that is more.
+inline constexpr std::uint64_t kDefaultMostRays = 32 << 20, kMostTexelMean = 256;
 
 enum class Estimator : std::uint8_t {
   kReference,  // unbiased paths from every texel
@@ -33,6 +36,9 @@ struct RadiosityOptions {
   std::uint32_t samples = 256;  // reference: paths a texel, best a power of two; the error falls as 1/√samples.
                                 // cached: gather rays a texel, at most
   double error = 0;             // stop at this error of frames (RadiosityReport::relative_error); 0: take all samples
+  // cached: refinement to `error` ends after so many rays (or kMostTexelMean a texel), a shadow ray being a third of
+  // one, with the error that is stated then. 0: never for that.
+  std::uint64_t most_rays = 0;
   int bounces = 0;  // reflections counted after leaving the texel; 0: all. For comparing with bakers that stop
   // Asked by many threads while an estimate is refined: true ends that at once, and what is there is the result (a time
   // limit, say). Context::finishable is set while it is asked.
@@ -105,14 +111,16 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
-  Vec3 mean{0};               // lux, over valid texels
-  Vec3 max{0};                // lux
-  double relative_error = 0;  // stated: rms of standard error over the pixels that eyes see (frames/frame_error.h)
-  int sweeps = 0;             // cached: bounces computed in the coarse lightmap
-  bool ended_early = false;   // by `enough`: the error asked for does not hold
-  int refinements = 0;        // cached: after held-out pixels told of a larger error than was asked for
-  double sweep_tail = 0;      // cached: bound on what further bounces would add, relative
-  double sweep_growth = 0;    // cached: what the last bounce added over what the one before did
+  Vec3 mean{0};                  // lux, over valid texels
+  Vec3 max{0};                   // lux
+  double relative_error = 0;     // stated: rms of standard error over the pixels that eyes see (frames/frame_error.h)
+  int sweeps = 0;                // cached: bounces computed in the coarse lightmap
+  bool ended_early = false;      // by `enough`: the error asked for does not hold
+  std::uint64_t first_rays = 0;  // cached: of `rays`, before any refinement
+  bool out_of_rays = false;      // by RadiosityOptions::most_rays: neither
+  int refinements = 0;           // cached: after held-out pixels told of a larger error than was asked for
+  double sweep_tail = 0;         // cached: bound on what further bounces would add, relative
+  double sweep_growth = 0;       // cached: what the last bounce added over what the one before did
   std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
   double filter_drift = 0;          // cached: relative change of the gathered energy by the filter
   SeamReport seams;

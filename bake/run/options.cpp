@@ -164,6 +164,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
       {"samples", o.radiosity.samples},
       {"error", o.radiosity.error},
+      {"most_rays", o.radiosity.most_rays},
       {"time_s", o.time_s},
       {"verify", o.radiosity.verify},
       {"reuse_error", o.radiosity.reuse_error},

@@ -48,6 +48,13 @@ void warn_about_error(const BakeOptions& options, const RadiosityReport& report,
                     "{:.3g} %, {:.2g} times too much",
                     100 * asked, options.time_s, 100 * stated, stated / asked));
   if (report.ended_early) return;
+  if (report.out_of_rays) {
+    context.warning(fmt::format(
+        "the lightmap's stated error is {:.3g} %: the default of {:.3g} % takes more than a bake's first minutes; "
+        "--error {:.3g}% goes on until it is there",
+        100 * stated, 100 * asked, 100 * asked));
+    return;
+  }
   context.warning(fmt::format(
       "the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays each, or lie "
       "where light changes within a texel; --texel makes those finer",

@@ -260,6 +260,7 @@ std::string plan_json(const BakeFacts& f) {
         {"bounded_patches", f.radiosity.bounded_patches},
         {"filter_drift", f.radiosity.filter_drift},
         {"ended_early", f.radiosity.ended_early},
+        {"out_of_rays", f.radiosity.out_of_rays},
         {"certificate",
          {{"pixels", f.radiosity.certificate.pixels},
           {"paths", f.radiosity.certificate.paths},

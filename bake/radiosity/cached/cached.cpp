@@ -30,14 +30,15 @@ constexpr double kDirectTime = 0.3;                     // of what is left (Radi
 constexpr float kCoarseError = 0.25f;                   // of bounces that no gather ray refined
 constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
-constexpr double kGatherCost = 2;                       // of its rays, in shadow rays: these have company
 
 class CachedEstimator : public LightEstimator {
  public:
   CachedEstimator(const RadiosityTask& task, Texels texels)
-      : options_(task.options),
+      : task_(task),
+        options_(task.options),
         context_(task.context),
         rays_(task.rays),
+        quick_rays_(task.quick_rays),
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
         sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
@@ -65,7 +66,7 @@ class CachedEstimator : public LightEstimator {
     report.filter_drift = std::fabs(smooth_direct_.energy_drift) > std::fabs(estimate_.energy_drift)
                               ? smooth_direct_.energy_drift
                               : estimate_.energy_drift;
-    report.ended_early = ended_early_;
+    report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
     for (std::size_t i = 0; i < texels_.count(); ++i) {
@@ -102,7 +103,9 @@ class CachedEstimator : public LightEstimator {
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     take_known();
     ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
-    return first_gather();
+    ORIEL_TRY_VOID(first_gather());
+    first_work_ = task_.work(), first_rays_ = rays_ + quick_rays_;
+    return {};
   }
 
   // Where time ends meanwhile, those that came count; without any, rays look for that light.
@@ -169,11 +172,11 @@ class CachedEstimator : public LightEstimator {
     // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
     const bool few_tell = options_.directional || direct_light_.samples_lights();
     const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
-    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, rays_));
+    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, quick_rays_));
     // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
     std::vector<std::uint32_t> crowded = order_;
     std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
-    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, rays_));
+    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, quick_rays_));
     known_now_.glance = direct_.value;
     if (reuse_) take_known_direct();
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
@@ -188,12 +191,16 @@ class CachedEstimator : public LightEstimator {
         return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
       });
       keep_uncertain(direct_, beside_, round == 0 ? 0 : kUncertain, context_, list);
-      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, rays_));
+      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, quick_rays_));
     }
     known_now_.first_direct = direct_.value;
     return {};
   }
 
+  bool out_of_rays() const {
+    const std::uint64_t most = std::max(options_.most_rays, kMostTexelMean * texels_.count());
+    return options_.most_rays > 0 && task_.work() - first_work_ >= most;
+  }
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
 
   // Runs a refinement, which each texel gets whole or not at all, until there is enough.
@@ -219,16 +226,7 @@ class CachedEstimator : public LightEstimator {
 
   void update_estimate() {
     estimate_ = filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_);
-    DVec3 sum(0);
-    double count = 0;
-    baked_ = 0;
-    for (std::size_t i = 0; i < texels_.count(); ++i) {
-      if (texels_.visible[i] == 0) continue;
-      sum += DVec3(direct_.value[i]) + DVec3(estimate_.value[i]);
-      ++count;
-      if (!keeps(i)) baked_ += frames_.shares()[i];
-    }
-    mean_ = sum / std::max(1.0, count);
+    mean_luminance_ = mean_luminance(texels_, direct_.value, estimate_.value);
   }
 
   std::vector<Vec3> light() const {
@@ -239,12 +237,12 @@ class CachedEstimator : public LightEstimator {
 
   // Measured over texels that are baked: what others keep is not theirs to make up for.
   Part part(Part part) const {
-    part.measure(not_kept(), baked_);
+    part.measure(not_kept(), frames_.shares());
     return part;
   }
 
   bool is_dark(std::size_t i) const {
-    return luminance(direct_.value[i] + estimate_.value[i]) < kDark * luminance(Vec3(mean_));
+    return luminance(direct_.value[i] + estimate_.value[i]) < kDark * mean_luminance_;
   }
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
@@ -285,13 +283,13 @@ class CachedEstimator : public LightEstimator {
     for (;;) {
       const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
                                 static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
-      const Part gathered =
-          part({gathered_.samples, most_gathered(), kGatherGain, kGatherCost * static_cast<double>(gather_rays_),
-                frames_.squares(light(), estimate_.variance)});
+      const Part gathered = part({gathered_.samples, most_gathered(), kGatherGain,
+                                  RadiosityTask::kQuickRays * static_cast<double>(gather_rays_),
+                                  frames_.squares(light(), estimate_.variance)});
       double now = direct.mean + gathered.mean;
       if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
       if (now <= goal) return {};
-      if ((ended_early_ = done())) return {};
+      if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };
       std::vector<std::uint32_t> list;
       if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
@@ -321,12 +319,12 @@ class CachedEstimator : public LightEstimator {
   }
 
   Status refine_direct(const std::vector<std::uint32_t>& list, std::uint32_t most) {
-    const std::uint64_t before = rays_;
+    const std::uint64_t before = quick_rays_;
     ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
-      return direct_light_.estimate(same, std::min(most, 2 * samples), context_, direct_, rays_);
+      return direct_light_.estimate(same, std::min(most, 2 * samples), context_, direct_, quick_rays_);
     }));
     update_direct();
-    direct_rays_ += rays_ - before;
+    direct_rays_ += quick_rays_ - before;
     return {};
   }
 
@@ -354,9 +352,10 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
+  const RadiosityTask& task_;
   const RadiosityOptions& options_;
   Context& context_;
-  std::atomic<std::uint64_t>& rays_;
+  std::atomic<std::uint64_t>&rays_, &quick_rays_;  // RadiosityTask
   const Texels texels_;
   std::vector<std::uint32_t> order_;
   MoreSites sites_;
@@ -380,17 +379,17 @@ class CachedEstimator : public LightEstimator {
   FrameError frames_;
   std::vector<float> shares_;                        // of frames that a texel fills, as its surroundings tell
   std::vector<bool> little_seen_;                    // by texel
-  DVec3 mean_{0};                                    // lux, over texels that see light
-  double baked_ = 0;                                 // share of frames that texels fill which do not keep their light
+  float mean_luminance_ = 0;                         // of the light of texels that see any, lux
   std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements
-  bool ended_early_ = false;
+  std::uint64_t first_work_ = 0, first_rays_ = 0;  // RadiosityTask::work, and rays, of what comes before any refinement
+  bool ended_early_ = false, out_of_rays_ = false;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
   ORIEL_TRY(Texels texels,
-            list_texels(task.transport, task.atlas, task.map, task.context, task.rays, task.options.eyes));
+            list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays, task.options.eyes));
   return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 

@@ -1,6 +1,7 @@
 #include "bake/radiosity/cached/filter.h"
 
 #include "bake/jobs/parallel.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
@@ -162,6 +163,13 @@ std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, s
     squares[i] = texels.has_many[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
   each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
   return squares;
+}
+
+float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, const std::vector<Vec3>& gathered) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < texels.count(); ++i)
+    if (texels.visible[i] > 0) sum += static_cast<double>(luminance(direct[i] + gathered[i])), ++count;
+  return static_cast<float>(sum / std::max(1.0, count));
 }
 
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,

@@ -32,6 +32,9 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
                 Context& context);
 
+// Of the sum of both, over texels that see light, lux.
+float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, const std::vector<Vec3>& gathered);
+
 // Where gathered light comes from, smoothed over each texel's surroundings: a few dozen rays tell it poorly.
 std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context);
 

@@ -11,11 +11,11 @@ constexpr double kLeastAtOnce = 0.1, kMostAtOnce = 0.5;
 
 }  // namespace
 
-void Part::measure(std::span<const std::uint32_t> texels, double share) {
+void Part::measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares) {
   mean = stuck = 0;
-  double all = 0, all_stuck = 0;
+  double share = 0, all = 0, all_stuck = 0;
   for (const std::uint32_t i : texels) {
-    mean += squares[i], all += samples[i];
+    share += shares[i], mean += squares[i], all += samples[i];
     if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
   }
   if (share > 0) mean /= share, stuck /= share;

@@ -12,8 +12,8 @@ struct Part {
   double rays = 0;                            // spent on refining it so far; as many shadow rays take its time
   std::vector<float> squares;                 // by texel: its part of the frames' mean square
 
-  // Over the pixels that show `texels`, which are so large a share of all.
-  void measure(std::span<const std::uint32_t> texels, double share);
+  // Over the pixels that show `texels`. shares: by texel, of frames that it fills.
+  void measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares);
   double mean = 0, stuck = 0;  // the mean square, and of it what has all its samples and stays
   double open_rays = 0;        // of `rays` those of the rest
   double open() const { return mean - stuck; }

@@ -225,11 +225,35 @@ TEST(Cached, NoLightComesThroughTexelsThatReachUnderAWall) {
   EXPECT_LT(light / count, 0.01 * kPiD) << "looked up in the floor's texel it is 0.15";
 }
 
-TEST(Cached, OneAndTwoThreadsGiveTheSameBytes) {
-  const Scene scene = room(Feature::kDielectric);
-  const Baked a = bake(scene, 0.15f, to_error(0.05), 1), b = bake(scene, 0.15f, to_error(0.05), 2);
+void expect_same_light(const Baked& a, const Baked& b) {
   EXPECT_EQ(a.radiosity.pages[0].irradiance, b.radiosity.pages[0].irradiance);
   EXPECT_EQ(a.radiosity.pages[0].standard_error, b.radiosity.pages[0].standard_error);
+}
+
+TEST(Cached, OneAndTwoThreadsGiveTheSameBytes) {
+  const Scene scene = room(Feature::kDielectric);
+  expect_same_light(bake(scene, 0.15f, to_error(0.05), 1), bake(scene, 0.15f, to_error(0.05), 2));
+}
+
+// Rays end the work where an error takes more of them, at the same place for any number of threads.
+TEST(Cached, EndsWhenRaysAreSpentAndStatesTheErrorThatIsThere) {
+  const Scene scene = room(Feature::kDielectric);
+  RadiosityOptions options = to_error(0.002);
+  options.most_rays = 1;  // and what texels may have on average
+  const Baked a = bake(scene, 0.15f, options, 1), b = bake(scene, 0.15f, options, 2);
+  expect_same_light(a, b);
+  const RadiosityReport& ended = a.radiosity.report;
+  EXPECT_TRUE(ended.out_of_rays);
+  EXPECT_FALSE(ended.ended_early) << "that is time's";
+  EXPECT_EQ(ended.refinements, 0);
+  EXPECT_GT(ended.relative_error, 0.002);
+  options.most_rays = 0;
+  const RadiosityReport whole = bake(scene, 0.15f, options).radiosity.report;
+  EXPECT_FALSE(whole.out_of_rays);
+  EXPECT_LT(whole.relative_error, 0.8 * ended.relative_error);
+  EXPECT_GT(whole.rays, 2 * ended.rays);
+  options.most_rays = 1, options.error = 0.1;
+  EXPECT_FALSE(bake(scene, 0.15f, options).radiosity.report.out_of_rays) << "the error is there first";
 }
 
 }  // namespace

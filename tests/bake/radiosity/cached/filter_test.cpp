@@ -76,7 +76,8 @@ TEST(Part, PaysWhereItsErrorIsGreaterForItsRays) {
   Part dear{.samples = samples, .most = 8, .gain = 0.5, .rays = 1000, .squares = {0.01f, 0.02f, 0.03f}};
   Part cheap = dear;
   cheap.rays = 100;
-  dear.measure(all, 0.5), cheap.measure(all, 0.5);
+  const std::vector<float> shares = {0.125f, 0.125f, 0.25f, 0.5f};
+  dear.measure(all, shares), cheap.measure(all, shares);
   EXPECT_NEAR(dear.mean, 0.12, 1e-7);
   EXPECT_TRUE(cheap.pays_more_than(dear));
   EXPECT_FALSE(dear.pays_more_than(cheap));
