@@ -1,7 +1,6 @@
 #include "bake/radiance/capture.h"
 
 #include <algorithm>
-#include <array>
 
 #include "bake/radiance/reproject.h"
 #include "bake/scene/light/sky.h"
@@ -14,32 +13,20 @@ Vec3 usable_light(const Vec3& c) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
-namespace {
-
-bool has_image(const SceneMaterial& material) {
-  const auto slots = texture_slots(material);
-  return std::any_of(slots.begin(), slots.end(), [](const TextureSlot* slot) { return slot->image >= 0; });
-}
-
-}  // namespace
-
 SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction, std::uint32_t looks) {
+              const Vec3& from, const Vec3& direction, const Cone& cone) {
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
   std::uint64_t lobe_rays = 0;
   const auto add = [&](SeenSurface surface) {
-    const Scene& scene = surroundings.accel().scene();
-    seen.textured |= has_image(scene.materials[scene.surfaces[scene.triangle_surface[surface.hit.triangle]].material]);
     surface.rays = &lobe_rays;
-    surface.looks = looks;
     // The closed form shows the lamp itself; its images in other mirrors are here alone.
     surface.emission =
         surface.mirrors_passed > 0 || !std::binary_search(emitters.begin(), emitters.end(), surface.hit.triangle);
     seen.radiance += surface.throughput * usable_light(outgoing(surface));
     return true;
   };
-  seen.sight = surroundings.look(reflector, from, direction, add);
+  seen.sight = surroundings.look(reflector, from, direction, add, cone);
   seen.rays = seen.sight.rays + lobe_rays;
   if (seen.sight.sky_direction != Vec3(0))
     seen.radiance +=
@@ -53,55 +40,29 @@ namespace {
 constexpr std::uint32_t kRowsABand = 32;
 constexpr double kRaysABand =
     1 << 17;  // about, many pixels see by way of lobes: a unit of its own (bake/jobs/units.cpp)
-// From a pixel's centre: one place in each row and column of a 4 x 4 grid.
-constexpr std::array<Vec2, 4> kPlaces = {Vec2(-0.125f, -0.375f), Vec2(0.375f, -0.125f), Vec2(-0.375f, 0.125f),
-                                         Vec2(0.125f, 0.375f)};
-constexpr float kSameDistance = 0.005f;  // of the distance: how far from its plane a surface goes on as the same,
-constexpr float kSameNormal = 0.9f;      // while it turns by no more than this cosine
-
-struct SeenAt {
-  SeenLight light;
-  Vec3 at{0};  // what it ended on, or its image; scene space
-};
-
-bool same_surface(const SeenAt& a, const SeenAt& b) {
-  const Sight &s = a.light.sight, &t = b.light.sight;
-  if (s.state != t.state || s.mirrored != t.mirrored || s.backdrop != t.backdrop) return false;
-  if (s.state == Sight::kSky) return true;
-  const float away = std::abs(glm::dot(s.normal, b.at - a.at));
-  return away <= kSameDistance * glm::length(s.offset) && glm::dot(s.normal, t.normal) >= kSameNormal;
-}
 
 }  // namespace
 
 CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at) {
   const Vec3 q(map_point(map, at), 0);
   const Mat3 to_pack(reflector.pack_from_reflector);
-  return {pack_from_reflector(reflector, q), glm::normalize(to_pack * glm::normalize(q - map.eye))};
+  const Vec3 way = q - map.eye;
+  const float distance = glm::length(way);
+  // A pixel of the plane, as wide as it looks from the eye on average over directions.
+  const Vec2 size = glm::abs(map_point(map, at + 1.0f) - Vec2(q));
+  const float width = std::sqrt(size.x * size.y * std::abs(way.z) / distance);
+  return {pack_from_reflector(reflector, q), glm::normalize(to_pack * (way / distance)), {width, width / distance}};
 }
 
 MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                        const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
   const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
-  const auto look = [&](const Vec2& place, std::uint32_t looks) {
-    const CaptureRay ray = capture_ray(reflector, map, place);
-    SeenAt seen{see(surroundings, outgoing, map.reflector, ray.from, ray.direction, looks)};
-    seen.at = ray.from + seen.light.sight.offset;
-    rays += seen.light.rays;
-    return seen;
-  };
-  const Vec2 middle = Vec2(x, y) + 0.5f;
-  const SeenAt centre = look(middle, 1);
-  const Sight& sight = centre.light.sight;
-  Vec3 light = centre.light.radiance;
-  float count = 1;
-  for (std::size_t i = 0; centre.light.textured && i < kPlaces.size(); ++i) {
-    const SeenAt beside = look(middle + kPlaces[i], kPlaces.size());
-    if (same_surface(centre, beside)) light += beside.light.radiance, ++count;
-  }
+  const CaptureRay ray = capture_ray(reflector, map, Vec2(x, y) + 0.5f);
+  const auto [sight, light, traced] = see(surroundings, outgoing, map.reflector, ray.from, ray.direction, ray.cone);
+  rays += traced;
   const bool has_depth = sight.state == Sight::kSurface || sight.back;
   const float height = std::max(0.0f, glm::dot(sight.offset, Vec3(reflector.pack_from_reflector[2])));
-  return {light / count, has_depth ? disparity_of(map, height) : 0, static_cast<std::uint8_t>(sight.state)};
+  return {light, has_depth ? disparity_of(map, height) : 0, static_cast<std::uint8_t>(sight.state)};
 }
 
 std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps) {

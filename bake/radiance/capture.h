@@ -18,13 +18,11 @@ Vec3 usable_light(const Vec3& c);
 // nothing usable is seen. The reflector's emitters shine by way of other mirrors only.
 struct SeenLight {
   Sight sight;
-  Vec3 radiance{0};       // cd/m²
-  bool textured = false;  // part of it comes from a surface whose colour or lobe an image tells
+  Vec3 radiance{0};  // cd/m²
   std::uint64_t rays = 0;
 };
-// looks: SeenSurface::looks.
 SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction, std::uint32_t looks = 1);
+              const Vec3& from, const Vec3& direction, const Cone& cone = {});
 
 // A pixel of a radiance map, as its members have it.
 struct MapPixel {
@@ -32,9 +30,10 @@ struct MapPixel {
   float disparity = 0;
   std::uint8_t valid = 0;
 };
-// The ray of a map's pixel (x, y), counted in pixels: from the plane, scene space.
+// The ray of a place of a map, in pixels: from the plane, scene space; with what a pixel there shows.
 struct CaptureRay {
   Vec3 from{0}, direction{0};
+  Cone cone;
 };
 CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
 // What capture_maps() has for a pixel. Adds to `rays`.
@@ -51,10 +50,10 @@ std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::
 UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
                       const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
 
-// Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth is that of the ray through
-// a pixel's centre; where that meets a texture, light is the mean over it and the rays through four more places of the
-// pixel that meet the same surface, so that fine textures do not alias and colour and depth still belong together. Both
-// as ReflectedSurroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance,
+// Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth and light are those of the
+// ray through a pixel's centre; textures on its way are means over what the pixel shows of them (its cone, after
+// Akenine-Möller et al. 2021), so that fine ones do not alias and colour and depth still belong together. Both as
+// ReflectedSurroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance,
 // and mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps
 // its depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
 // lists emitters show those by way of other mirrors only. Adds to `rays` (may be null). The same bytes for any number

@@ -39,10 +39,11 @@ const FoundReflector* ReflectedSurroundings::reflector_at(std::uint32_t triangle
 class ReflectedSurroundings::Walk {
  public:
   Walk(const ReflectedSurroundings& surroundings, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
-       const Visit& visit)
+       const Visit& visit, const Cone& cone)
       : in_(surroundings),
         scene_(surroundings.accel_.scene()),
         visit_(visit),
+        cone_(cone),
         left_(&surroundings.reflectors_[reflector]),
         orders_left_(std::max(surroundings.options_.orders, 1u) - 1),
         start_(from) {
@@ -112,7 +113,8 @@ class ReflectedSurroundings::Walk {
         visit_({.hit = hit,
                 .towards_eye = -ray_.direction,
                 .throughput = throughput_ * point.coverage,
-                .mirrors_passed = mirrors_passed_});
+                .mirrors_passed = mirrors_passed_,
+                .width_m = width_at(p)});
       throughput_ *= through;
       return !passes;
     }
@@ -128,11 +130,14 @@ class ReflectedSurroundings::Walk {
                                           .mirror = mirror != nullptr,
                                           .mirrors_passed = mirrors_passed_,
                                           .planar = reflector != nullptr,
-                                          .glossy = reflector && !narrow});
+                                          .glossy = reflector && !narrow,
+                                          .width_m = width_at(p)});
     if (!mirror || (depth_known_ && !goes_on)) return true;
     bounce(*mirror, r, p);
     return false;
   }
+
+  float width_at(const Vec3& p) const { return cone_.width_m + cone_.spread * (way_m_ + glm::length(p - start_)); }
 
   void note_depth(const Hit& hit, const Vec3& p, bool back) {
     if (depth_known_) return;
@@ -147,6 +152,7 @@ class ReflectedSurroundings::Walk {
   void bounce(const FoundReflector& mirror, const Vec3& r, const Vec3& p) {
     const Vec3 normal(mirror.reflector.pack_from_reflector[2]);
     offset_ += unfold_ * (p - start_);
+    way_m_ += glm::length(p - start_);
     start_ = p;
     throughput_ *= r;
     unfold_ = unfold_ * (Mat3(1) - 2.0f * glm::outerProduct(normal, normal));
@@ -159,11 +165,13 @@ class ReflectedSurroundings::Walk {
   const ReflectedSurroundings& in_;
   const Scene& scene_;
   const Visit& visit_;
+  Cone cone_;
   const FoundReflector* left_;  // the reflector that the ray left last
   std::uint32_t orders_left_, mirrors_passed_ = 0;
   Ray ray_;
-  Vec3 start_;      // of the stretch since the last mirror
-  Vec3 offset_{0};  // of that start, unfolded
+  Vec3 start_;       // of the stretch since the last mirror
+  Vec3 offset_{0};   // of that start, unfolded
+  float way_m_ = 0;  // to that start
   float step_ = 0;
   Vec3 throughput_{1};
   Mat3 unfold_{1};
@@ -172,9 +180,9 @@ class ReflectedSurroundings::Walk {
   Sight sight_;
 };
 
-Sight ReflectedSurroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction,
-                                  const Visit& visit) const {
-  return Walk(*this, reflector, from, direction, visit).run();
+Sight ReflectedSurroundings::look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit,
+                                  const Cone& cone) const {
+  return Walk(*this, reflector, from, direction, visit, cone).run();
 }
 
 }  // namespace oriel

@@ -28,7 +28,7 @@ struct SeenSurface {
   std::uint32_t mirrors_passed = 0;  // on the way, the ray's own reflector not counted
   bool planar = false;               // of a planar reflector
   bool glossy = false;  // its lobe is too wide to be followed but narrow enough that what it shows depends on the eye
-  std::uint32_t looks = 1;        // so many with other rays, whose mean counts: each needs that much fewer paths
+  float width_m = 0;    // of the ray's cone there: what a pixel shows of it. 0: a point
   std::uint64_t* rays = nullptr;  // rays that finding its light traces are added to it; may be null
 };
 
@@ -47,6 +47,11 @@ struct Sight {
   std::uint32_t rays = 0;
 };
 
+// What a pixel sees lies in a cone around its ray: as wide as that where it starts, and wider by so much a metre.
+struct Cone {
+  float width_m = 0, spread = 0;
+};
+
 class ReflectedSurroundings {
  public:
   // Both must outlive it.
@@ -62,7 +67,8 @@ class ReflectedSurroundings {
   // image is at infinity. Surfaces that let at
   // least half of the light pass in some channel are walked through; the offset is that of what lies behind. A planar
   // mirror is followed to what it reflects, and where it reflects more than half, the offset is that of the image.
-  Sight look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit) const;
+  Sight look(std::uint32_t reflector, const Vec3& from, const Vec3& direction, const Visit& visit,
+             const Cone& cone = {}) const;
 
   const Accel& accel() const { return accel_; }
   std::span<const FoundReflector> reflectors() const { return reflectors_; }

@@ -206,6 +206,8 @@ Result<BakeResult> bake(const BakeOptions& options, Context& context) {
                 return plan_reflections(options, prepared, lights, materials, kMostForViews * deadline.left(), context);
               }));
   }
+  if (!planned.empty())
+    ORIEL_TRY_VOID(timed("mips", [&](auto&) { return make_mips(prepared.imported->scene, context); }));
   AssembledMesh mesh = assemble_mesh(scene, atlas);
   VisibilityReport visibility;
   ORIEL_TRY(pack.visible_sets, timed("visibility", [&](std::uint64_t& rays) {

@@ -18,6 +18,7 @@ struct Image {
   std::string name;
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> texels;  // 4 * width * height
+  std::vector<Image> mips = {};      // from half the size on, each half of the one before; none until make_mips()
 };
 
 // Where and how a material reads an image.

@@ -28,10 +28,15 @@ Vec4 vertex_color(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
   return glm::clamp(color, 0.0f, 1.0f);
 }
 
-Vec4 texture_at(const Scene& scene, const TextureSlot& slot, std::uint32_t triangle, const Vec2& b, bool srgb) {
+Vec4 texture_at(const Scene& scene, const TextureSlot& slot, std::uint32_t triangle, const Vec2& b, bool srgb,
+                const Footprint& footprint = {}) {
   if (slot.image < 0) return Vec4(1);
-  return sample_texture(scene, slot,
-                        interpolate(slot.texcoord == 0 ? scene.uv0 : scene.uv1, scene.triangles[triangle], b), srgb);
+  const std::vector<Vec2>& uvs = slot.texcoord == 0 ? scene.uv0 : scene.uv1;
+  const UVec3& t = scene.triangles[triangle];
+  const Vec2 uv = interpolate(uvs, t, b);
+  if (footprint.is_point()) return sample_texture(scene, slot, uv, srgb);
+  const auto step = [&](const Vec2& s) { return s.x * (uvs[t.y] - uvs[t.x]) + s.y * (uvs[t.z] - uvs[t.x]); };
+  return sample_texture(scene, slot, uv, step(footprint.shorter), step(footprint.longer), srgb);
 }
 
 float coverage_of(const SceneMaterial& material, float alpha) {
@@ -47,31 +52,11 @@ float coverage_of(const SceneMaterial& material, float alpha) {
 }
 
 // Base colour and alpha.
-Vec4 base_at(const Scene& scene, const SceneMaterial& material, std::uint32_t triangle, const Vec2& b) {
+Vec4 base_at(const Scene& scene, const SceneMaterial& material, std::uint32_t triangle, const Vec2& b,
+             const Footprint& footprint = {}) {
   const Vec4 factor(material.base_color, material.alpha);
-  return glm::clamp(
-      factor * texture_at(scene, material.base_color_texture, triangle, b, true) * vertex_color(scene, triangle, b),
-      0.0f, 1.0f);
-}
-
-std::uint32_t wrapped(double i, std::uint32_t size, Wrap wrap) {
-  const double n = size;
-  if (wrap == Wrap::kClamp) return static_cast<std::uint32_t>(std::clamp(i, 0.0, n - 1));
-  const double period = wrap == Wrap::kMirror ? 2 * n : n;
-  double r = i - std::floor(i / period) * period;
-  if (r >= period) r = 0;  // rounding of a tiny negative i
-  if (r < 0) r = 0;
-  const auto at = static_cast<std::uint32_t>(r);
-  return at < size ? at : 2 * size - 1 - at;
-}
-
-Vec4 texel(const Image& image, double x, double y, const TextureSlot& slot, bool srgb) {
-  const std::uint8_t* p = image.texels.data() + 4 * (std::size_t{wrapped(y, image.height, slot.wrap_t)} * image.width +
-                                                     wrapped(x, image.width, slot.wrap_s));
-  const float alpha = static_cast<float>(p[3]) / 255.0f;
-  if (srgb) return {linear_from_srgb8(p[0]), linear_from_srgb8(p[1]), linear_from_srgb8(p[2]), alpha};
-  return {static_cast<float>(p[0]) / 255.0f, static_cast<float>(p[1]) / 255.0f, static_cast<float>(p[2]) / 255.0f,
-          alpha};
+  const Vec4 image = texture_at(scene, material.base_color_texture, triangle, b, true, footprint);
+  return glm::clamp(factor * image * vertex_color(scene, triangle, b), 0.0f, 1.0f);
 }
 
 // Measured constants in place of base colour and Schlick's curve.
@@ -82,19 +67,21 @@ void make_metal(ShadePoint& p, Metal metal) {
   p.diffuse = p.transmission = Vec3(0);
 }
 
-void add_coat(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, ShadePoint& p) {
+void add_coat(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, const Footprint& f,
+              ShadePoint& p) {
   if (m.coat <= 0) return;
-  p.coat = m.coat * texture_at(scene, m.coat_texture, triangle, b, false).r;
-  const float roughness = m.coat_roughness * texture_at(scene, m.coat_roughness_texture, triangle, b, false).g;
+  p.coat = m.coat * texture_at(scene, m.coat_texture, triangle, b, false, f).r;
+  const float roughness = m.coat_roughness * texture_at(scene, m.coat_roughness_texture, triangle, b, false, f).g;
   p.coat_alpha = roughness * roughness;
 }
 
-void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, ShadePoint& p) {
+void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b,
+                    const Footprint& f, ShadePoint& p) {
   if (m.anisotropy <= 0) return;
   Vec2 direction(1, 0);
   p.anisotropy = m.anisotropy;
   if (m.anisotropy_texture.image >= 0) {
-    const Vec4 texel = texture_at(scene, m.anisotropy_texture, triangle, b, false);
+    const Vec4 texel = texture_at(scene, m.anisotropy_texture, triangle, b, false, f);
     const Vec2 d = 2.0f * Vec2(texel) - 1.0f;
     if (glm::dot(d, d) > 1e-6f) direction = glm::normalize(d);
     p.anisotropy *= texel.b;
@@ -105,9 +92,9 @@ void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t tr
 
 }  // namespace
 
-ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
+ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Footprint& f) {
   const SceneMaterial& m = material_of(scene, triangle);
-  const Vec4 base = base_at(scene, m, triangle, b);
+  const Vec4 base = base_at(scene, m, triangle, b, f);
   ShadePoint p;
   p.base_color = Vec3(base);
   if (m.unlit) {
@@ -117,13 +104,13 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
     return p;
   }
   p.coverage = coverage_of(m, base.a);
-  const Vec4 mr = texture_at(scene, m.metallic_roughness_texture, triangle, b, false);
+  const Vec4 mr = texture_at(scene, m.metallic_roughness_texture, triangle, b, false, f);
   const float metallic = std::clamp(m.metallic * mr.b, 0.0f, 1.0f),
               roughness = std::clamp(m.roughness * mr.g, 0.0f, 1.0f);
   const float transmission =
-      m.transmission > 0 ? m.transmission * texture_at(scene, m.transmission_texture, triangle, b, false).r : 0.0f;
-  const float specular = m.specular * texture_at(scene, m.specular_texture, triangle, b, false).a;
-  const Vec3 tint = m.specular_color * Vec3(texture_at(scene, m.specular_color_texture, triangle, b, true));
+      m.transmission > 0 ? m.transmission * texture_at(scene, m.transmission_texture, triangle, b, false, f).r : 0.0f;
+  const float specular = m.specular * texture_at(scene, m.specular_texture, triangle, b, false, f).a;
+  const Vec3 tint = m.specular_color * Vec3(texture_at(scene, m.specular_color_texture, triangle, b, true, f));
   const Vec3 dielectric = glm::min(static_cast<float>(dielectric_f0(m.ior)) * tint, Vec3(1)) * specular;
   p.f0 = glm::mix(dielectric, p.base_color, metallic);
   p.f90 = glm::mix(specular, 1.0f, metallic);
@@ -132,10 +119,10 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   p.diffuse = (1 - metallic) * (1 - transmission) * p.base_color;
   p.transmission = (1 - metallic) * transmission * p.base_color;
   if (m.metal != Metal::kNone) make_metal(p, m.metal);
-  add_coat(scene, m, triangle, b, p);
-  add_anisotropy(scene, m, triangle, b, p);
+  add_coat(scene, m, triangle, b, f, p);
+  add_anisotropy(scene, m, triangle, b, f, p);
   p.emission = m.emission;
-  if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true));
+  if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true, f));
   return p;
 }
 
@@ -157,12 +144,13 @@ Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& b, const
   return tangent;
 }
 
-Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal) {
+Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal,
+                   const Footprint& footprint) {
   const SceneMaterial& m = material_of(scene, triangle);
   const TextureSlot& slot = m.normal_texture;
   if (slot.image < 0 || m.unlit) return normal;
   const Vec4 tangent = tangent_at(scene, triangle, b, normal, slot);
-  return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false)), m.normal_scale);
+  return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false, footprint)), m.normal_scale);
 }
 
 float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
@@ -181,19 +169,6 @@ bool may_transmit(const SceneMaterial& material) {
   return material.unlit || material.alpha_mode != AlphaMode::kOpaque ||
          (material.transmission > 0 && material.metallic < 1) ||
          (material.transmission > 0 && material.metallic_roughness_texture.image >= 0);
-}
-
-Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb) {
-  const Image& image = scene.images[static_cast<std::size_t>(slot.image)];
-  // In double: a float of a large coordinate has no texels left, and its floor no integer.
-  const DVec2 at(DMat3(slot.image_from_uv) * DVec3(uv, 1));
-  const double x = at.x * image.width, y = at.y * image.height;
-  if (slot.nearest) return texel(image, std::floor(x), std::floor(y), slot, srgb);
-  const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-  const auto fx = static_cast<float>(x - 0.5 - left), fy = static_cast<float>(y - 0.5 - top);
-  const Vec4 upper = glm::mix(texel(image, left, top, slot, srgb), texel(image, left + 1, top, slot, srgb), fx);
-  const Vec4 lower = glm::mix(texel(image, left, top + 1, slot, srgb), texel(image, left + 1, top + 1, slot, srgb), fx);
-  return glm::mix(upper, lower, fy);
 }
 
 Vec3 mean_emission(const Scene& scene, std::uint32_t triangle) {

@@ -3,6 +3,7 @@
 
 #include "bake/scene/optics/fresnel.h"
 #include "bake/scene/scene.h"
+#include "bake/scene/texture/texture.h"
 
 namespace oriel {
 
@@ -24,12 +25,14 @@ struct ShadePoint {
   float coverage = 1;              // alpha test or blend: 0 lets light pass as if nothing were there
 };
 
-// barycentric: weights of the triangle's second and third vertex.
-ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
+// barycentric: weights of the triangle's second and third vertex. Textures are their means over the footprint.
+ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric,
+                       const Footprint& footprint = {});
 
 // The unit normal on the front side that the material's normal map makes of `normal` (unit, front side); the same where
 // it has none. docs/conventions.md, "Normal maps".
-Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal);
+Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal,
+                   const Footprint& footprint = {});
 
 // The tangent of a slot's texture coordinates at a point with that normal: the mesh's TANGENT, or out of the
 // coordinates. xyz of any length, 0 where the coordinates do not span a plane; w = ±1, the side of the bitangent w ·
@@ -45,9 +48,6 @@ Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& ba
 
 // False where every point has transmittance 0: rays need not look.
 bool may_transmit(const SceneMaterial& material);
-
-// A texture value, RGBA in [0,1], bilinear (or nearest), `srgb` decodes colour channels to linear.
-Vec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, bool srgb);
 
 // The mean emission of a triangle over its emission texture, cd/m².
 Vec3 mean_emission(const Scene& scene, std::uint32_t triangle);

@@ -253,14 +253,16 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
   return s;
 }
 
-SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
+SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction, float width_m) {
+  const Footprint footprint = width_m > 0 ? cone_footprint(scene, hit.triangle, direction, width_m) : Footprint();
   SurfacePoint s = geometry_at(scene, hit, direction);
   const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
   if (material.normal_texture.image >= 0) {
     const float side = hit.front ? 1.0f : -1.0f;
-    s.normal = facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal), -direction);
+    s.normal =
+        facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal, footprint), -direction);
   }
-  s.shade = shade_point(scene, hit.triangle, hit.barycentric);
+  s.shade = shade_point(scene, hit.triangle, hit.barycentric, footprint);
   if (s.shade.anisotropy > 0)
     s.tangent = wide_direction(scene, hit, material, (hit.front ? 1.0f : -1.0f) * s.normal, s.shade.wide_direction);
   s.emits = s.reflects && max_component(s.shade.emission) > 0;

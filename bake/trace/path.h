@@ -39,8 +39,9 @@ struct SurfacePoint {
 
 // Everything but the shading parameters: cheap, no texture is read.
 SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction);
-// The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit).
-SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction);
+// The surface at a hit, for light that leaves it against `direction` (unit, of the ray that hit). Textures are their
+// means over what a cone of width_m around the ray meets of it.
+SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction, float width_m = 0);
 
 // The surface as light meets it that falls straight on one side of it, as geometry_at().
 SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front = true);

@@ -78,7 +78,7 @@ Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context,
 std::uint64_t bytes_besides_texels(const BakeOptions& options, const Scene& scene) {
   constexpr std::uint64_t kProgram = 100u << 20, kVertex = 64, kTriangle = 400;
   std::uint64_t bytes = kProgram + kVertex * scene.positions.size() + kTriangle * scene.triangles.size();
-  for (const Image& image : scene.images) bytes += image.texels.size();
+  for (const Image& image : scene.images) bytes += image.texels.size() * (options.with_radiance ? 4 : 3) / 3;
   // Radiance maps are captured in floats, twice as large as they are stored, beside what is stored.
   return bytes + (options.with_radiance ? 3 * options.planned.memory_bytes : 0);
 }

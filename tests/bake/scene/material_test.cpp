@@ -140,37 +140,6 @@ TEST(Material, DoubleSidedOnRequest) {
   EXPECT_TRUE(import(triangle(), both).scene().materials.front().double_sided);
 }
 
-TEST(Texture, NearestBilinearAndWraps) {
-  Scene s;
-  s.images.push_back({"", 2, 1, {0, 0, 0, 255, 255, 255, 255, 255}});
-  TextureSlot slot;
-  slot.image = 0;
-  const auto r = [&](float u) { return sample_texture(s, slot, Vec2(u, 0.5f), false).r; };
-  EXPECT_FLOAT_EQ(r(0.25f), 0);  // texel centres
-  EXPECT_FLOAT_EQ(r(0.75f), 1);
-  EXPECT_FLOAT_EQ(r(0.5f), 0.5f);
-  EXPECT_FLOAT_EQ(r(0.0f), 0.5f);  // repeats: between the last and the first
-  EXPECT_FLOAT_EQ(r(-3.25f), 1);
-  EXPECT_FLOAT_EQ(r(7.25f), 0);
-  slot.wrap_s = Wrap::kClamp;
-  EXPECT_FLOAT_EQ(r(0), 0);
-  EXPECT_FLOAT_EQ(r(-9), 0);
-  EXPECT_FLOAT_EQ(r(9), 1);
-  slot.wrap_s = Wrap::kMirror;
-  EXPECT_FLOAT_EQ(r(1.25f), 1);
-  EXPECT_FLOAT_EQ(r(1.75f), 0);
-  EXPECT_FLOAT_EQ(r(-0.25f), 0);
-  EXPECT_FLOAT_EQ(r(0), 0);
-  slot.nearest = true;
-  EXPECT_FLOAT_EQ(r(0.49f), 0);
-  EXPECT_FLOAT_EQ(r(0.51f), 1);
-  for (const float far : {1e9f, -1e9f, 1e30f, -1e-30f}) {
-    EXPECT_GE(r(far), 0) << far;
-    EXPECT_LE(r(far), 1) << far;
-  }
-  EXPECT_NEAR(sample_texture(s, slot, Vec2(0.75f, 0.5f), true).g, 1, 1e-6);
-}
-
 TEST(Texture, TransformTurnsAsKhronosTestModelDoes) {
   // TextureTransformTest: turned by 22.5°, its arrow, which lies along u = v in the image, shows 67.5° below the u
   // axis.
