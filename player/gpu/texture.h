@@ -38,6 +38,7 @@ struct TextureOptions {
   GLenum wrap_s = GL_CLAMP_TO_EDGE;
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
   int levels = 1;             // mip levels that are allocated
+  float anisotropy = 1;       // at most so many looks along what a pixel sees slanted, where the device can
   bool compare = false;       // depth: a lookup says whether its reference is nearer or as near
   bool make_mipmaps = false;  // fill the levels from level 0
 };
@@ -53,8 +54,8 @@ class Texture2d {
   void upload(int level, const void* pixels) const { upload(level, 0, std::max(1, height_ >> level), pixels); }
   void upload(int level, int row, int rows, const void* pixels) const;
   void bind(int unit) const;
-  // Only so many of its levels are looked at, from now on.
-  void limit_levels(int levels) const;
+  // From now on all of its levels are looked at, or the finest at one place alone.
+  void use_mipmaps(bool on) const;
   GLuint name() const { return handle_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -66,6 +67,7 @@ class Texture2d {
   Handle<ObjectKind::kTexture> handle_;
   TextureFormat format_;
   int width_ = 0, height_ = 0, levels_ = 1;
+  float anisotropy_ = 1;
   std::size_t bytes_ = 0;
 };
 

@@ -254,7 +254,7 @@ void SceneImages::settle(Upload& upload) {
     case ImageKind::kNormal: {
       gpu::Texture2d& texture = (item.name.kind == ImageKind::kColor ? colors_ : normals_)[i];
       texture = std::move(textures[0].texture);
-      texture.limit_levels(mipmaps_ ? texture.levels() : 1);
+      texture.use_mipmaps(mipmaps_);
       if (!upload.image.texture.texels.empty()) texels_.emplace_back(i, std::move(upload.image.texture));
       break;
     }
@@ -332,7 +332,7 @@ void SceneImages::use_mipmaps(bool on) {
   mipmaps_ = on;
   for (const auto* textures : {&colors_, &normals_})
     for (const gpu::Texture2d& texture : *textures)
-      if (texture) texture.limit_levels(on ? texture.levels() : 1);
+      if (texture) texture.use_mipmaps(on);
 }
 
 LoadingState SceneImages::state() const {
