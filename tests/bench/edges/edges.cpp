@@ -1,6 +1,7 @@
 // How right the light of packs is along the edges that a scene's cameras see: what a lightmap shows at the points of
 // the pixels on both sides of an edge, beside the illuminance there by unbiased paths. Usage: edges_bench SCENE.glb
-// PACK.oriel … [--width N] [--height N] [--points N] [--error E] [--threads N]
+// PACK.oriel … [--width N] [--height N] [--points N] [--error E] [--threads N]. Or along a line on a surface, every
+// centimetre: --line x,y,z,x,y,z --facing x,y,z
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct Settings {
   int width = 480, height = 320, threads = 0;
   std::size_t points = 400;  // a camera
   double error = 0.01;
+  std::vector<float> line, facing = {0, 1, 0};  // world metres: both ends; the surface's normal
 };
 
 struct EdgePoint {
@@ -163,6 +165,29 @@ void print_row(const std::string& camera, const std::string& pack, std::span<con
   std::fflush(stdout);
 }
 
+// The light along the line, right and as packs show it.
+Status print_line(const Settings& settings, const Transport& transport, std::span<const PackLight> packs,
+                  Context& context) {
+  constexpr double kStep_m = 0.01;
+  const std::vector<float>& l = settings.line;
+  const DVec3 from(l[0], l[1], l[2]), to(l[3], l[4], l[5]);
+  const Vec3 normal = glm::normalize(Vec3(settings.facing[0], settings.facing[1], settings.facing[2]));
+  std::vector<MeasurePoint> meters;
+  const auto steps = static_cast<int>(glm::distance(from, to) / kStep_m);
+  for (int i = 0; i <= steps; ++i) meters.push_back({from + i * kStep_m * glm::normalize(to - from), normal});
+  ORIEL_TRY(const auto lux, illuminance_at(transport, meters, {.relative_error = settings.error}, context));
+  for (std::size_t i = 0; i < meters.size(); ++i) {
+    const double right = luminance(Vec3(lux[i].direct + lux[i].indirect));
+    std::printf("| %.2f m | %.1f lux |", kStep_m * static_cast<double>(i), right);
+    for (const PackLight& pack : packs) {
+      const double shown = pack.at(meters[i].position, normal);
+      std::printf(" %.1f lux, %+.1f %% |", shown, 100 * (shown / right - 1));
+    }
+    std::printf("\n");
+  }
+  return {};
+}
+
 Status run(const Settings& settings) {
   Context context;
   context.threads = settings.threads;
@@ -175,6 +200,7 @@ Status run(const Settings& settings) {
     ORIEL_TRY(PackLight pack, PackLight::open(path));
     packs.push_back(std::move(pack));
   }
+  if (!settings.line.empty()) return print_line(settings, {accel, lights, {}}, packs, context);
   std::printf(
       "| camera | pack | points | rms, %% | edges off by more than %.0f %% | worst, %% | darkest | below %.1f |\n",
       100 * kOff, kDark);
@@ -210,6 +236,10 @@ int main(int argc, char** argv) {
   app.add_option("--points", settings.points, "At most so many a camera");
   app.add_option("--error", settings.error, "Standard error of the illuminance they are held against");
   app.add_option("--threads", settings.threads);
+  app.add_option("--line", settings.line, "Both ends of a line on a surface, world metres")
+      ->delimiter(',')
+      ->expected(6);
+  app.add_option("--facing", settings.facing, "That surface's normal")->delimiter(',')->expected(3);
   CLI11_PARSE(app, argc, argv);
   const oriel::Status done = oriel::run(settings);
   if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
