@@ -62,8 +62,7 @@ void add_atlas_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
       ->check(checked(parse_unit, "UNIT"))
       ->capture_default_str();
   app.add_option("--atlas-time-limit", bake.atlas.time_limit_s,
-                 "Seconds after which what is left gets plain charts, quickly; the pack then depends on how fast the "
-                 "machine is. 0: none")
+                 "Seconds after which what is left gets plain charts; the pack then depends on the machine. 0: none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
@@ -88,8 +87,7 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
          "--time", texts.time,
          "Wall clock of the whole bake. The lightmap is refined for what its other parts leave, reflections get "
          "fewer pixels where they would take half of it; with --error, whichever comes first. The pack then "
-         "depends "
-         "on the machine")
+         "depends on the machine")
       ->check(checked(parse_duration, "TIME"));
   app.add_option(
          "--verify", texts.verify,
@@ -115,8 +113,11 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_flag_callback(
       "--hidden-black", [&bake] { bake.radiosity.hidden = Hidden::kBlack; },
       "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
-      "out: "
-      "dark rims, but comparable");
+      "out: dark rims, but comparable");
+  bake.radiosity.fit_texels = true;
+  app.add_flag("!--texel-means", bake.radiosity.fit_texels,
+               "Texels hold the mean of their light, as most bakers have it, instead of values whose interpolation has "
+               "it when it is shown: softer penumbrae, but comparable texel by texel");
   app.add_option("--directional", texts.directional,
                  "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material "
                  "has a normal map), on, off. Costs a tenth more variance and about 4 bytes a texel")

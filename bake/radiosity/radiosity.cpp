@@ -13,6 +13,7 @@
 #include "bake/radiosity/paths/path_estimator.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
+#include "bake/radiosity/texels/fit_texels.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texels.h"
 #include "formats/core/color.h"
@@ -126,6 +127,7 @@ Result<std::vector<FramePixel>> pixels_of(const Transport& transport, const Atla
 Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (task.options.hidden == Hidden::kBlack) return {};
   for (std::size_t p = 0; p < task.map.size(); ++p) {
+    if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p]);
     fill_buried(task.atlas, task.map[p], light.pages[p]);
     dilate(task.options.dilation, light.pages[p]);
   }

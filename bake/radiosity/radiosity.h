@@ -61,6 +61,7 @@ struct RadiosityOptions {
   FilterOptions filter = {};  // cached
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
+  bool fit_texels = false;   // values whose interpolation has the texels' light (texels/fit_texels.h), not their means
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
 };
