@@ -153,12 +153,6 @@ Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, co
   return tilted_normal(normal, tangent, Vec3(texture_at(scene, slot, triangle, b, false, footprint)), m.normal_scale);
 }
 
-float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
-  const SceneMaterial& m = material_of(scene, triangle);
-  if (m.unlit) return 0;
-  return m.alpha_mode == AlphaMode::kOpaque ? 1.0f : coverage_of(m, base_at(scene, m, triangle, b).a);
-}
-
 Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
   if (!may_transmit(material_of(scene, triangle))) return Vec3(0);
   const ShadePoint p = shade_point(scene, triangle, b);

@@ -40,9 +40,6 @@ Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& baryc
 Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& normal,
                 const TextureSlot& slot);
 
-// Coverage alone (cheap): 1 for opaque materials.
-float coverage_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
-
 // The share of light along a straight ray that passes the surface there: coverage and thin transmission, [0,1].
 Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric);
 

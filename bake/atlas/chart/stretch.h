@@ -22,13 +22,12 @@ class StretchSum {
   double area() const;   // mean of (Γγ + 1/(Γγ)) / 2
   double surface_area() const { return surface_; }
   double plane_area() const { return plane_; }
-  bool is_collapsed() const { return collapsed_; }  // a triangle with area has none in the plane: l2 is infinite
 
  private:
   double scale() const { return surface_ > 0 ? plane_ / surface_ : 0; }  // areas
 
   double surface_ = 0, plane_ = 0, square_ = 0, angle_ = 0, factor_ = 0, largest_ = 0;
-  bool collapsed_ = false;
+  bool collapsed_ = false;  // a triangle with area has none in the plane: l2 is infinite
 };
 
 }  // namespace oriel

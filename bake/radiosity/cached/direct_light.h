@@ -46,7 +46,6 @@ class DirectLight {
   bool closed_form() const { return closed_form_; }
   // Some light is found by chance: emitters without closed forms, the sky, many punctual lights.
   bool samples_lights() const { return !closed_form_ || t_.lights.samples_sky() || many_punctual_; }
-  std::size_t light_count() const { return polygons_.size(); }
 
   // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
   Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context, DirectSums& sums,

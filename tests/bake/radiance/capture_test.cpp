@@ -8,11 +8,13 @@
 #include "bake/radiance/reproject.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/radiance/mirror_room.h"
+#include "tests/bake/radiance/splat.h"
 
 namespace oriel {
 namespace {
 
 using test::Captured;
+using test::height_of;
 using test::MirrorRoom;
 
 ViewOptions small_maps(std::uint32_t resolution = 32) {

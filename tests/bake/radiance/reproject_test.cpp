@@ -1,15 +1,22 @@
 // Selection, equation (3) and the reflection that reprojected maps show.
-#include "bake/radiance/reproject.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/bake/radiance/mirror_room.h"
+#include "tests/bake/radiance/splat.h"
 
 namespace oriel {
 namespace {
 
 using test::Captured;
+using test::height_of;
 using test::MirrorRoom;
+using test::Pinhole;
+using test::pinhole_from_camera;
+using test::point_size;
+using test::ReflectionImage;
+using test::render_reflection;
+using test::select_maps;
+using test::SelectBy;
 
 TEST(Reproject, SpacesAreInversesOfEachOther) {
   Reflector r;

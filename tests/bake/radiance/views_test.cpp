@@ -140,8 +140,8 @@ TEST(Views, ResolutionFollowsTheLobe) {
   EXPECT_EQ(resolution_for(0.3f), 128u);
 }
 
-// The corners of the element fill the image, at the near plane; heights give their disparity.
-TEST(Views, OffAxisFrustaGoThroughTheElement) {
+// The corners of the element are the map's, from whatever place its eye sees them; heights give their disparity.
+TEST(Views, MapsGoThroughTheElement) {
   RadianceMap map;
   map.lower = {-0.3f, 0.2f};
   map.upper = {1.2f, 0.9f};
@@ -149,16 +149,11 @@ TEST(Views, OffAxisFrustaGoThroughTheElement) {
   map.height = 14;
   for (const Vec3& eye : {Vec3(0.4f, 0.5f, -1), Vec3(-3, 2, -0.2f), Vec3(0.45f, 0.55f, -100)}) {
     map.eye = eye;
-    const Mat4 clip = clip_from_reflector(map);
     for (int corner = 0; corner < 4; ++corner) {
       const Vec2 sign(corner % 2 ? 1 : -1, corner / 2 ? 1 : -1);
       const Vec3 on_plane(glm::mix(map.lower, map.upper, 0.5f + 0.5f * sign), 0);
       for (const float depth : {1.0f, 2.0f, 50.0f}) {
         const Vec3 p = map.eye + depth * (on_plane - map.eye);
-        const Vec4 c = clip * Vec4(p, 1);
-        EXPECT_NEAR(c.x / c.w, sign.x, 1e-4);
-        EXPECT_NEAR(c.y / c.w, sign.y, 1e-4);
-        EXPECT_NEAR(0.5f * (1 - c.z / c.w), 1 / depth, 1e-5);
         EXPECT_NEAR(disparity_of(map, p.z), 1 / depth, 1e-5);
         const Vec2 pixel = map_pixel(map, p);
         EXPECT_NEAR(pixel.x, sign.x > 0 ? 30 : 0, 2e-3);

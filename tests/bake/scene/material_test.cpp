@@ -205,7 +205,7 @@ TEST(Shade, IorSpecularAndTransmission) {
   expect_near(p.transmission, Vec3(0.75f, 0.375f, 0));
   expect_near(transmittance_at(s, 0, Vec2(0.2f)), Vec3(0.375f, 0.1875f, 0));
   EXPECT_TRUE(may_transmit(s.materials[0]));
-  EXPECT_FLOAT_EQ(coverage_at(s, 0, Vec2(0.2f)), 1);
+  EXPECT_FLOAT_EQ(shade_point(s, 0, Vec2(0.2f)).coverage, 1);
 }
 
 TEST(Shade, FresnelFollowsTheIndexAndSchlickTheMetal) {
@@ -282,7 +282,6 @@ TEST(Shade, TexturesMultiply) {
   EXPECT_FLOAT_EQ(green.alpha, 1);
   expect_near(green.diffuse, Vec3(0, 0.5f, 0));  // metallic is B
   EXPECT_NEAR(green.coverage, 128 / 255.0, 1e-6);
-  EXPECT_NEAR(coverage_at(s, 0, Vec2(0.75f, 0.2f)), 128 / 255.0, 1e-6);
   EXPECT_NEAR(transmittance_at(s, 0, Vec2(0.75f, 0.2f)).r, 127 / 255.0, 1e-6);
 }
 
@@ -290,8 +289,8 @@ TEST(Shade, MaskIsAllOrNothing) {
   Gltf g =
       textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"alphaMode":"MASK","alphaCutoff":0.6})");
   const Scene s = scene_of(g);
-  EXPECT_EQ(coverage_at(s, 0, Vec2(0.25f)), 1);
-  EXPECT_EQ(coverage_at(s, 0, Vec2(0.75f, 0.2f)), 0);
+  EXPECT_EQ(shade_point(s, 0, Vec2(0.25f)).coverage, 1);
+  EXPECT_EQ(shade_point(s, 0, Vec2(0.75f, 0.2f)).coverage, 0);
   EXPECT_EQ(transmittance_at(s, 0, Vec2(0.75f, 0.2f)), Vec3(1));
   EXPECT_EQ(transmittance_at(s, 0, Vec2(0.25f)), Vec3(0));
 }
