@@ -75,7 +75,7 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
 }
 
 double most_refining_rays(const RadiosityOptions& options, double texels) {
-  if (options.most_rays == 0) return HUGE_VAL;
+  if (options.most_rays == 0 || options.estimator != Estimator::kCached) return HUGE_VAL;
   return std::max(static_cast<double>(options.most_rays), static_cast<double>(kMostTexelMean) * texels);
 }
 
