@@ -51,8 +51,8 @@ UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingR
                       const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
 
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth and light are those of the
-// ray through a pixel's centre; textures on its way are means over what the pixel shows of them (its cone, after
-// Akenine-Möller et al. 2021), so that fine ones do not alias and colour and depth still belong together. Both as
+// ray through a pixel's centre; textures of what it ends on are means over what the pixel shows of them (its cone,
+// after Akenine-Möller et al. 2021), so that fine ones do not alias and colour and depth still belong together. Both as
 // ReflectedSurroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance,
 // and mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps
 // its depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
