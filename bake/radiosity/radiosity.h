@@ -11,7 +11,8 @@ namespace oriel {
 
 // How a smoothing filter of the gathered light works (cached/filter.h).
 struct FilterOptions {
-  int passes = 4;      // each spreads light by one texel; 4 do the work of about 33 times the rays
+  int scales = 3;      // the first does the work of about 33 times the rays, each further one of four times that of the
+                       // one before, where the halves of the estimate agree that it is right
   float strength = 1;  // edges of this many standard deviations are kept; 0: no filter
 };
 

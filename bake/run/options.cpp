@@ -168,7 +168,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"time_s", o.time_s},
       {"verify", o.radiosity.verify},
       {"reuse_error", o.radiosity.reuse_error},
-      {"filter_passes", o.radiosity.filter.passes},
+      {"filter_scales", o.radiosity.filter.scales},
       {"filter_strength", o.radiosity.filter.strength},
       {"bounces", o.radiosity.bounces},
       {"hidden", o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"},

@@ -221,7 +221,10 @@ class CachedEstimator : public LightEstimator {
   }
 
   void update_direct() {
-    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), options_.filter, context_);
+    // Its noise lies in penumbrae, which are no wider than the first scale's kernel.
+    FilterOptions narrow = options_.filter;
+    narrow.scales = std::min(narrow.scales, 1);
+    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow, context_);
   }
 
   void update_estimate() {

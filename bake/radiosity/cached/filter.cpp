@@ -1,21 +1,15 @@
 #include "bake/radiosity/cached/filter.h"
 
-#include "bake/jobs/parallel.h"
+#include "bake/radiosity/cached/diffusion.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kRun = 1024;
 constexpr int kPoolPasses = 4, kWidePasses = 16;
-
-// body(i) for every texel, in parallel.
-template <class Body>
-void each_texel(Context& context, std::size_t count, const Body& body) {
-  (void)parallel_for(context, "", (count + kRun - 1) / kRun, [&](std::size_t run) {
-    for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) body(i);
-  });
-}
+// Each scale spreads light for so long, which makes the kernel of all up to it twice as wide as that before.
+constexpr float kNarrow = 2, kByChance = 4;
+constexpr float kFirstScale = 6, kNextScale = 4, kPooledOver = 4;
 
 double total(const Texels& texels, const std::vector<Vec3>& values) {
   double sum = 0;
@@ -24,79 +18,70 @@ double total(const Texels& texels, const std::vector<Vec3>& values) {
   return sum;
 }
 
-// Conductances of the graph's edges, symmetric, in the order of TexelGraph::of().
-using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
+using TwoHalves = std::array<std::vector<Vec3>, kHalves>;
 
-// Light by texel with its variance.
-struct Guide {
-  const std::vector<Vec3>& light;
-  const std::vector<Vec3>& variance;
-
-  // Squared difference of two texels over its variance; worst channel decides.
-  float distance2(std::size_t i, std::size_t j, float strength) const {
-    const Vec3 &a = light[i], &b = light[j], d = a - b;
-    const Vec3 s = (variance[i] + variance[j]) * (strength * strength) + 1e-12f * (a * a + b * b) + Vec3(1e-30f);
-    return max_component(d * d / s);
+// By texel, 1 over its light squared (dark ones: 1 % of the mean), so that what is pooled counts alike in the dark.
+std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& light, const std::vector<Vec3>& beside) {
+  const float floor = 0.01f * mean_luminance(texels, light, beside);
+  std::vector<float> weight(light.size());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const float l = luminance(light[i] + beside[i]);
+    weight[i] = 1 / (l * l + floor * floor + 1e-30f);
   }
-};
+  return weight;
+}
 
-// Smoothed light tells a gentle slope from noise, but a single dark texel from its surroundings it does not: raw light
-// does, though only beyond what noise brings about by itself.
-Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
-                         float strength, Context& context) {
-  constexpr float kNoiseAlone = 3;  // standard deviations
-  Conductance c(texels.count());
-  each_texel(context, texels.count(), [&](std::size_t i) {
-    const auto own = graph.of(i);
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      const std::uint32_t j = own[k];
-      if (texels.visible[i] < 1 || texels.visible[j] < 1) continue;
-      const float beyond = std::max(0.0f, std::sqrt(raw.distance2(i, j, 1)) - kNoiseAlone);
-      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j, strength) + beyond * beyond));
-      c[i][k] = std::min(texels.area_m2[i], texels.area_m2[j]) / (kMaxNeighbours + 1) * likeness;
-    }
+// By texel, in [0,1]: how much of the change Δ that further smoothing brings takes noise away, rather than light that
+// is there. What both halves change alike is light, <Δ_0 Δ_1>, <> being a mean over surroundings; by what they change
+// differently, <(Δ_0 - Δ_1)²> / 4, the mean of both has less noise. The least error is where the second's share of all
+// is (Wiener 1949).
+std::vector<float> wanted(const TexelGraph& graph, const Conductance& c, const TwoHalves& change,
+                          const std::vector<float>& weight, float time, Context& context) {
+  std::vector<Vec2> sums(weight.size());
+  each_texel(context, sums.size(), [&](std::size_t i) {
+    const Vec3 &a = change[0][i], &b = change[1][i];
+    sums[i] = weight[i] * Vec2(0.25f * glm::dot(a - b, a - b), glm::dot(a, b));
   });
-  return c;
-}
-
-std::vector<Vec3> diffuse(const Texels& texels, const TexelGraph& graph, const Conductance& conductance,
-                          std::vector<Vec3> values, int passes, Context& context) {
-  std::vector<Vec3> next(values.size());
-  for (int pass = 0; pass < passes; ++pass) {
-    each_texel(context, values.size(), [&](std::size_t i) {
-      Vec3 gain(0);
-      const auto own = graph.of(i);
-      for (std::size_t k = 0; k < own.size(); ++k) gain += conductance[i][k] * (values[own[k]] - values[i]);
-      next[i] = values[i] + (texels.area_m2[i] > 0 ? gain / texels.area_m2[i] : Vec3(0));
-    });
-    values.swap(next);
+  const std::vector<Vec2> near = diffuse(graph, c, sums, kNarrow, context);
+  sums = diffuse(graph, c, std::move(sums), kPooledOver * time, context);
+  std::vector<float> share(sums.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const float noise = std::max(0.0f, sums[i].x);
+    const float light = std::max({0.0f, sums[i].y, near[i].y - kByChance * noise});
+    share[i] = noise > 0 ? noise / (noise + light) : light > 0 ? 0.0f : 1.0f;
   }
-  return values;
+  return share;
 }
 
-// A quantity spread over each texel's surroundings, `passes` wide. Its sum over texels stays: what a texel gains its
-// neighbour loses, so that errors at rims and in corners, where the filter's bias is greatest, count in full. share(i,
-// j): whether these two have a common quantity at all.
-template <class V, class Share>
-std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, const Share& share,
-                      Context& context) {
-  std::vector<V> next(values.size());
-  for (int pass = 0; pass < passes; ++pass) {
-    each_texel(context, values.size(), [&](std::size_t i) {
-      V gain(0);
-      for (const std::uint32_t j : graph.of(i))
-        if (share(i, j)) gain += values[j] - values[i];
-      next[i] = values[i] + gain / static_cast<float>(kMaxNeighbours + 1);
-    });
-    values.swap(next);
+// What flows into each texel, an edge's flow times the lesser share of its two texels: nobody takes light from somebody
+// who does not want that, and none is lost.
+std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vector<float>& share, Context& context) {
+  std::vector<Vec3> sum(share.size());
+  each_texel(context, share.size(), [&](std::size_t i) {
+    const auto own = graph.of(i);
+    for (std::size_t k = 0; k < own.size(); ++k) sum[i] += std::min(share[i], share[own[k]]) * flow[i][k];
+  });
+  return sum;
+}
+
+// Smooths both halves on scale after scale, each only where that takes noise away.
+void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::vector<float>& weight, int scales,
+                      TwoHalves& halves, Context& context) {
+  const std::vector<float> all(weight.size(), 1.0f);
+  float time = kFirstScale;
+  for (int scale = 0; scale < scales; ++scale, time *= kNextScale) {
+    const std::array<Flow, kHalves> flow{further_flow(graph, c, halves[0], time, context),
+                                         further_flow(graph, c, halves[1], time, context)};
+    std::vector<float> share = all;
+    if (scale > 0) {
+      const TwoHalves change{gain(flow[0], graph, all, context), gain(flow[1], graph, all, context)};
+      share = wanted(graph, c, change, weight, time, context);
+    }
+    for (int h = 0; h < kHalves; ++h) {
+      const std::vector<Vec3> change = gain(flow[h], graph, share, context);
+      for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
+    }
   }
-  return values;
-}
-
-template <class V>
-std::vector<V> pooled(const TexelGraph& graph, std::vector<V> values, int passes, Context& context) {
-  return pooled(
-      graph, std::move(values), passes, [](std::size_t, std::size_t) { return true; }, context);
 }
 
 // Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
@@ -187,13 +172,13 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
     return pooled_errors(texels, graph, std::move(squares), light, context);
   };
   // The guide is itself smoothed a little, so that its noise does not choose whom to join.
-  const std::vector<Vec3> guide = pooled(graph, mean, 1, context);
-  const std::vector<Vec3> raw_noise = pool(noise, mean);
+  std::vector<Vec3> guide = pooled(graph, mean, 1, context);
+  std::vector<Vec3> raw_variance = pool(noise, mean);
   noise = pool(std::move(noise), guide);
   const std::vector<Vec3> left = pool(halves.common, guide);
 
   Estimate result;
-  if (options.strength <= 0 || options.passes <= 0) {
+  if (options.strength <= 0 || options.scales <= 0) {
     result.value = mean;
     result.variance = noise;
     for (std::size_t i = 0; i < n; ++i) result.variance[i] = 0.5f * result.variance[i] + glm::max(left[i], Vec3(0));
@@ -201,29 +186,32 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   }
   std::vector<Vec3> guide_variance = noise;
   for (Vec3& v : guide_variance) v *= 0.5f / 3;
-  std::vector<Vec3> raw_variance = raw_noise;
   for (Vec3& v : raw_variance) v *= 0.5f;
-  const Conductance c =
+  const Conductance edges =
       conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance}, options.strength, context);
-  std::vector<Vec3> smooth[kHalves];
-  for (int h = 0; h < kHalves; ++h) smooth[h] = diffuse(texels, graph, c, half[h], options.passes, context);
-
-  result.value.resize(n), result.variance.resize(n);
-  std::vector<Vec3> beyond(n), of_both(n);
+  TwoHalves smooth = half;
+  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
+  each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
+  std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
   each_texel(context, n, [&](std::size_t i) {
-    result.value[i] = 0.5f * (smooth[0][i] + smooth[1][i]);
+    const Vec3 d = smooth[0][i] - smooth[1][i];
+    of_both[i] = 0.25f * d * d;
+  });
+  of_both = pool(std::move(of_both), guide);
+
+  result.value = std::move(guide), result.variance.resize(n);
+  std::vector<Vec3> beyond(n);
+  each_texel(context, n, [&](std::size_t i) {
     const Vec3 d = smooth[0][i] - smooth[1][i], unfiltered = half[0][i] - half[1][i];
-    of_both[i] = 0.25f * d * d;  // noise of the mean of both
     // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
     for (int h = 0; h < kHalves; ++h) {
       const Vec3 to_other = smooth[h][i] - half[1 - h][i];
       beyond[i] += 0.5f * to_other * to_other;
     }
-    beyond[i] -= 0.5f * unfiltered * unfiltered + of_both[i];
+    beyond[i] -= 0.5f * unfiltered * unfiltered + 0.25f * d * d;
   });
   // Relative to the light that the filter leaves, as the error asked for is.
   beyond = pool(std::move(beyond), result.value);
-  of_both = pool(std::move(of_both), result.value);
   each_texel(context, n, [&](std::size_t i) {
     result.variance[i] = glm::max(beyond[i], of_both[i]);
     result.variance[i] += glm::max(left[i], Vec3(0));

@@ -27,8 +27,9 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
 
 // A conservative diffusion over the graph: what one texel gains its neighbour loses, so no energy drifts. Conductance
 // between two texels falls with the difference of their light over its noise (variance-guided, Rousselle et al. 2012).
-// The error is measured, not modelled: each half is filtered alone and compared with the other, unfiltered
-// (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
+// It goes on from scale to scale, up to some 25 texels, and at each only where cross-validation of the two halves tells
+// that the light comes nearer to the truth. The error is measured, not modelled: each half is filtered alone and
+// compared with the other, unfiltered (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
                 Context& context);
 

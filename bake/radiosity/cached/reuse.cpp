@@ -40,7 +40,7 @@ Hash128 name_of_known_light(const Scene& scene, const Texels& texels, const Radi
   Hasher hasher;
   Archive archive(hasher);
   archive(std::string("known light"), scene.triangles.size(), scene.surfaces.size(), options.samples, options.error,
-          options.most_rays, options.bounces, options.directional, options.verify, options.filter.passes,
+          options.most_rays, options.bounces, options.directional, options.verify, options.filter.scales,
           options.filter.strength, paths.max_bounces, seed);
   for (const Texels::Page& page : texels.pages) archive(page.width, page.height);
   return hasher.result();

@@ -45,7 +45,7 @@ TEST(Filter, TakesNoiseFromPenumbraeAndLeavesShadowsEdges) {
   const std::vector<Vec3> truth = s.direct(1024, 99).value;
   const DirectSums sums = s.direct(4, 1);
   const std::vector<Vec3> gathered(texels.count(), Vec3(30));
-  const Estimate smooth = filter(texels, s.graph, halves_of(sums, gathered), {}, s.listed.context);
+  const Estimate smooth = filter(texels, s.graph, halves_of(sums, gathered), {.scales = 1}, s.listed.context);
   double noise = 0, left = 0, all = 0, stated = 0, sharp = 0, stated_sharp = 0, penumbra = 0, exact = 0, mixed = 0;
   for (const std::uint32_t i : s.listed.floor) {
     if (texels.visible[i] < 1) continue;
