@@ -43,10 +43,14 @@ Interval inner_columns(const ConvexPolygon& part, double row) {
   return inner;
 }
 
-void add_row(std::uint32_t triangle, int row, const ConvexPolygon& part, int width, std::vector<Entry>& out) {
+// wanted(column): others are left out.
+template <class Wanted>
+void add_row(std::uint32_t triangle, int row, const ConvexPolygon& part, int width, const Wanted& wanted,
+             std::vector<Entry>& out) {
   const Interval x = extent(part, 0), inner = inner_columns(part, row);
   const CellRange columns = touched_cells(x.lo, x.hi, width);
   for (int column = columns.first; column <= columns.last; ++column) {
+    if (!wanted(column)) continue;
     double covered = 1;
     if (!(column >= inner.lo && column + 1 <= inner.hi)) {
       const ConvexPolygon piece = clip_axis(clip_axis(part, 0, column, 1), 0, column + 1, -1);
@@ -56,7 +60,7 @@ void add_row(std::uint32_t triangle, int row, const ConvexPolygon& part, int wid
   }
 }
 
-void fill_band(const Atlas& atlas, Band& band) {
+void fill_band(const Atlas& atlas, const WantedTexels& mask, Band& band) {
   const AtlasPage& page = atlas.pages[band.page];
   band.rows.resize(band.end_row - band.first_row);
   for (const std::uint32_t t : band.triangles) {
@@ -64,7 +68,11 @@ void fill_band(const Atlas& atlas, Band& band) {
     const int first = static_cast<int>(band.first_row), end = static_cast<int>(band.end_row);
     for_each_row_between(
         triangle, static_cast<int>(page.height), {first, end - 1}, [&](int row, const ConvexPolygon& part) {
-          add_row(t, row, part, static_cast<int>(page.width), band.rows[static_cast<std::size_t>(row - first)]);
+          const auto wanted = [&](int column) {
+            return mask.empty() ||
+                   mask[band.page][static_cast<std::size_t>(row) * page.width + static_cast<std::size_t>(column)];
+          };
+          add_row(t, row, part, static_cast<int>(page.width), wanted, band.rows[static_cast<std::size_t>(row - first)]);
         });
   }
   for (auto& row : band.rows) {
@@ -209,9 +217,10 @@ std::array<DVec2, 3> texel_triangle(const Atlas& atlas, std::uint32_t triangle) 
   return {DVec2(uv[0]) * size, DVec2(uv[1]) * size, DVec2(uv[2]) * size};
 }
 
-Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context) {
+Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context, const WantedTexels& wanted) {
   std::vector<Band> bands = make_bands(atlas);
-  ORIEL_TRY_VOID(parallel_for(context, "texels", bands.size(), [&](std::size_t b) { fill_band(atlas, bands[b]); }));
+  ORIEL_TRY_VOID(
+      parallel_for(context, "texels", bands.size(), [&](std::size_t b) { fill_band(atlas, wanted, bands[b]); }));
   std::vector<TexelMapPage> pages(atlas.pages.size());
   for (std::size_t p = 0; p < pages.size(); ++p)
     pages[p].width = atlas.pages[p].width, pages[p].height = atlas.pages[p].height;

@@ -19,8 +19,13 @@ struct TexelMapPage {
   std::vector<TexelFragment> fragments;
 };
 
-// Conservative: a texel is covered when any part of a triangle's image, however small, lies in its square.
-Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context);
+// By page and y * width + x: whether a texel is wanted.
+using WantedTexels = std::vector<std::vector<bool>>;
+
+// Conservative: a texel is covered when any part of a triangle's image, however small, lies in its square. wanted: the
+// others are left out; empty: all are wanted.
+Result<std::vector<TexelMapPage>> build_texel_map(const Atlas& atlas, Context& context,
+                                                  const WantedTexels& wanted = {});
 
 // The share of texel i that has a surface: (0,1].
 float covered_share(const TexelMapPage& page, std::size_t i);

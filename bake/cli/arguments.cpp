@@ -118,6 +118,12 @@ void add_radiosity_options(CLI::App& app, Texts& texts, BakeOptions& bake) {
   app.add_flag("!--texel-means", bake.radiosity.fit_texels,
                "Texels hold the mean of their light, as most bakers have it, instead of values whose interpolation has "
                "it when it is shown: softer penumbrae, but comparable texel by texel");
+  bake.radiosity.detail = kMostDetail;
+  app.add_option("--detail", bake.radiosity.detail,
+                 "Where light changes within texels, at contacts and edges of shadows, the cells between them are "
+                 "divided into up to so many steps a side; 1: never")
+      ->check(CLI::IsMember({1, 2, 4, 8}))
+      ->capture_default_str();
   app.add_option("--directional", texts.directional,
                  "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material "
                  "has a normal map), on, off. Costs a tenth more variance and about 4 bytes a texel")

@@ -48,10 +48,11 @@ DVec3 stored_light(const LightmapPage& page, std::uint32_t texel) {
 
 // Irradiance as the player reads it, lux.
 DVec3 read_light(std::span<const LightmapPage> pages, const FramePixel& pixel) {
-  DVec3 light(0);
-  for (std::size_t k = 0; k < pixel.texel.size(); ++k)
-    light += double{pixel.share[k]} * stored_light(pages[pixel.page], pixel.texel[k]);
-  return light;
+  const LightmapPage& page = pages[pixel.page];
+  const Vec2 first(pixel.texel[0] % page.width, pixel.texel[0] / page.width);
+  const Vec2 beyond(pixel.share[1] + pixel.share[3], pixel.share[2] + pixel.share[3]);
+  const Vec3 light = irradiance_at(page, (first + beyond + 0.5f) / Vec2(page.width, page.height));
+  return {as_half(light.r), as_half(light.g), as_half(light.b)};
 }
 
 std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const LightmapPage> pages,

@@ -41,6 +41,9 @@ class LightEstimator {
   // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
   // report's numbers of the estimate. `light` is an empty_radiosity().
   virtual void write(Radiosity& light) const = 0;
+  // Finer light where the texels' is not enough, of what write() wrote and has been filled and stitched since. Error
+  // kStopped: it is as it was.
+  virtual Status add_detail(Radiosity&) { return {}; }
 };
 
 }  // namespace oriel

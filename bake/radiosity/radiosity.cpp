@@ -139,6 +139,17 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   return stitch_lightmap(task, light);
 }
 
+// Where there is no time for it, texels have to do.
+Status add_detail(const RadiosityTask& task, LightEstimator& estimator, Radiosity& light) {
+  const RadiosityOptions& options = task.options;
+  if (options.detail < 2 || options.hidden == Hidden::kBlack) return {};
+  const Interruptible until(task.context, options.enough);
+  const Status added = options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : estimator.add_detail(light);
+  if (added || task.context.stop || added.error().code != ErrorCode::kStopped) return added;
+  light.report.detail = {.left_out = true};
+  return {};
+}
+
 Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const FramePixel> held_out,
                         const Radiosity& light) {
   const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
@@ -236,6 +247,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     light.report.refinements = refinements;
     estimator->write(light);
     ORIEL_TRY_VOID(fill_and_stitch(task, light));
+    ORIEL_TRY_VOID(add_detail(task, *estimator, light));
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.certificate, verify(task, light, held_out));

@@ -63,6 +63,8 @@ struct RadiosityOptions {
   Hidden hidden = Hidden::kLeftOut;
   int dilation = 4;          // texels by which charts are extended beyond their border
   bool fit_texels = false;   // values whose interpolation has the texels' light (texels/fit_texels.h), not their means
+  std::uint32_t detail = 1;  // cached: cells between texels are divided into up to so many steps a side (1, 2, 4 or 8)
+                             // where light changes within them (detail/cells.h)
   bool stitch = true;        // make light continuous over the seams of the lightmap
   bool directional = false;  // fill LightmapPage::direction
 };
@@ -107,7 +109,15 @@ struct ReuseReport {
   double error = 0;                 // that this brings: rms over what is seen, relative; relative_error has it in it
 };
 
+// Finer light (LightmapPage::cell).
+struct DetailReport {
+  std::size_t cells = 0, points = 0;
+  double relative_error = 0;  // stated, rms over points
+  bool left_out = false;      // there was no time
+};
+
 struct RadiosityReport {
+  DetailReport detail;
   ReuseReport reuse;
   Certificate certificate;  // of the cached estimator
   std::uint64_t rays = 0;
@@ -124,7 +134,7 @@ struct RadiosityReport {
   double sweep_tail = 0;         // cached: bound on what further bounces would add, relative
   double sweep_growth = 0;       // cached: what the last bounce added over what the one before did
   std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
-  double filter_drift = 0;          // cached: relative change of the gathered energy by the filter
+  double filter_drift = 0;          // cached: size of the relative change of the gathered energy by the filter
   SeamReport seams;
   DVec3 incident_lm{0};  // power falling on the visible parts of all lightmapped surfaces, front sides
 };

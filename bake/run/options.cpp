@@ -173,6 +173,7 @@ std::string options_json(const BakeOptions& o, std::uint64_t seed) {
       {"bounces", o.radiosity.bounces},
       {"hidden", o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"},
       {"texel_values", o.radiosity.fit_texels ? "fitted" : "means"},
+      {"detail", o.radiosity.detail},
       {"dilation", o.radiosity.dilation},
       {"directional", directional_name(o.directional)},
       {"radiance", o.with_radiance},

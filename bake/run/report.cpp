@@ -23,6 +23,10 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+Json detail_json(const DetailReport& r) {
+  return {{"cells", r.cells}, {"points", r.points}, {"relative_error", r.relative_error}, {"left_out", r.left_out}};
+}
+
 Json seams_json(const SeamReport& r) {
   return {{"stitched", r.pairs},
           {"mean_step_before", r.mean_step_before},
@@ -275,6 +279,7 @@ std::string plan_json(const BakeFacts& f) {
         {"refinements", f.radiosity.refinements},
         {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},
+        {"detail", detail_json(f.radiosity.detail)},
         {"mean_lux", rgb(f.radiosity.mean)},
         {"max_lux", rgb(f.radiosity.max)},
         {"relative_standard_error", f.radiosity.relative_error},

@@ -26,7 +26,51 @@ struct LightmapPage {
   // Of a directional lightmap, else empty: the L1 band of the incident luminance over its L0 band, d = v / m with
   // m = ∫ L dω / 4π and v = ∫ L ω dω / 4π above the texel; pack space, |d| <= 1.
   std::vector<Vec3> direction{};
+  // Finer light where interpolation between texels misses too much. A cell is the square between four texel centres,
+  // (x, y) the texel at its lower corner, its entry at y * width + x: 0, or a DetailBlock in `detail`. Empty: no cell
+  // is finer.
+  std::vector<std::uint32_t> cell{};
+  std::uint32_t detail_width = 0, detail_height = 0;
+  std::vector<Vec3> detail{};  // lux, as irradiance
 };
+
+// Where an image of details holds a cell: (side + 1)² points, the first in each row and the last above texel centres.
+// Cells that meet have the same light along their common side.
+struct DetailBlock {
+  std::uint32_t x = 0, y = 0;   // of its first point, less than 2^14
+  std::uint32_t log2_side = 0;  // of the steps along a side: 1 to 3
+
+  std::uint32_t side() const { return 1u << log2_side; }
+  std::uint32_t code() const { return log2_side << 28u | y << 14u | x; }
+  static DetailBlock of(std::uint32_t code) { return {code & 0x3fffu, code >> 14u & 0x3fffu, code >> 28u}; }
+};
+inline constexpr std::uint32_t kMostDetail = 8;         // steps along a cell's side
+inline constexpr std::uint32_t kMaxDetailSide = 16384;  // points of an image of details
+
+// Irradiance at a place of a page, uv in [0,1]: bilinear, from a cell's own points where it has some. Texels beyond the
+// page's border are those at it.
+inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
+  const auto bilinear = [](const std::vector<Vec3>& light, std::uint32_t width, std::size_t first, std::uint32_t right,
+                           std::uint32_t down, const Vec2& f) {
+    const std::size_t below = first + std::size_t{down} * width;
+    return glm::mix(glm::mix(light[first], light[first + right], f.x),
+                    glm::mix(light[below], light[below + right], f.x), f.y);
+  };
+  const float x = std::clamp(uv.x * static_cast<float>(page.width) - 0.5f, 0.0f, static_cast<float>(page.width - 1));
+  const float y = std::clamp(uv.y * static_cast<float>(page.height) - 0.5f, 0.0f, static_cast<float>(page.height - 1));
+  const auto cx = static_cast<std::uint32_t>(x), cy = static_cast<std::uint32_t>(y);
+  const Vec2 within(x - static_cast<float>(cx), y - static_cast<float>(cy));
+  const std::size_t texel = std::size_t{cy} * page.width + cx;
+  if (page.cell.empty() || page.cell[texel] == 0)
+    return bilinear(page.irradiance, page.width, texel, cx + 1 < page.width ? 1 : 0, cy + 1 < page.height ? 1 : 0,
+                    within);
+  const DetailBlock block = DetailBlock::of(page.cell[texel]);
+  const Vec2 at = within * static_cast<float>(block.side());
+  const auto px = std::min(static_cast<std::uint32_t>(at.x), block.side() - 1);
+  const auto py = std::min(static_cast<std::uint32_t>(at.y), block.side() - 1);
+  return bilinear(page.detail, page.detail_width, std::size_t{block.y + py} * page.detail_width + block.x + px, 1, 1,
+                  at - Vec2(px, py));
+}
 
 // E(n) / E(g): how the irradiance at a texel changes when its normal g is tilted to n (both unit). d is read as an even
 // hemisphere of light together with one distant lamp: the share of the lamp and its direction follow from d, and the

@@ -10,8 +10,8 @@ namespace {
 TexelLight light_at(const LightmapPage& page, const Vec2& uv) {
   const TexelsAround around = texels_around(uv, page.width, page.height);
   TexelLight light;
+  light.lux = double{luminance(irradiance_at(page, uv))};
   for (std::size_t i = 0; i < 4; ++i) {
-    light.lux += double{around.weight[i]} * luminance(page.irradiance[around.texel[i]]);
     const double error = luminance(page.standard_error[around.texel[i]]);
     // Texels beside each other share their noise: no gain from blending.
     light.variance += double{around.weight[i]} * error * error;

@@ -25,13 +25,6 @@ Vec3 texture_color(const Texture& texture, const Vec2& uv) {
   return color;
 }
 
-Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
-  const TexelsAround around = texels_around(uv, page.width, page.height);
-  Vec3 light(0);
-  for (std::size_t i = 0; i < 4; ++i) light += around.weight[i] * page.irradiance[around.texel[i]];
-  return light;
-}
-
 Vec3 vertex_color(const Mesh& mesh, std::uint32_t vertex) {
   if (mesh.colors.empty()) return Vec3(1);
   const std::uint32_t c = mesh.colors[vertex];

@@ -143,8 +143,9 @@ Status decode_image_place(const OpenFile& file, const SectionInfo& section, Pack
     case kLightmapSection: {
       LightmapPage& page = pack.lightmaps[section.nth];
       ORIEL_TRY_VOID(decode_start(
-          file, section, 8, [&](ByteReader& in) { return decode_place(in, page); }, at));
-      return expect_bytes(section, at + 8 + 13 * area(page.width, page.height));
+          file, section, 16, [&](ByteReader& in) { return decode_place(in, page); }, at));
+      const std::uint64_t texels = area(page.width, page.height);
+      return expect_bytes(section, light_bytes(texels, area(page.detail_width, page.detail_height)) + 4 + 7 * texels);
     }
     case kDirectionSection: {
       DirectionPage& page = parts.directions[section.nth];
@@ -225,7 +226,11 @@ DeferredImages::DeferredImages(OpenFile file, std::vector<SectionInfo> sections,
     IVec2 size(0);
     if (section.kind == kTextureSection) size = size_of(pack.textures[section.nth]);
     if (section.kind == kNormalTextureSection) size = size_of(pack.normal_textures[section.nth]);
-    if (section.kind == kLightmapSection) size = size_of(pack.lightmaps[section.nth]);
+    if (section.kind == kLightmapSection) {
+      const LightmapPage& page = pack.lightmaps[section.nth];
+      size = size_of(page);
+      details_.emplace_back(page.detail_width, page.detail_height);
+    }
     if (section.kind == kRadianceMapSection) size = size_of(pack.radiance_maps[section.nth]);
     if (section.kind == kSurroundMapSection) size = size_of(pack.surround_maps[section.nth]);
     if (section.kind == kDirectionSection) {
@@ -327,7 +332,8 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
   auto loaded = without_exceptions([&]() -> Result<HalfPage> {
     ORIEL_TRY(const auto stored, stored_in(file_, section));
     thread_local RawBytes buffer;
-    const std::span<std::byte> raw = some_of(buffer, light_bytes(area(sizes_[at].x, sizes_[at].y)));
+    const std::span<std::byte> raw =
+        some_of(buffer, light_bytes(area(sizes_[at].x, sizes_[at].y), area(details_[i].x, details_[i].y)));
     ORIEL_TRY_VOID(decompress(stored, section, raw));
     ByteReader in(raw);
     HalfPage page;
@@ -335,6 +341,12 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
       return invalid(section.label, "element 0: {}", status.error().message);
     ORIEL_TRY_VOID(expect_size(size_of(page), sizes_[at], section));
     if (!in.ok()) return invalid(section.label, "found {} bytes, expected more of light", raw.size());
+    ORIEL_TRY_VOID(
+        expect_size({static_cast<int>(page.detail_width), static_cast<int>(page.detail_height)}, details_[i], section));
+    IssueList list;
+    list.in_section(kLightmapSection, i);
+    validate_cells(page.cell, {page.width, page.height}, details_[i], list);
+    ORIEL_TRY_VOID(refuse_errors(list.issues));
     page.direction = halves_of(directions);
     return page;
   });

@@ -51,6 +51,7 @@ class DeferredImages {
   OpenFile file_;
   std::vector<SectionInfo> sections_;
   std::vector<IVec2> sizes_;                       // of images, by section
+  std::vector<IVec2> details_;                     // of pages' details, by page
   std::vector<std::vector<std::size_t>> by_kind_;  // into sections_, in the order of kSectionKinds
   std::vector<std::size_t> directions_;            // by page, into sections_
   std::unique_ptr<std::atomic<bool>[]> checked_;   // by section

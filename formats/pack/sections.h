@@ -106,8 +106,8 @@ struct SurroundMapScale {
 };
 Status decode_place(ByteReader& in, SurroundMap& map, SurroundMapScale& scale);
 // Of a lightmap page all that lights surfaces, which is its beginning, light_bytes() of the section.
-inline std::size_t light_bytes(std::uint64_t texels) {
-  return 12 + 6 * texels;
+inline std::uint64_t light_bytes(std::uint64_t texels, std::uint64_t details) {
+  return 20 + 6 * texels + (details > 0 ? 4 * texels + 6 * details : 0);
 }
 Status decode(ByteReader& in, HalfPage& page);
 Status decode(ByteReader& in, CurvedReflector& reflector);

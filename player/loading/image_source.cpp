@@ -65,7 +65,10 @@ ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages>
     if (m.base_color_texture >= 0) users_[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
   for (const Texture& texture : pack.textures) textures_.push_back(size_of(texture));
   for (const Texture& texture : pack.normal_textures) normal_textures_.push_back(size_of(texture));
-  for (const LightmapPage& page : pack.lightmaps) pages_.push_back(size_of(page));
+  for (const LightmapPage& page : pack.lightmaps) {
+    pages_.push_back(size_of(page));
+    details_.emplace_back(page.detail_width, page.detail_height);
+  }
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i)
     directional_.push_back(deferred_ ? deferred_->directional(i) : !pack.lightmaps[i].direction.empty());
   for (const RadianceMap& map : pack.radiance_maps) maps_.push_back(size_of(map));
@@ -100,7 +103,7 @@ std::size_t ImageSource::bytes(const ImageName& name, int coarser) const {
     case ImageKind::kNormal:
       return mipmapped_bytes(normal_textures_[name.index], coarser);
     case ImageKind::kLight:
-      return light_page_bytes(pages_[name.index], directional_[name.index], coarser);
+      return light_page_bytes(pages_[name.index], details_[name.index], directional_[name.index], coarser);
     case ImageKind::kMaps: {
       std::size_t sum = 0;
       for (const ReflectorElement& element : elements_[name.index]) {
@@ -148,7 +151,12 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
                 deferred_ ? deferred_->light(name.index) : Result<HalfPage>(half_page(pack_->lightmaps[name.index])));
       LightData data = light_data(std::move(page), coarser);
       out.textures.push_back(std::move(data.light));
+      out.directional = data.direction.has_value();
       if (data.direction) out.textures.push_back(std::move(*data.direction));
+      if (data.detail) {
+        out.textures.push_back(std::move(*data.cells));
+        out.textures.push_back(std::move(*data.detail));
+      }
       out.scale = data.scale;
       out.mean_lux = data.mean_lux;
       return out;

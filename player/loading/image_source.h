@@ -28,8 +28,10 @@ struct MapMeans {
 };
 
 struct PreparedImage {
-  std::vector<TextureData> textures;  // light: directions second; maps: light, disparity and ranges of each element
-  float scale = 0, mean_lux = 0;      // of light
+  std::vector<TextureData>
+      textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
+  float scale = 0, mean_lux = 0;               // of light
+  bool directional = false;                    // likewise
   std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
   std::vector<std::vector<IVec2>> map_sizes;
   MapMeans means;
@@ -64,7 +66,7 @@ class ImageSource {
   std::shared_ptr<const DeferredImages> deferred_;
   std::vector<std::vector<ReflectorElement>> elements_;
   std::vector<std::vector<Material>> users_;  // by texture
-  std::vector<IVec2> textures_, normal_textures_, pages_, maps_;
+  std::vector<IVec2> textures_, normal_textures_, pages_, details_, maps_;
   std::vector<bool> directional_;  // by page
   std::vector<std::uint32_t> surrounds_;
   std::unique_ptr<std::atomic<bool>> abandoned_ = std::make_unique<std::atomic<bool>>(false);

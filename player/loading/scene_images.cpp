@@ -259,8 +259,12 @@ void SceneImages::settle(Upload& upload) {
       break;
     }
     case ImageKind::kLight:
-      lights_[i] = {std::move(textures[0].texture), upload.image.scale, {}};
-      if (textures.size() > 1) lights_[i].direction = std::move(textures[1].texture);
+      lights_[i] = {std::move(textures[0].texture), upload.image.scale, {}, {}, {}};
+      if (upload.image.directional) lights_[i].direction = std::move(textures[1].texture);
+      if (textures.size() > 2) {
+        lights_[i].cells = std::move(textures[textures.size() - 2].texture);
+        lights_[i].detail = std::move(textures[textures.size() - 1].texture);
+      }
       if (upload.image.mean_lux > 0) {
         lux_sum_ += static_cast<double>(upload.image.mean_lux);
         some_light_.scale = static_cast<float>(lux_sum_ / static_cast<double>(++lux_count_));

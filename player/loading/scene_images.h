@@ -17,7 +17,8 @@ namespace oriel {
 struct LoadedLightmap {
   gpu::Texture2d texture;
   float scale = 0;
-  gpu::Texture2d direction;  // of a directional lightmap, else empty
+  gpu::Texture2d direction;      // of a directional lightmap, else empty
+  gpu::Texture2d cells, detail;  // where it has finer cells, else empty
 };
 
 // All maps of a reflector.

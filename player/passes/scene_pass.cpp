@@ -15,6 +15,8 @@ void set_frame(const gpu::Program& program, const GpuScene& scene, const View& v
   program.set("u_lightmap", kLightmapUnit);
   program.set("u_reflectance", kReflectanceUnit);
   program.set("u_direction", kDirectionUnit);
+  program.set("u_cells", kCellUnit);
+  program.set("u_detail", kDetailUnit);
   program.set("u_normal_texture", kNormalUnit);
   program.set("u_change", kChangeUnit);
   program.set("u_surfaces", kPlaceUnit);
@@ -33,6 +35,11 @@ void set_material(const gpu::Program& program, const GpuScene& scene, std::uint3
   const bool directional = static_cast<bool>(lightmap.direction);
   program.set("u_directional", directional ? 1 : 0);
   (directional ? lightmap.direction : lightmap.texture).bind(kDirectionUnit);
+  const bool detailed = static_cast<bool>(lightmap.detail);
+  program.set("u_detailed", detailed ? 1 : 0);
+  if (!detailed) return;
+  lightmap.cells.bind(kCellUnit);
+  lightmap.detail.bind(kDetailUnit);
 }
 
 bool is_plain(const Material& m) {

@@ -18,6 +18,8 @@ enum TextureUnit {
   kChangeUnit = 5,   // light that movers take or get, by pixel
   kWeightUnit = 6,   // a mover's transfer
   kTableUnit = 7,    // and its light
+  kCellUnit = 9,     // of a lightmap
+  kDetailUnit = 10,  // its finer light
   kPlaceUnit = 8,    // and where
   kSurfaceUnit = 0,  // of bright lights: what is seen
   kTakenUnit = 1,    // what movers take of them

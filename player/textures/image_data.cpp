@@ -89,15 +89,16 @@ void halve(HalfPage& page) {
     }
   page.width = width;
   page.height = height;
+  page.cell.clear(), page.detail.clear();  // of cells that are no more
   page.light = std::move(light);
   page.direction = std::move(direction);
 }
 
-TextureData half_floats(const HalfPage& page, std::vector<Half4> texels) {
+TextureData half_floats(std::uint32_t width, std::uint32_t height, std::vector<Half4> texels) {
   TextureData out;
   out.format = gpu::kRgba16f;
-  out.width = static_cast<int>(page.width);
-  out.height = static_cast<int>(page.height);
+  out.width = static_cast<int>(width);
+  out.height = static_cast<int>(height);
   out.options.min_filter = out.options.mag_filter = GL_LINEAR;
   out.add(0, 0, 0, out.width, out.height, std::move(texels));
   return out;
@@ -120,12 +121,15 @@ TextureData color_texture_data(const Texture& texture, std::span<const Material>
 HalfPage half_page(const LightmapPage& page) {
   HalfPage out{page.width, page.height, 0, {}, halves_of(page.direction)};
   float brightest = 0;
-  for (const Vec3& e : page.irradiance)
-    if (is_finite(e)) brightest = std::max(brightest, max_component(e));
+  for (const std::vector<Vec3>* light : {&page.irradiance, &page.detail})
+    for (const Vec3& e : *light)
+      if (is_finite(e)) brightest = std::max(brightest, max_component(e));
   if (brightest > 0) out.scale = std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120));
   const float inverse = out.scale > 0 ? 1 / out.scale : 0.0f;
   out.light.reserve(page.irradiance.size());
   for (const Vec3& e : page.irradiance) out.light.push_back(halves_of(e, inverse));
+  out.cell = page.cell, out.detail_width = page.detail_width, out.detail_height = page.detail_height;
+  for (const Vec3& e : page.detail) out.detail.push_back(halves_of(e, inverse));
   return out;
 }
 
@@ -140,8 +144,16 @@ LightData light_data(HalfPage page, int coarser) {
     if (lux > 0) sum += static_cast<double>(lux), count += 1;
   }
   if (count > 0) out.mean_lux = static_cast<float>(sum / count);
-  if (!page.direction.empty()) out.direction = half_floats(page, std::move(page.direction));
-  out.light = half_floats(page, std::move(page.light));
+  if (!page.direction.empty()) out.direction = half_floats(page.width, page.height, std::move(page.direction));
+  if (!page.detail.empty()) {
+    out.detail = half_floats(page.detail_width, page.detail_height, std::move(page.detail));
+    TextureData cells;
+    cells.format = gpu::kR32ui;
+    cells.width = static_cast<int>(page.width), cells.height = static_cast<int>(page.height);
+    cells.add(0, 0, 0, cells.width, cells.height, std::move(page.cell));
+    out.cells = std::move(cells);
+  }
+  out.light = half_floats(page.width, page.height, std::move(page.light));
   return out;
 }
 
@@ -153,12 +165,15 @@ std::size_t mipmapped_bytes(const IVec2& size, int coarser) {
   return shape.bytes();
 }
 
-std::size_t light_page_bytes(const IVec2& size, bool directional, int coarser) {
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser) {
   TextureData shape;
   shape.format = gpu::kRgba16f;
   shape.width = std::max(1, size.x >> coarser);
   shape.height = std::max(1, size.y >> coarser);
-  return shape.bytes() * (directional ? 2 : 1);
+  const std::size_t plain = shape.bytes() * (directional ? 2 : 1);
+  if (coarser > 0 || detail.x == 0) return plain;
+  return plain + shape.bytes() / 2 +
+         std::size_t{8} * static_cast<std::size_t>(detail.x) * static_cast<std::size_t>(detail.y);
 }
 
 }  // namespace oriel

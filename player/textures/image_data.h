@@ -26,6 +26,8 @@ HalfPage half_page(const LightmapPage& page);
 struct LightData {
   TextureData light;
   std::optional<TextureData> direction;  // of a directional lightmap
+  // Of a page with finer cells, not of a coarser one: LightmapPage::cell as it is, and detail as the light is.
+  std::optional<TextureData> cells, detail;
   float scale = 0;
   float mean_lux = 0;  // luminance over what has light; 0: nothing has
 };
@@ -33,6 +35,7 @@ LightData light_data(HalfPage page, int coarser = 0);
 
 // On the device, without the data: of a texture with mipmaps, of a page of light.
 std::size_t mipmapped_bytes(const IVec2& size, int coarser);
-std::size_t light_page_bytes(const IVec2& size, bool directional, int coarser);
+// detail: points of its finer cells' image.
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser);
 
 }  // namespace oriel

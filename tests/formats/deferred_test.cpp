@@ -93,6 +93,10 @@ TEST_F(Deferred, LightIsThePagesIrradiance) {
       ASSERT_TRUE(light) << light.error().text();
       ASSERT_EQ(light->light.size(), page.irradiance.size());
       EXPECT_EQ(light->direction.size(), page.direction.size());
+      EXPECT_EQ(light->cell, page.cell);
+      ASSERT_EQ(light->detail.size(), page.detail.size());
+      for (std::size_t t = 0; t < page.detail.size(); ++t)
+        EXPECT_EQ(float_from_half(light->detail[t][0]) * light->scale, page.detail[t].r);
       EXPECT_EQ(deferred->images->directional(i), !page.direction.empty());
       for (std::size_t t = 0; t < page.irradiance.size(); ++t)
         for (int c = 0; c < 3; ++c)

@@ -61,6 +61,21 @@ const Break kBreaks[] = {
      }},
     {304, "LMAP 0", [](Pack& p) { p.lightmaps[0].direction[4].z = kNan; }},
     {304, "LMAP 0", [](Pack& p) { p.lightmaps[0].direction.pop_back(); }},
+    {305, "LMAP 0", [](Pack& p) { p.lightmaps[0].detail.pop_back(); }},
+    {305, "LMAP 0", [](Pack& p) { p.lightmaps[0].cell.clear(); }},
+    {305, "LMAP 0", [](Pack& p) { p.lightmaps[0].detail[7].g = -1; }},
+    {306, "LMAP 0",
+     [](Pack& p) {
+       p.lightmaps[0].cell[9] = DetailBlock{1, 0, 2}.code();
+     }},
+    {306, "LMAP 0",
+     [](Pack& p) {
+       p.lightmaps[0].cell[9] = DetailBlock{0, 0, 4}.code();
+     }},
+    {306, "LMAP 0",
+     [](Pack& p) {
+       p.lightmaps[0].cell[15] = DetailBlock{0, 0, 1}.code();
+     }},
     {401, "RFLT", [](Pack& p) { p.reflectors[0].material = 9; }},
     {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[0] *= 1.1f; }},
     {402, "RFLT", [](Pack& p) { p.reflectors[0].pack_from_reflector[1] *= -1.0f; }},

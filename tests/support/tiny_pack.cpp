@@ -74,6 +74,10 @@ LightmapPage tiny_lightmap() {
     page.standard_error.push_back(Vec3(0.01f * v));
     page.state.push_back(states[i % 4]);
   }
+  page.cell.resize(32);
+  page.detail_width = 5, page.detail_height = 8;
+  page.cell[9] = DetailBlock{0, 0, 2}.code(), page.cell[10] = DetailBlock{2, 5, 1}.code();
+  for (std::uint32_t i = 0; i < 40; ++i) page.detail.push_back({100 + static_cast<float>(i) * 5.1f, 90, 0.5f});
   return page;
 }
 

@@ -9,6 +9,7 @@
 #include "bake/radiosity/cached/part.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
+#include "bake/radiosity/detail/detail.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/gather/survival.h"
@@ -63,9 +64,7 @@ class CachedEstimator : public LightEstimator {
     RadiosityReport& report = light.report;
     report.sweeps = sweeps_.count, report.sweep_tail = sweeps_.tail, report.sweep_growth = sweeps_.growth;
     report.bounded_patches = sweeps_.bounded;
-    report.filter_drift = std::fabs(smooth_direct_.energy_drift) > std::fabs(estimate_.energy_drift)
-                              ? smooth_direct_.energy_drift
-                              : estimate_.energy_drift;
+    report.filter_drift = std::max(std::fabs(smooth_direct_.energy_drift), std::fabs(estimate_.energy_drift));
     report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
@@ -80,6 +79,11 @@ class CachedEstimator : public LightEstimator {
       const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
       page.standard_error[texel] = glm::sqrt(smooth_direct_.variance[i] + estimate_.variance[i] + edited * edited);
     }
+  }
+
+  Status add_detail(Radiosity& light) override {
+    return oriel::add_detail(task_, {texels_, around_, cached_, mean_beside(lamps_, graph_, gathered_, context_)},
+                             shares_, light);
   }
 
  private:
@@ -136,10 +140,7 @@ class CachedEstimator : public LightEstimator {
     if (auto known = recall_light(context_, known_name_, options_.directional)) {
       around_.set_near(known->near);  // what paths found in its light, particles must not bring
       reuse_.emplace(texels_, std::move(*known));
-    } else
-      context_.warning(
-          "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles "
-          "on as large pages: all is baked");
+    }
   }
 
   // Direct light that looks the same at a glance is taken as it was.

@@ -65,8 +65,8 @@ std::vector<V> diffuse(const TexelGraph& graph, const Conductance& conductance, 
   return values;
 }
 
-// Along each edge of the graph, into its first texel, in the order of TexelGraph::of(): times the texel's area, what the
-// other one loses.
+// Along each edge of the graph, into its first texel, in the order of TexelGraph::of(): times the texel's area, what
+// the other one loses.
 using Flow = std::vector<std::array<Vec3, kMaxNeighbours>>;
 
 // The flow that smooths `values` over that time. Diffusion changes light that bends, by as much again in the same time

@@ -31,6 +31,14 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
   }
 }
 
+std::vector<Vec3> mean_beside(const LampLight& lamps, const TexelGraph& graph, const HalfSums& sums, Context& context) {
+  constexpr int kPasses = 4;
+  if (lamps.particles == 0) return {};
+  std::vector<Vec3> mean(sums.beside[0]);
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = 0.5f * (mean[i] + sums.beside[1][i]);
+  return pooled(graph, std::move(mean), kPasses, context);
+}
+
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,
                    const FrameError& frames) {
   if (lamps.particles == 0 || 2 * kHalves * lamps.particles > kMostATexel * light.size()) return false;

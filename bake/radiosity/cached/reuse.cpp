@@ -47,13 +47,16 @@ Hash128 name_of_known_light(const Scene& scene, const Texels& texels, const Radi
 }
 
 std::optional<KnownLight> recall_light(Context& context, const Hash128& name, bool directional) {
-  const auto bytes = context.units ? context.units->recall(name) : std::nullopt;
-  if (!bytes) return std::nullopt;
-  KnownLight known;
-  Archive archive{std::span<const std::byte>(*bytes)};
-  fields(archive, known);
-  if (!archive.complete() || !is_whole(known, directional)) return std::nullopt;
-  return known;
+  if (const auto bytes = context.units ? context.units->recall(name) : std::nullopt) {
+    KnownLight known;
+    Archive archive{std::span<const std::byte>(*bytes)};
+    fields(archive, known);
+    if (archive.complete() && is_whole(known, directional)) return known;
+  }
+  context.warning(
+      "--reuse-error: the cache knows no whole bake with these options of a scene of as many triangles on as large "
+      "pages: all is baked");
+  return std::nullopt;
 }
 
 void remember_light(Context& context, const Hash128& name, KnownLight known) {

@@ -24,7 +24,7 @@ struct KnownLight {
 // Where in the cache the last bake with these options of a scene with this many triangles on pages like these left it.
 Hash128 name_of_known_light(const Scene& scene, const Texels& texels, const RadiosityOptions& options,
                             const PathOptions& paths, std::uint64_t seed);
-// Nothing where the cache holds none, or one that is not whole.
+// Nothing, with a warning, where the cache holds none, or one that is not whole.
 std::optional<KnownLight> recall_light(Context& context, const Hash128& name, bool directional);
 void remember_light(Context& context, const Hash128& name, KnownLight known);
 

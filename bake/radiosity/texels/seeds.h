@@ -19,6 +19,7 @@ inline constexpr std::uint64_t kSky = 0x50f;             // directions of a sky 
 inline constexpr std::uint64_t kManyLights = 0x9e11;     // + the pick's number: which of many lights
 inline constexpr std::uint64_t kFramePixels = 0xf4a3e;   // what eyes look at, for the stated error
 inline constexpr std::uint64_t kHeldOutPixels = 0x4e1d;  // the same, for the measured one
+inline constexpr std::uint64_t kDetail = 0xde7a;         // + steps along a finer cell: all of its points
 inline constexpr std::uint64_t kCertificate = 0xce27;    // + the estimate's number: paths that measure it
 
 }  // namespace oriel::seeds

@@ -19,6 +19,7 @@ constexpr double kRaysATexel = 32;     // about
 constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averaged
 // Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
+constexpr std::size_t kSparse = 16;        // places of a page for each of its texels: more are not tabulated
 constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
 
 class SiteFinder {
@@ -130,7 +131,11 @@ void place_triangles(const Atlas& atlas, Texels& texels) {
 std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
   const Page& p = pages[page_number];
   if (px < 0 || py < 0 || px >= static_cast<int>(p.width) || py >= static_cast<int>(p.height)) return kNoTexel;
-  return p.number[static_cast<std::size_t>(py) * p.width + static_cast<std::size_t>(px)];
+  const std::size_t place = static_cast<std::size_t>(py) * p.width + static_cast<std::size_t>(px);
+  if (!p.number.empty()) return p.number[place];
+  const auto found = std::lower_bound(p.place.begin(), p.place.end(), place);
+  if (found == p.place.end() || *found != place) return kNoTexel;
+  return p.first + static_cast<std::uint32_t>(found - p.place.begin());
 }
 
 std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
@@ -186,10 +191,15 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.eyes.assign(eyes.begin(), eyes.end());
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
-    texels.pages.push_back(
-        {map.width, map.height, std::vector<std::uint32_t>(std::size_t{map.width} * map.height, kNoTexel)});
+    const std::size_t places = std::size_t{map.width} * map.height;
+    texels.pages.push_back({map.width, map.height, {}, {}, static_cast<std::uint32_t>(texels.page.size())});
+    Texels::Page& page = texels.pages.back();
+    if (places > kSparse * map.texel.size())
+      page.place = map.texel;
+    else
+      page.number.assign(places, kNoTexel);
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
-      texels.pages[p].number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
+      if (!page.number.empty()) page.number[map.texel[i]] = static_cast<std::uint32_t>(texels.page.size());
       texels.page.push_back(p);
       texels.index.push_back(i);
       texels.covered.push_back(covered_share(map, i));

@@ -91,7 +91,9 @@ struct Texels {
 
   struct Page {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint32_t> number;  // by y * width + x
+    std::vector<std::uint32_t> number;  // by y * width + x; empty where few places of the page have a texel:
+    std::vector<std::uint32_t> place;   // then y * width + x of each of them, ascending,
+    std::uint32_t first = 0;            // and the number of the first
   };
   std::vector<Page> pages;
   struct Placement {  // of a triangle on its page, in texels

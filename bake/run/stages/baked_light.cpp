@@ -4,6 +4,7 @@
 
 #include "bake/trace/albedo.h"
 #include "bake/trace/brdf/specular.h"
+#include "formats/assets/bilinear.h"
 
 namespace oriel {
 namespace {
@@ -11,18 +12,17 @@ namespace {
 constexpr std::uint32_t kFewerForMirrors = 8;  // whose rays only scatter where they arrive
 constexpr int kMostLobes = 8;                  // one after the other: in a closed pipe of metal paths never end
 
-// One of a page's arrays at a point, bilinear.
-Vec3 sample_page(const LightmapPage& page, const std::vector<Vec3>& texels, const Atlas& atlas, std::uint32_t triangle,
-                 const Vec2& barycentric) {
+Vec2 uv_at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) {
   const auto& corners = atlas.uv[triangle];
-  const Vec2 uv = corners[0] + barycentric.x * (corners[1] - corners[0]) + barycentric.y * (corners[2] - corners[0]);
-  const float x = std::clamp(uv.x * static_cast<float>(page.width) - 0.5f, 0.0f, static_cast<float>(page.width - 1));
-  const float y = std::clamp(uv.y * static_cast<float>(page.height) - 0.5f, 0.0f, static_cast<float>(page.height - 1));
-  const auto x0 = static_cast<std::uint32_t>(x), y0 = static_cast<std::uint32_t>(y);
-  const std::uint32_t x1 = std::min(x0 + 1, page.width - 1), y1 = std::min(y0 + 1, page.height - 1);
-  const auto texel = [&](std::uint32_t i, std::uint32_t j) { return texels[std::size_t{j} * page.width + i]; };
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
+  return corners[0] + barycentric.x * (corners[1] - corners[0]) + barycentric.y * (corners[2] - corners[0]);
+}
+
+// The direction there, bilinear.
+Vec3 direction_at(const LightmapPage& page, const Vec2& uv) {
+  const TexelsAround around = texels_around(uv, page.width, page.height);
+  Vec3 d(0);
+  for (std::size_t k = 0; k < around.texel.size(); ++k) d += around.weight[k] * page.direction[around.texel[k]];
+  return d;
 }
 
 // Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
@@ -79,9 +79,10 @@ Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, s
   const std::int32_t index = atlas.page[triangle];
   if (index < 0) return Vec3(0);
   const LightmapPage& page = pages[static_cast<std::size_t>(index)];
-  const Vec3 e = sample_page(page, page.irradiance, atlas, triangle, barycentric);
+  const Vec2 uv = uv_at(atlas, triangle, barycentric);
+  const Vec3 e = irradiance_at(page, uv);
   if (page.direction.empty() || tilted == normal) return e;
-  return e * directional_ratio(sample_page(page, page.direction, atlas, triangle, barycentric), tilted, normal);
+  return e * directional_ratio(direction_at(page, uv), tilted, normal);
 }
 
 Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {

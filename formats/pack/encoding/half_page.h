@@ -17,6 +17,10 @@ struct HalfPage {
   float scale = 0;               // a power of two; 0: the page is black
   std::vector<Half4> light;      // irradiance / scale, finite and >= 0
   std::vector<Half4> direction;  // of a directional lightmap, as LightmapPage's, else empty
+  // As LightmapPage's; detail / scale.
+  std::vector<std::uint32_t> cell{};
+  std::uint32_t detail_width = 0, detail_height = 0;
+  std::vector<Half4> detail{};
 };
 
 inline Half4 halves_of(const Vec3& v, float scale = 1) {

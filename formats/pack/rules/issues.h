@@ -99,6 +99,8 @@ void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& lis
 // Of one image, in the section that the list is in.
 void validate_pixels(const Texture& texture, IssueList& list);
 void validate_pixels(const LightmapPage& page, IssueList& list);
+// Of a page of that size: that each lies in its image of details.
+void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list);
 void validate_pixels(const RadianceMap& map, IssueList& list);
 void validate_pixels(const SurroundMap& map, IssueList& list);
 void validate_elements(const Pack& pack, IssueList& list);

@@ -139,12 +139,40 @@ void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& all) {
   });
 }
 
+void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] == 0) continue;
+    const DetailBlock block = DetailBlock::of(cells[i]);
+    const auto x = static_cast<int>(i % static_cast<std::size_t>(size.x)),
+               y = static_cast<int>(i / static_cast<std::size_t>(size.x));
+    const auto end = [&](std::uint32_t at) { return static_cast<int>(at + block.side()); };
+    if (block.side() >= 2 && block.side() <= kMostDetail && end(block.x) < details.x && end(block.y) < details.y &&
+        x + 1 < size.x && y + 1 < size.y)
+      continue;
+    list.error(306,
+               "cell {} at ({}, {}): found {} steps a side from ({}, {}) on, expected 2, 4 or 8 within {} x {} points, "
+               "and texels on all its corners",
+               i, x, y, block.side(), block.x, block.y, details.x, details.y);
+    return;
+  }
+}
+
 void validate_pixels(const LightmapPage& page, IssueList& list) {
   if (!check_area(301, page.width, page.height, {page.irradiance.size(), page.standard_error.size(), page.state.size()},
                   list))
     return;
   list.each(302, "texels of irradiance", page.irradiance, light, text3, kLight);
   list.each(303, "texels of standard error", page.standard_error, light, text3, kLight);
+  const IVec2 size(page.width, page.height), details(page.detail_width, page.detail_height);
+  if (page.detail.size() != std::size_t{page.detail_width} * page.detail_height || page.detail_width > kMaxDetailSide ||
+      page.detail_height > kMaxDetailSide || page.cell.size() != (page.detail.empty() ? 0 : page.state.size())) {
+    list.error(305,
+               "found {} points and {} cells, expected details of {} x {} and a cell for each of {} texels, or none",
+               page.detail.size(), page.cell.size(), page.detail_width, page.detail_height, page.state.size());
+    return;
+  }
+  list.each(305, "points of details", page.detail, light, text3, kLight);
+  validate_cells(page.cell, size, details, list);
   if (page.direction.empty() || !check_area(304, page.width, page.height, {page.direction.size()}, list)) return;
   list.each(
       304, "directions", page.direction, [](const Vec3& d) { return is_finite(d) && length2(d) <= 1.001f; }, text3,

@@ -20,14 +20,19 @@ float largest_channel(std::span<const Vec3> values) {
   return largest;
 }
 
-void put_halves(ByteWriter& out, std::span<const Vec3> values) {
-  const int exponent = scale_exponent(largest_channel(values), 11);
+void put_halves(ByteWriter& out, std::span<const Vec3> values, int exponent) {
   const float scale = std::ldexp(1.0f, -exponent);
   std::vector<Half3> halves(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     for (int c = 0; c < 3; ++c) halves[i][static_cast<std::size_t>(c)] = half_from_float(values[i][c] * scale);
-  out.put(static_cast<std::int32_t>(exponent));
   put_planes(out, std::span<const Half3>(halves));
+}
+
+// A power of two that halves of these values, and of others beside them, have.
+int put_half_exponent(ByteWriter& out, std::span<const Vec3> values, std::span<const Vec3> others = {}) {
+  const int exponent = scale_exponent(std::max(largest_channel(values), largest_channel(others)), 11);
+  out.put(static_cast<std::int32_t>(exponent));
+  return exponent;
 }
 
 // Channel c of element i of a block of Half3.
@@ -35,9 +40,7 @@ std::uint16_t half_at(const PlaneBlock<6>& block, std::size_t c, std::size_t i) 
   return static_cast<std::uint16_t>(block.plane[2 * c][i] | block.plane[2 * c + 1][i] << 8);
 }
 
-Status get_halves(ByteReader& in, std::uint64_t count, const char* what, std::vector<Vec3>& values) {
-  int exponent = 0;
-  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+Status get_halves(ByteReader& in, std::uint64_t count, int exponent, const char* what, std::vector<Vec3>& values) {
   const float scale = std::ldexp(1.0f, exponent);
   Status status;
   for_each_plane_block<6>(in, count, [&](const PlaneBlock<6>& block) {
@@ -123,20 +126,39 @@ Status decode(ByteReader& in, Texture& texture) {
 void encode(ByteWriter& out, const LightmapPage& page) {
   out.put(page.width);
   out.put(page.height);
-  put_halves(out, page.irradiance);
-  put_halves(out, page.standard_error);
+  out.put(page.detail_width);
+  out.put(page.detail_height);
+  const int exponent = put_half_exponent(out, page.irradiance, page.detail);
+  put_halves(out, page.irradiance, exponent);
+  put_planes(out, std::span<const std::uint32_t>(page.cell));
+  put_halves(out, page.detail, exponent);
+  const int of_errors = put_half_exponent(out, page.standard_error);
+  put_halves(out, page.standard_error, of_errors);
   put_planes(out, std::span(reinterpret_cast<const std::uint8_t*>(page.state.data()), page.state.size()));
 }
 
 Status decode_place(ByteReader& in, LightmapPage& page) {
-  return get_size(in, page.width, page.height);
+  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
+  page.detail_width = in.get<std::uint32_t>(), page.detail_height = in.get<std::uint32_t>();
+  const auto usable = [](std::uint32_t side) { return side <= kMaxDetailSide; };
+  if (in.ok() && (!usable(page.detail_width) || !usable(page.detail_height) ||
+                  (page.detail_width == 0) != (page.detail_height == 0)))
+    return invalid("", "found details of {} x {} points, expected 1 to {} a side, or none", page.detail_width,
+                   page.detail_height, kMaxDetailSide);
+  return {};
 }
 
 Status decode(ByteReader& in, LightmapPage& page) {
   ORIEL_TRY_VOID(decode_place(in, page));
   const std::uint64_t texels = std::uint64_t{page.width} * page.height;
-  ORIEL_TRY_VOID(get_halves(in, texels, "irradiance", page.irradiance));
-  ORIEL_TRY_VOID(get_halves(in, texels, "standard error", page.standard_error));
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  ORIEL_TRY_VOID(get_halves(in, texels, exponent, "irradiance", page.irradiance));
+  if (page.detail_width > 0) page.cell = get_planes<std::uint32_t>(in, texels);
+  ORIEL_TRY_VOID(
+      get_halves(in, std::uint64_t{page.detail_width} * page.detail_height, exponent, "detail", page.detail));
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  ORIEL_TRY_VOID(get_halves(in, texels, exponent, "standard error", page.standard_error));
   return get_texel_states(in, texels, page.state);
 }
 
@@ -150,16 +172,11 @@ void encode(ByteWriter& out, const DirectionPage& page) {
   put_planes(out, std::span<const Half3>(halves));
 }
 
-Status decode(ByteReader& in, HalfPage& page) {
-  ORIEL_TRY_VOID(get_size(in, page.width, page.height));
-  int exponent = 0;
-  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
-  page.scale = std::ldexp(1.0f, exponent);
-  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+static Status get_half_texels(ByteReader& in, std::uint64_t count, const char* what, std::vector<Half4>& light) {
   constexpr std::uint16_t kOne = 0x3c00;
   unsigned signs = 0;  // as get_halves
-  for_each_plane_block<6>(in, texels, [&](const PlaneBlock<6>& block) {
-    if (page.light.empty()) page.light.reserve(texels);
+  for_each_plane_block<6>(in, count, [&](const PlaneBlock<6>& block) {
+    if (light.empty()) light.reserve(count);
     std::array<Half4, kPlaneBlock> made;
     for (std::size_t i = 0; i < block.size; ++i) made[i][3] = kOne;
     for (std::size_t c = 0; c < 3; ++c)
@@ -168,15 +185,27 @@ Status decode(ByteReader& in, HalfPage& page) {
         signs |= half | (half + 0x400u);
         made[i][c] = half;
       }
-    page.light.insert(page.light.end(), made.begin(), made.begin() + static_cast<std::ptrdiff_t>(block.size));
+    light.insert(light.end(), made.begin(), made.begin() + static_cast<std::ptrdiff_t>(block.size));
   });
   if ((signs & 0x8000) == 0) return {};
-  const auto bad = std::find_if(page.light.begin(), page.light.end(),
+  const auto bad = std::find_if(light.begin(), light.end(),
                                 [](const Half4& h) { return h[0] >= 0x7c00 || h[1] >= 0x7c00 || h[2] >= 0x7c00; });
-  return invalid("",
-                 "found irradiance halves {:#06x} {:#06x} {:#06x} at texel {}, expected finite ones that are not "
-                 "negative",
-                 (*bad)[0], (*bad)[1], (*bad)[2], bad - page.light.begin());
+  return invalid("", "found {} halves {:#06x} {:#06x} {:#06x} at texel {}, expected finite ones that are not negative",
+                 what, (*bad)[0], (*bad)[1], (*bad)[2], bad - light.begin());
+}
+
+Status decode(ByteReader& in, HalfPage& page) {
+  LightmapPage place;
+  ORIEL_TRY_VOID(decode_place(in, place));
+  page.width = place.width, page.height = place.height;
+  page.detail_width = place.detail_width, page.detail_height = place.detail_height;
+  int exponent = 0;
+  ORIEL_TRY_VOID(get_scale_exponent(in, exponent));
+  page.scale = std::ldexp(1.0f, exponent);
+  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+  ORIEL_TRY_VOID(get_half_texels(in, texels, "irradiance", page.light));
+  if (page.detail_width > 0) page.cell = get_planes<std::uint32_t>(in, texels);
+  return get_half_texels(in, std::uint64_t{page.detail_width} * page.detail_height, "detail", page.detail);
 }
 
 Status decode_place(ByteReader& in, DirectionPage& page) {

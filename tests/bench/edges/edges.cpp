@@ -115,11 +115,7 @@ class PackLight {
     const std::vector<Vec2>& uvs = pack_.mesh.lightmap_uvs;
     const Vec2 uv = uvs[corners.x] + hit.barycentric.x * (uvs[corners.y] - uvs[corners.x]) +
                     hit.barycentric.y * (uvs[corners.z] - uvs[corners.x]);
-    const LightmapPage& page = pack_.lightmaps[static_cast<std::size_t>(page_[hit.triangle])];
-    const TexelsAround around = texels_around(uv, page.width, page.height);
-    Vec3 e(0);
-    for (std::size_t i = 0; i < 4; ++i) e += around.weight[i] * page.irradiance[around.texel[i]];
-    return luminance(e);
+    return luminance(irradiance_at(pack_.lightmaps[static_cast<std::size_t>(page_[hit.triangle])], uv));
   }
 
  private:

@@ -1,0 +1,56 @@
+#include "bake/radiosity/detail/detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bake/radiosity/detail/blocks.h"
+#include "bake/radiosity/frames/frame_error.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kUsualError = 0.02;  // where none is asked for
+
+// As pixels of frames are held against (frames/frame_error.h), for one eye that sees all.
+double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> shares) {
+  double sum = 0, all = 0;
+  std::size_t number = 0;
+  for (std::size_t p = 0; p < task.map.size(); ++p)
+    for (const std::uint32_t texel : task.map[p].texel) {
+      const double share = shares[number++];
+      sum += share * double{luminance(light.pages[p].irradiance[texel])}, all += share;
+    }
+  return all > 0 ? kFrameFloor * sum / all : 0;
+}
+
+}  // namespace
+
+Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<const float> shares, Radiosity& light) {
+  CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
+                .floor = floor_of(task, light, shares),
+                .most_side = task.options.detail};
+  goal.most_points = known.texels.count();
+  const CellLevels levels = choose_cells(task.atlas, task.map, light, shares, goal);
+  std::array<std::unique_ptr<PointLight>, kDetailLevels> points;
+  DetailReport& report = light.report.detail;
+  report = {};
+  double squares = 0;
+  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) {
+    std::size_t cells = 0;
+    for (const auto& page : levels) cells += static_cast<std::size_t>(std::count(page.begin(), page.end(), level));
+    if (cells == 0) continue;
+    ORIEL_TRY(const DetailPoints of_level, list_points(task.atlas, levels, level, task.context));
+    ORIEL_TRY(PointLight lit, light_points(task, known, of_level));
+    report.cells += cells, report.points += lit.texels.count();
+    squares += lit.mean_square * static_cast<double>(lit.texels.count());
+    points[level - 1u] = std::make_unique<PointLight>(std::move(lit));
+  }
+  if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));
+  for (std::uint32_t p = 0; p < light.pages.size(); ++p)
+    add_blocks(task.map[p], levels[p], p, {points[0].get(), points[1].get(), points[2].get()}, light.pages[p]);
+  return {};
+}
+
+}  // namespace oriel

@@ -1,0 +1,30 @@
+// The light at the points of finer cells: what the cached estimator does for texels, once, with the bounces that it has.
+#pragma once
+
+#include "bake/radiosity/cached/filter.h"
+#include "bake/radiosity/detail/points.h"
+#include "bake/radiosity/estimator.h"
+#include "bake/radiosity/gather/cached_light.h"
+
+namespace oriel {
+
+// What is known of the texels.
+struct TexelLight {
+  const Texels& texels;
+  const Surroundings& around;
+  const CachedLight& cached;
+  const std::vector<Vec3>& beside;  // by texel: light that no gather ray looks for, lux; empty: none
+};
+
+// By point, as numbered in `texels`.
+struct PointLight {
+  Texels texels;             // points that lie inside something have visible 0
+  std::vector<Vec3> light;      // lux
+  std::vector<Vec3> variance;   // of it, stated, lux²
+  double mean_square = 0;       // of its stated error, relative to the mean light
+};
+
+// Error kStopped.
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points);
+
+}  // namespace oriel
