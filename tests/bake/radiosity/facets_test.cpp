@@ -8,8 +8,8 @@ namespace {
 
 using test::SceneParts;
 
-// Vertical facets between the points (x, z) of a line, 1 m high, on a chart that covers the whole page, each facet as wide
-// as any other; flat, or with normals interpolated between neighbours along the line, which is closed.
+// Vertical facets between the points (x, z) of a line, 1 m high, on a chart that covers the whole page, each facet as
+// wide as any other; flat, or with normals interpolated between neighbours along the line, which is closed.
 void add_facets(SceneParts& parts, const std::vector<Vec2>& line, bool smooth) {
   const std::size_t count = line.size() - 1;
   std::vector<Vec3> flat, positions, normals;
@@ -54,7 +54,8 @@ LightmapPage bake(const Scene& scene, Estimator estimator, int side) {
   const LightSet lights(scene);
   PathOptions paths;
   paths.max_bounces = 0;
-  return bake_radiosity({accel, lights, paths}, atlas, map, {.estimator = estimator, .samples = 1024}, context)->pages[0];
+  return bake_radiosity({accel, lights, paths}, atlas, map, {.estimator = estimator, .samples = 1024}, context)
+      ->pages[0];
 }
 
 class Facets : public testing::TestWithParam<Estimator> {};
@@ -92,8 +93,9 @@ TEST_P(Facets, TexelsHoldTheMeanOfAllFacetsUnderThem) {
   EXPECT_NEAR(sum / sum_expected, 1, 0.005);
 }
 
-// Under an even sky all of a smooth body is lit alike, however few facets stand for it: what of the lobe lies below a facet
-// is folded above it. Cut off, a seventh of the light would be missing at the edges of a prism of four sides, 5 % of all.
+// Under an even sky all of a smooth body is lit alike, however few facets stand for it: what of the lobe lies below a
+// facet is folded above it. Cut off, a seventh of the light would be missing at the edges of a prism of four sides, 5 %
+// of all.
 TEST_P(Facets, ASmoothBodyUnderAnEvenSkyIsEven) {
   std::vector<Vec2> line;
   for (int k = 0; k <= 4; ++k) line.emplace_back(std::sin(0.5f * kPi * k), std::cos(0.5f * kPi * k));
@@ -109,7 +111,8 @@ TEST_P(Facets, ASmoothBodyUnderAnEvenSkyIsEven) {
   EXPECT_NEAR(sum, 1, 1e-3);
 }
 
-// Lamps all around are an even sky, of which each facet sees some lamps barely over its horizon: few samples meet these.
+// Lamps all around are an even sky, of which each facet sees some lamps barely over its horizon: few samples meet
+// these.
 TEST_P(Facets, LampsAllAroundAreAnEvenSky) {
   std::vector<Vec2> line;
   for (int k = 0; k <= 12; ++k) line.emplace_back(std::sin(kPi * k / 6), std::cos(kPi * k / 6));
