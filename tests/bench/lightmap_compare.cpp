@@ -21,49 +21,70 @@ struct Options {
   std::vector<std::string> hidden;     // two bakes that differ where texels are partly hidden
   std::vector<std::string> lightmaps;  // EXR files
   std::vector<double> scales;          // one a lightmap: what turns its values into the reference's quantity
+  std::string without;                 // open texels once more, without objects whose names hold this
 };
 
 struct Texel {
   std::size_t index;
-  std::string object_class;  // the object's name up to its first underscore
+  std::string object_class;  // the object's name without digits
 };
 
-// Texels whose centre and whose 8 neighbours' centres lie in one chart.
-std::vector<Texel> interior_texels(const Scene& scene, const Atlas& atlas) {
-  const int size = static_cast<int>(atlas.pages[0].width);
-  std::vector<std::uint32_t> chart(static_cast<std::size_t>(size) * size, kNone), surface(chart.size(), kNone);
+struct Charts {
+  int size = 0;
+  std::vector<std::uint32_t> chart, surface;  // by texel, of what lies under its centre; kNone: nothing
+};
+
+Charts charts_of(const Scene& scene, const Atlas& atlas) {
+  Charts c{static_cast<int>(atlas.pages[0].width), {}, {}};
+  c.chart.assign(static_cast<std::size_t>(c.size) * c.size, kNone), c.surface = c.chart;
   for (std::uint32_t t = 0; t < atlas.page.size(); ++t) {
     if (atlas.page[t] != 0) continue;
     const auto p = texel_triangle(atlas, t);
     const auto cross = [](const DVec2& a, const DVec2& b) { return a.x * b.y - a.y * b.x; };
     const double area = cross(p[1] - p[0], p[2] - p[0]);
     const DVec2 low = glm::min(p[0], glm::min(p[1], p[2])), high = glm::max(p[0], glm::max(p[1], p[2]));
-    for (int y = std::max(0, static_cast<int>(low.y)); y < std::min<double>(size, high.y); ++y)
-      for (int x = std::max(0, static_cast<int>(low.x)); x < std::min<double>(size, high.x); ++x) {
-        const DVec2 c(x + 0.5, y + 0.5);
+    for (int y = std::max(0, static_cast<int>(low.y)); y < std::min<double>(c.size, high.y); ++y)
+      for (int x = std::max(0, static_cast<int>(low.x)); x < std::min<double>(c.size, high.x); ++x) {
+        const DVec2 centre(x + 0.5, y + 0.5);
         bool inside = area != 0;
-        for (std::size_t k = 0; k < 3; ++k) inside &= cross(p[(k + 1) % 3] - p[k], c - p[k]) / area >= -1e-9;
+        for (std::size_t k = 0; k < 3; ++k) inside &= cross(p[(k + 1) % 3] - p[k], centre - p[k]) / area >= -1e-9;
         if (!inside) continue;
-        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
-        chart[i] = atlas.chart[t], surface[i] = scene.triangle_surface[t];
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(c.size) + static_cast<std::size_t>(x);
+        c.chart[i] = atlas.chart[t], c.surface[i] = scene.triangle_surface[t];
       }
   }
+  return c;
+}
+
+// The texel and the eight around it that are on the page.
+template <class Visit>
+void around(const Charts& c, std::size_t i, const Visit& visit) {
+  const int x = static_cast<int>(i) % c.size, y = static_cast<int>(i) / c.size;
+  for (int v = std::max(0, y - 1); v <= std::min(c.size - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(c.size - 1, x + 1); ++u)
+      visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(c.size) + static_cast<std::size_t>(u));
+}
+
+// Texels whose centre and whose 8 neighbours' centres lie in one chart.
+std::vector<Texel> interior_texels(const Scene& scene, const Charts& c) {
   std::vector<Texel> texels;
-  for (int y = 1; y + 1 < size; ++y)
-    for (int x = 1; x + 1 < size; ++x) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
-      bool same = chart[i] != kNone;
-      for (int k = 0; k < 9; ++k)
-        same &= chart[i + static_cast<std::size_t>((k / 3 - 1) * size + k % 3 - 1)] == chart[i];
-      if (!same) continue;
-      const std::string& name = scene.surfaces[surface[i]].name;
-      texels.push_back({i, name.substr(0, name.find('_'))});
-    }
+  for (std::size_t i = 0; i < c.chart.size(); ++i) {
+    int same = 0;
+    around(c, i, [&](std::size_t k) { same += c.chart[k] == c.chart[i]; });
+    if (c.chart[i] == kNone || same < 9) continue;
+    std::string name = scene.surfaces[c.surface[i]].name;
+    std::erase_if(name, [](char letter) { return letter >= '0' && letter <= '9'; });
+    texels.push_back({i, name});
+  }
   return texels;
 }
 
 DVec3 pixel(const FloatImage& image, std::size_t i) {
   return {image.pixels[i * image.channels], image.pixels[i * image.channels + 1], image.pixels[i * image.channels + 2]};
+}
+
+bool is_finite(const DVec3& v) {
+  return std::isfinite(v.r) && std::isfinite(v.g) && std::isfinite(v.b);
 }
 
 struct Errors {
@@ -96,22 +117,42 @@ DVec3 mean_light(const FloatImage& a, const FloatImage& b, const std::vector<Tex
   return sum / static_cast<double>(texels.size());
 }
 
-void print(const std::string& file, const char* set, const FloatImage& x, double scale, const FloatImage& a,
-           const FloatImage& b, const std::vector<Texel>& texels) {
+// Those that no other body covers, nor their neighbours: all around the reference is above 5 % of its mean.
+std::vector<Texel> open_texels(const Charts& charts, const FloatImage& a, const FloatImage& b,
+                               std::vector<Texel> texels) {
+  const auto brightest = [](const DVec3& v) { return std::max({v.r, v.g, v.b}); };
   const DVec3 mean = mean_light(a, b, texels);
-  const Errors e = errors(x, scale, a, b, texels, mean, false), noise = errors(x, scale, a, b, texels, mean, true);
+  const double least = 0.05 * (mean.r + mean.g + mean.b) / 3;
+  std::erase_if(texels, [&](const Texel& t) {
+    bool dark = false;
+    around(charts, t.index, [&](std::size_t k) { dark |= brightest(0.5 * (pixel(a, k) + pixel(b, k))) <= least; });
+    return dark;
+  });
+  return texels;
+}
+
+// What the reference's own noise explains is taken out. Texels that are no number are left out, and counted.
+void print(const std::string& file, const char* set, const FloatImage& x, double scale, const FloatImage& a,
+           const FloatImage& b, std::vector<Texel> texels) {
+  const std::size_t lost = std::erase_if(texels, [&](const Texel& t) { return !is_finite(pixel(x, t.index)); });
+  const DVec3 mean = mean_light(a, b, texels);
   const auto net = [](double total, double own) { return std::sqrt(std::max(0.0, total * total - own * own)); };
+  const Errors e = errors(x, scale, a, b, texels, mean, false), noise = errors(x, scale, a, b, texels, mean, true);
   std::map<std::string, std::vector<Texel>> classes;
   for (const Texel& t : texels) classes[t.object_class].push_back(t);
-  std::string biases;
-  for (const auto& [name, own] : classes)
-    biases += fmt::format("{}\"{}\": {:.6f}", biases.empty() ? "" : ", ", name,
-                          errors(x, scale, a, b, own, mean, false).bias);
+  std::string by_class;
+  for (const auto& [name, own] : classes) {
+    const Errors total = errors(x, scale, a, b, own, mean, false), halves = errors(x, scale, a, b, own, mean, true);
+    by_class += fmt::format("{}\"{}\": {{\"texels\": {}, \"bias\": {:.6f}, \"bias_noise\": {:.6f}, \"nRMSE\": {:.6f}}}",
+                            by_class.empty() ? "" : ", ", name, own.size(), total.bias, std::abs(halves.bias),
+                            net(total.normalised, halves.normalised));
+  }
   fmt::print(
-      "{{\"file\": \"{}\", \"set\": \"{}\", \"texels\": {}, \"relRMSE\": {:.6f}, \"nRMSE\": {:.6f}, \"bias\": {:.6f}, "
-      "\"reference_relRMSE\": {:.6f}, \"reference_nRMSE\": {:.6f}, \"biases\": {{{}}}}}\n",
-      file, set, texels.size(), net(e.relative, noise.relative), net(e.normalised, noise.normalised), e.bias,
-      noise.relative, noise.normalised, biases);
+      "{{\"file\": \"{}\", \"set\": \"{}\", \"texels\": {}, \"not_finite\": {}, \"relRMSE\": {:.6f}, \"nRMSE\": "
+      "{:.6f}, "
+      "\"bias\": {:.6f}, \"reference_relRMSE\": {:.6f}, \"reference_nRMSE\": {:.6f}, \"classes\": {{{}}}}}\n",
+      file, set, texels.size(), lost, net(e.relative, noise.relative), net(e.normalised, noise.normalised), e.bias,
+      noise.relative, noise.normalised, by_class);
 }
 
 Result<FloatImage> load(const std::string& file, int resolution) {
@@ -132,13 +173,18 @@ Status compare(const Options& o) {
   ORIEL_TRY(const Atlas atlas, build_atlas(imported.scene, atlas_options, context));
   ORIEL_TRY(const FloatImage a, load(o.reference_a, o.resolution));
   ORIEL_TRY(const FloatImage b, load(o.reference_b, o.resolution));
-  std::vector<Texel> texels = interior_texels(imported.scene, atlas);
+  const Charts charts = charts_of(imported.scene, atlas);
+  std::vector<Texel> texels = interior_texels(imported.scene, charts);
+  std::erase_if(texels, [&](const Texel& t) { return !is_finite(pixel(a, t.index) + pixel(b, t.index)); });
   // Inside other geometry, and fronts of sheets that are lit from behind: what a few stray paths bring is no reference.
   constexpr double kBlack = 0.005;  // of the mean
   const auto light = [&](const Texel& t) { return glm::length(pixel(a, t.index) + pixel(b, t.index)); };
   double mean = 0;
   for (const Texel& t : texels) mean += light(t) / static_cast<double>(texels.size());
   std::erase_if(texels, [&](const Texel& t) { return light(t) <= kBlack * mean; });
+  const std::vector<Texel> open = open_texels(charts, a, b, texels);
+  std::vector<Texel> chosen = open;
+  std::erase_if(chosen, [&](const Texel& t) { return t.object_class.find(o.without) != std::string::npos; });
   std::vector<Texel> whole = texels;
   if (o.hidden.size() == 2) {
     ORIEL_TRY(const FloatImage black, load(o.hidden[0], o.resolution));
@@ -152,6 +198,8 @@ Status compare(const Options& o) {
     ORIEL_TRY(const FloatImage x, load(o.lightmaps[i], o.resolution));
     const double scale = i < o.scales.size() ? o.scales[i] : 1;
     print(o.lightmaps[i], "interior", x, scale, a, b, texels);
+    print(o.lightmaps[i], "open", x, scale, a, b, open);
+    if (!o.without.empty()) print(o.lightmaps[i], "chosen", x, scale, a, b, chosen);
     if (o.hidden.size() == 2) print(o.lightmaps[i], "unhidden", x, scale, a, b, whole);
   }
   return {};
@@ -170,6 +218,7 @@ int main(int argc, char** argv) {
   app.add_option("--hidden", o.hidden, "Two bakes, with and without --hidden-black")->expected(2);
   app.add_option("--lightmap", o.lightmaps, "EXR files to be judged")->required();
   app.add_option("--scale", o.scales, "A factor for each of them");
+  app.add_option("--without", o.without, "Open texels once more, without objects whose names (less digits) hold this");
   CLI11_PARSE(app, argc, argv);
   if (const oriel::Status done = oriel::compare(o); !done) {
     std::fprintf(stderr, "lightmap_compare: %s\n", done.error().text().c_str());

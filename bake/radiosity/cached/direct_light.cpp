@@ -16,6 +16,7 @@ constexpr std::size_t kMaxPolygons = 128;
 constexpr std::size_t kMaxPunctual = 256;    // that are asked one by one; of more,
 constexpr std::uint64_t kPicks = 16;         // so many are chosen for each point, by how bright they are from there
 constexpr std::uint32_t kSamplesAPoint = 4;  // beyond those that texels keep: to find one takes more rays than these
+constexpr int kTries = 16;                   // for a point of a light that is above the horizon
 constexpr std::size_t kGroup = 64;           // texels whose shadow rays to one light are traced together
 
 }  // namespace
@@ -115,10 +116,15 @@ class DirectGroup {
       if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
       tallies_[point.texel].open[point.half] += Vec3(open);
       Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
-      const auto s = sample_polygon(light, receiver, sampler.next2());
-      if (!s) continue;
-      const float weight = incidence(receiver, s->direction) * s->solid_angle;
-      if (weight > 0) shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
+      // Points of the light below the horizon weigh nothing: others are tried, of a light that reaches barely above it
+      // too.
+      for (int tries = 0; tries < kTries; ++tries) {
+        const auto s = sample_polygon(light, receiver, sampler.next2());
+        const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
+        if (!(weight > 0)) continue;
+        shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
+        break;
+      }
     }
   }
 
@@ -164,13 +170,17 @@ class DirectGroup {
   }
 
   // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
-  // only. One ratio over all samples: its bias falls with their number.
+  // only. One ratio over all samples: its bias falls with their number. A half none of whose samples weigh anything,
+  // the light being mostly below its points' horizon, knows no ratio of its own.
   void finish_light(const Vec3& radiance) {
     trace();
     const auto n = static_cast<float>(kHalves * per_half_);
     for (Tally& t : tallies_) {
       const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
-      const std::array<Vec3, kHalves> of_half{ratio(t.passed[0], t.weight[0]), ratio(t.passed[1], t.weight[1])};
+      const auto own = [&](int half) {
+        return max_component(t.weight[half]) > 0 ? ratio(t.passed[half], t.weight[half]) : share;
+      };
+      const std::array<Vec3, kHalves> of_half{own(0), own(1)};
       const Vec3 halves = 0.5f * (of_half[0] + of_half[1]);
       const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
       const Vec3 value = open * (2.0f * share - halves);
