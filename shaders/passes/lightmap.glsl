@@ -1,6 +1,5 @@
 // Baked light on a surface of the scene that stands still.
 #include "passes/surface.glsl"
-#include "lib/detail_block.glsl"
 #include "lib/lightmap_uv.glsl"
 
 uniform sampler2D u_lightmap;

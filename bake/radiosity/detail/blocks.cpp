@@ -126,7 +126,8 @@ class PageBlocks {
     if (x < 0 || y < 0 || x + 1 >= static_cast<int>(page_.width) || y + 1 >= static_cast<int>(page_.height))
       return std::nullopt;
     const std::size_t place = static_cast<std::size_t>(y) * page_.width + static_cast<std::size_t>(x);
-    if (!covered_[place] && !covered_[place + 1] && !covered_[place + page_.width] && !covered_[place + page_.width + 1])
+    if (!covered_[place] && !covered_[place + 1] && !covered_[place + page_.width] &&
+        !covered_[place + page_.width + 1])
       return std::nullopt;
     return levels_[place];
   }
@@ -140,8 +141,8 @@ class PageBlocks {
       if (!level) continue;
       if (*level == 0) return Vec3(0);
       const LevelGrid& grid = *grids_[*level];
-      sum += grid.at(static_cast<std::uint32_t>(x + dx), static_cast<std::uint32_t>(y + dy),
-                     dx < 0 ? grid.side() : 0, dy < 0 ? grid.side() : 0);
+      sum += grid.at(static_cast<std::uint32_t>(x + dx), static_cast<std::uint32_t>(y + dy), dx < 0 ? grid.side() : 0,
+                     dy < 0 ? grid.side() : 0);
       ++count;
     }
     return count > 0 ? sum / count : Vec3(0);
@@ -157,57 +158,61 @@ class PageBlocks {
       for (const std::uint32_t a : {0u, 1u}) {
         const float share = (a ? f.x : 1 - f.x) * (b ? f.y : 1 - f.y);
         if (share > 0)
-          change += share * (change_at_texel(static_cast<int>(x + a), static_cast<int>(y + b)) - grid.at(x, y, a * n, b * n));
+          change +=
+              share * (change_at_texel(static_cast<int>(x + a), static_cast<int>(y + b)) - grid.at(x, y, a * n, b * n));
       }
     return change;
   }
 
-  // On a side shared with a cell of fewer steps: between that cell's points. i, j: steps of n.
-  Vec3 change_on_side(std::uint8_t coarser, std::uint32_t x, std::uint32_t y, const Vec2& f) const {
-    if (coarser == 0) return Vec3(0);
-    const std::uint32_t n = 1u << coarser;
+  // Light between the texels of the cell at (x, y); f: of [0,1].
+  Vec3 between_texels(std::uint32_t x, std::uint32_t y, const Vec2& f) const {
+    const std::size_t place = std::size_t{y} * page_.width + x;
+    const auto& light = page_.irradiance;
+    return glm::mix(glm::mix(light[place], light[place + 1], f.x),
+                    glm::mix(light[place + page_.width], light[place + page_.width + 1], f.x), f.y);
+  }
+
+  // Light at a point of a cell of that level, not 0, as if it met none with fewer steps.
+  Vec3 light_in(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
+    const Vec2 f = Vec2(i, j) / static_cast<float>(1u << level);
+    return glm::max(between_texels(x, y, f) + change_in(level, x, y, i, j), Vec3(0));
+  }
+
+  // Light at a place on a side of a cell, f of [0,1]: between its points, or its texels where the level is 0.
+  Vec3 light_on_side(std::uint8_t level, std::uint32_t x, std::uint32_t y, const Vec2& f) const {
+    if (level == 0) return between_texels(x, y, f);
+    const std::uint32_t n = 1u << level;
     const Vec2 at = f * static_cast<float>(n);
-    const UVec2 low(std::min(static_cast<std::uint32_t>(at.x), n), std::min(static_cast<std::uint32_t>(at.y), n));
-    const UVec2 high(std::min(low.x + 1, n), std::min(low.y + 1, n));
+    const UVec2 low(at), high = glm::min(low + 1u, UVec2(n));
     const Vec2 share = at - Vec2(low);
-    const Vec3 first = change_in(coarser, x, y, low.x, low.y);
-    const bool along_x = share.x > 0;
-    const float t = along_x ? share.x : share.y;
-    return t > 0 ? glm::mix(first, change_in(coarser, x, y, along_x ? high.x : low.x, along_x ? low.y : high.y), t) : first;
+    const Vec3 first = light_in(level, x, y, low.x, low.y);
+    if (share.x > 0) return glm::mix(first, light_in(level, x, y, high.x, low.y), share.x);
+    if (share.y > 0) return glm::mix(first, light_in(level, x, y, low.x, high.y), share.y);
+    return first;
   }
 
   void fill_block(std::uint32_t x, std::uint32_t y) {
     const std::size_t place = std::size_t{y} * page_.width + x;
-    const std::uint8_t level = levels_[place];
     const DetailBlock block = DetailBlock::of(page_.cell[place]);
-    const std::uint32_t n = block.side();
-    const std::array<Vec3, 4> corner = {page_.irradiance[place], page_.irradiance[place + 1],
-                                        page_.irradiance[place + page_.width], page_.irradiance[place + page_.width + 1]};
-    for (std::uint32_t j = 0; j <= n; ++j)
-      for (std::uint32_t i = 0; i <= n; ++i) {
-        const Vec2 f = Vec2(i, j) / static_cast<float>(n);
-        const Vec3 texels = glm::mix(glm::mix(corner[0], corner[1], f.x), glm::mix(corner[2], corner[3], f.x), f.y);
+    for (std::uint32_t j = 0; j <= block.side(); ++j)
+      for (std::uint32_t i = 0; i <= block.side(); ++i)
         page_.detail[std::size_t{block.y + j} * page_.detail_width + block.x + i] =
-            glm::max(texels + change_for(level, x, y, i, j, n), Vec3(0));
-      }
+            light_at(levels_[place], x, y, i, j);
   }
 
-  // As change_in, but on sides shared with coarser cells.
-  Vec3 change_for(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j,
-                  std::uint32_t n) const {
-    const Vec2 f = Vec2(i, j) / static_cast<float>(n);
-    std::optional<Vec3> change;
-    std::uint8_t coarsest = level;
+  // On a side that it shares with a cell of fewer steps, what that one shows.
+  Vec3 light_at(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t n = 1u << level;
+    std::uint8_t fewest = level;
+    IVec2 from(0);
     const auto look = [&](bool on_side, int dx, int dy) {
-      if (!on_side) return;
-      const int nx = static_cast<int>(x) + dx, ny = static_cast<int>(y) + dy;
-      const auto other = level_of(nx, ny);
-      if (!other || *other >= coarsest) return;
-      coarsest = *other;
-      change = change_on_side(*other, static_cast<std::uint32_t>(nx), static_cast<std::uint32_t>(ny), f - Vec2(dx, dy));
+      const auto other = on_side ? level_of(static_cast<int>(x) + dx, static_cast<int>(y) + dy) : std::nullopt;
+      if (other && *other < fewest) fewest = *other, from = {dx, dy};
     };
     look(i == 0, -1, 0), look(i == n, 1, 0), look(j == 0, 0, -1), look(j == n, 0, 1);
-    return change ? *change : change_in(level, x, y, i, j);
+    if (fewest == level) return light_in(level, x, y, i, j);
+    return light_on_side(fewest, x + static_cast<std::uint32_t>(from.x), y + static_cast<std::uint32_t>(from.y),
+                         Vec2(i, j) / static_cast<float>(n) - Vec2(from));
   }
 
   // Largest first, in rows from the left. The cells' places in that order.

@@ -9,16 +9,16 @@
 namespace oriel {
 namespace {
 
-constexpr float kEdge = 0.25f;      // of a second difference: what interpolation misses at an edge
-constexpr double kBeside = 0.4;     // of the error allowed: from there on what lies beside a chosen cell is one too
-constexpr float kWhole = 0.999f;    // of a texel that is visible
-constexpr double kCoarser = 1.25;    // times the error, until there are few enough points
-constexpr float kNoise = 3;         // standard errors of a texel: what may bend by chance
+constexpr float kEdge = 0.25f;     // of a second difference: what interpolation misses at an edge
+constexpr double kBeside = 0.4;    // of the error allowed: from there on what lies beside a chosen cell is one too
+constexpr float kWhole = 0.999f;   // of a texel that is visible
+constexpr double kCoarser = 1.25;  // times the error, until there are few enough points
+constexpr float kNoise = 3;        // standard errors of a texel: what may bend by chance
 constexpr std::uint32_t kNone = ~0u;
 
 struct Candidate {
   std::uint32_t page = 0, place = 0;
-  double error = 0;    // what interpolation misses, relative, of what people notice
+  double error = 0;      // what interpolation misses, relative, of what people notice
   bool contact = false;  // something stands or hangs on a corner
 };
 
@@ -39,7 +39,8 @@ class PageCells {
   // usual: share of frames of a texel.
   void add(std::uint32_t page_number, const CellGoal& goal, double usual, std::vector<Candidate>& found) const {
     for (std::uint32_t y = 0; y + 1 < page_.height; ++y)
-      for (std::uint32_t x = 0; x + 1 < page_.width; ++x) add_cell({page_number, y * page_.width + x}, goal, usual, found);
+      for (std::uint32_t x = 0; x + 1 < page_.width; ++x)
+        add_cell({page_number, y * page_.width + x}, goal, usual, found);
   }
 
  private:
@@ -47,7 +48,8 @@ class PageCells {
   float light(std::uint32_t i) const { return luminance(page_.irradiance[map_.texel[i]]); }
 
   std::uint32_t beside(std::uint32_t i, int dx, int dy) const {
-    const int x = static_cast<int>(map_.texel[i] % page_.width) + dx, y = static_cast<int>(map_.texel[i] / page_.width) + dy;
+    const int x = static_cast<int>(map_.texel[i] % page_.width) + dx,
+              y = static_cast<int>(map_.texel[i] / page_.width) + dy;
     if (x < 0 || y < 0 || x >= static_cast<int>(page_.width) || y >= static_cast<int>(page_.height)) return kNone;
     const std::uint32_t other = number_[static_cast<std::size_t>(y) * page_.width + static_cast<std::size_t>(x)];
     return other != kNone && valid(other) && chart_[other] == chart_[i] ? other : kNone;
@@ -74,7 +76,8 @@ class PageCells {
     float bend = 0;
     double light_sum = 0, share = 0;
     int corners = 0;
-    for (const std::uint32_t corner : {cell.place, cell.place + 1, cell.place + page_.width, cell.place + page_.width + 1}) {
+    for (const std::uint32_t corner :
+         {cell.place, cell.place + 1, cell.place + page_.width, cell.place + page_.width + 1}) {
       const std::uint32_t i = number_[corner];
       cell.contact = cell.contact || (i != kNone && visible_[i] < kWhole);
       if (i == kNone || !valid(i)) continue;

@@ -11,7 +11,8 @@
 namespace oriel {
 namespace {
 
-constexpr double kUsualError = 0.02;  // where none is asked for
+constexpr std::size_t kFewPoints = 1 << 14;  // small scenes may have more than texels
+constexpr double kUsualError = 0.02;         // where none is asked for
 
 // As pixels of frames are held against (frames/frame_error.h), for one eye that sees all.
 double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> shares) {
@@ -31,7 +32,7 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<
   CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
                 .floor = floor_of(task, light, shares),
                 .most_side = task.options.detail};
-  goal.most_points = known.texels.count();
+  goal.most_points = std::max(kFewPoints, known.texels.count());
   const CellLevels levels = choose_cells(task.atlas, task.map, light, shares, goal);
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points;
   DetailReport& report = light.report.detail;

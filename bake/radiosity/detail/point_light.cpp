@@ -68,7 +68,8 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
     for (int dx = 0; dx < 2; ++dx) {
       const std::uint32_t texel = known.texels.at(points.page[i], x0 + dx, y0 + dy);
       if (texel == kNoTexel || known.texels.visible[texel] == 0) continue;
-      const float weight = (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
+      const float weight =
+          (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
       sum += weight * known.beside[texel], weights += weight;
     }
   return weights > 0 ? sum / weights : Vec3(0);
@@ -80,8 +81,8 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   Context& context = task.context;
   const OwnNumbers own(context, points);
   PointLight result;
-  ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, context, task.quick_rays,
-                                       known.texels.eyes));
+  ORIEL_TRY(result.texels,
+            list_texels(task.transport, points.atlas, points.map, context, task.quick_rays, known.texels.eyes));
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
   const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);

@@ -1,4 +1,5 @@
-// The light at the points of finer cells: what the cached estimator does for texels, once, with the bounces that it has.
+// The light at the points of finer cells: what the cached estimator does for texels, once, with the bounces that it
+// has.
 #pragma once
 
 #include "bake/radiosity/cached/filter.h"
@@ -18,10 +19,10 @@ struct TexelLight {
 
 // By point, as numbered in `texels`.
 struct PointLight {
-  Texels texels;             // points that lie inside something have visible 0
-  std::vector<Vec3> light;      // lux
-  std::vector<Vec3> variance;   // of it, stated, lux²
-  double mean_square = 0;       // of its stated error, relative to the mean light
+  Texels texels;               // points that lie inside something have visible 0
+  std::vector<Vec3> light;     // lux
+  std::vector<Vec3> variance;  // of it, stated, lux²
+  double mean_square = 0;      // of its stated error, relative to the mean light
 };
 
 // Error kStopped.

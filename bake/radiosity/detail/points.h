@@ -11,9 +11,9 @@ namespace oriel {
 // All points of the cells of one level. A point k steps from the centre of texel x is the middle of texel
 // (x + 1) * side + k of a page with `side` times as many texels, and one more of the old ones around it.
 struct DetailPoints {
-  std::uint32_t side = 0;          // steps along a cell
-  Atlas atlas;                     // the same charts on the finer pages
-  std::vector<TexelMapPage> map;   // of the points that have some surface
+  std::uint32_t side = 0;         // steps along a cell
+  Atlas atlas;                    // the same charts on the finer pages
+  std::vector<TexelMapPage> map;  // of the points that have some surface
 
   static std::uint32_t fine(std::uint32_t texel, std::uint32_t step, std::uint32_t side) {
     return (texel + 1) * side + step;
