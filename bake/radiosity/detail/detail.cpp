@@ -45,7 +45,10 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<
     ORIEL_TRY(const DetailPoints of_level, list_points(task.atlas, levels, level, task.context));
     ORIEL_TRY(PointLight lit, light_points(task, known, of_level));
     report.cells += cells, report.points += lit.texels.count();
-    squares += lit.mean_square * static_cast<double>(lit.texels.count());
+    for (std::size_t i = 0; i < lit.light.size(); ++i) {
+      const double own = luminance(lit.light[i]);
+      squares += double{luminance(lit.variance[i])} / (own * own + goal.floor * goal.floor + 1e-30);
+    }
     points[level - 1u] = std::make_unique<PointLight>(std::move(lit));
   }
   if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));

@@ -99,14 +99,11 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
   result.light.resize(n), result.variance.resize(n);
-  double squares = 0, light = 0, count = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
     result.light[i] = glm::max(lit.value[i] + indirect.value[i] + beside_at(known, texels, i, points.side), Vec3(0));
     result.variance[i] = lit.variance[i] + indirect.variance[i];
-    squares += double{luminance(result.variance[i])}, light += double{luminance(result.light[i])}, ++count;
   }
-  result.mean_square = light > 0 ? squares * count / (light * light) : 0;
   return result;
 }
 

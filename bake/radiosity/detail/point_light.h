@@ -22,7 +22,6 @@ struct PointLight {
   Texels texels;               // points that lie inside something have visible 0
   std::vector<Vec3> light;     // lux
   std::vector<Vec3> variance;  // of it, stated, lux²
-  double mean_square = 0;      // of its stated error, relative to the mean light
 };
 
 // Error kStopped.

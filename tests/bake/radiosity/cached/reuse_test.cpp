@@ -18,7 +18,7 @@ struct Page {
 
   explicit Page(float light) {
     const std::uint32_t n = kTiles * kSide * kSide;
-    texels.pages.push_back({kTiles * kSide, kSide, std::vector<std::uint32_t>(n)});
+    texels.pages.push_back({kTiles * kSide, kSide, std::vector<std::uint32_t>(n), {}, 0});
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t x = i / (kSide * kSide) * kSide + i % kSide, y = i / kSide % kSide;
       texels.pages[0].number[y * kTiles * kSide + x] = i;
