@@ -1,4 +1,4 @@
-// Everything that a user can ask of a bake, and how it is told and recorded.
+// Everything that a user can ask of a bake, and how its values are written.
 #pragma once
 
 #include <filesystem>
@@ -65,8 +65,6 @@ struct BakeOptions {
 // Bytes: parse_bytes of formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
-// "mm", "cm", "in", "ft", "m" or "km", as metres; "auto" as 1. Error kUsage.
-Result<double> parse_unit(const std::string& text);
 // As parse_length, or "auto" as 0.
 Result<float> parse_texel(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
@@ -90,9 +88,6 @@ struct SkyChoice {
 Result<SkyChoice> parse_sky(const std::string& text);
 // "lamp=profile.ies": the first = divides. Error kUsage.
 Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text);
-
-// The options that can change a pack's bytes, as JSON: for provenance. Threads and paths are not among them.
-std::string options_json(const BakeOptions& options, std::uint64_t seed);
 
 inline constexpr std::uint32_t kMostTexelRays = 4096;  // a texel, however small the error asked for
 

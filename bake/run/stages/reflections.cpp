@@ -9,6 +9,7 @@
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
+#include "bake/run/option_table.h"
 #include "bake/run/stages/baked_light.h"
 #include "bake/run/stages/deadline.h"
 #include "bake/run/stages/inputs.h"

@@ -1,4 +1,4 @@
-#include "bake/cli/material/material_plot.h"
+#include "bake/cli/material_plot.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <map>
 
-#include "bake/cli/number_range.h"
 #include "formats/core/file.h"
 
 namespace oriel {
@@ -52,36 +50,43 @@ Status draw(const std::filesystem::path& folder, const std::string& script) {
 
 }  // namespace
 
-void add_material_plot(CLI::App& material, MaterialPlotArguments& args) {
-  material.add_flag("--list", args.list, "Prints the materials that --plot knows, with their Fresnel reflectance");
-  auto* plot = material
-                   .add_option("--plot", args.plot,
-                               "Writes K and R of a material (a name of --list, or a metal's symbol) as CSV, and "
-                               "pictures of them where gnuplot is installed")
-                   ->type_name("NAME");
-  material.add_option("-o,--output", args.folder, "Folder of --plot's files; made where it is missing")
-      ->type_name("DIR")
-      ->needs(plot);
-  material.add_option("--alpha", args.alpha, "Width of the lobe: the square of glTF's roughness")
-      ->check(number_range(1e-4, 1))
-      ->capture_default_str();
-  const std::map<std::string, KernelModel> models{{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}};
-  material.add_option("--model", args.model, "Distribution of K's facets")
-      ->transform(CLI::CheckedTransformer(models).description(""))
-      ->type_name("ggx|beckmann")
-      ->default_str("ggx");
-  material.add_flag("!--no-pictures", args.pictures, "CSV only: gnuplot is not asked for");
-}
-
-Status check_material_plot(const MaterialPlotArguments& args) {
-  if (!args.wanted())
-    return fail(ErrorCode::kUsage, "material", "found nothing to do, expected --list, --plot, eval or fit");
-  if (!args.plot.empty() && args.folder.empty())
-    return fail(ErrorCode::kUsage, "--plot", "writes files: -o DIR is missing");
-  return {};
+std::vector<Option> plot_options(MaterialPlotArguments& args) {
+  constexpr const char* kPlot = "Plot";
+  return {
+      {"--list", kPlot, "Prints the materials that --plot knows, with their Fresnel reflectance", flag(args.list),
+       Use::kEveryday},
+      {"--plot",
+       kPlot,
+       "Writes K and R of a material (a name of --list, or a metal's symbol) as CSV, and pictures of them where "
+       "gnuplot "
+       "is installed",
+       text(args.plot, "NAME"),
+       Use::kEveryday,
+       {},
+       {},
+       {},
+       "--output"},
+      {"-o,--output",
+       kPlot,
+       "Folder of --plot's files; made where it is missing",
+       path(args.folder, "DIR"),
+       Use::kEveryday,
+       {},
+       {},
+       {},
+       "--plot"},
+      {"--alpha", kPlot, "Width of the lobe: the square of glTF's roughness", number(args.alpha, 1e-4, 1),
+       Use::kEveryday},
+      {"--model", kPlot, "Distribution of K's facets",
+       choice(args.model, Names<KernelModel>{{"ggx", KernelModel::kGgx}, {"beckmann", KernelModel::kBeckmann}}),
+       Use::kEveryday},
+      {"--no-pictures", kPlot, "CSV only: gnuplot is not asked for", flag(args.pictures, false), Use::kEveryday},
+  };
 }
 
 Status run_material_plot(const MaterialPlotArguments& args) {
+  if (!args.list && args.plot.empty())
+    return fail(ErrorCode::kUsage, "material", "found nothing to do, expected --list, --plot, eval or fit");
   if (args.list) ORIEL_TRY_VOID(list_materials());
   if (args.plot.empty()) return {};
   auto material = material_by_name(args.plot);
