@@ -88,8 +88,7 @@ Status write_result(const BakeArguments& args, const BakeResult& result, BakeSes
   const auto size = std::filesystem::file_size(output, ec);
   session.note(fmt::format("wrote {}: {:.1f} MB, baked in {:.1f} s", output.string(),
                            ec ? 0.0 : static_cast<double>(size) * 1e-6, seconds));
-  if (!result.left_out.empty())
-    return fail(kIncomplete, output.string(), "was written without {}", result.left_out[0]);
+  if (!result.left_out.empty()) return fail(kIncomplete, output.string(), "was written without {}", result.left_out[0]);
   if (args.strict && !result.findings.empty())
     return fail(ErrorCode::kDifferent, output.string(), "was written; --strict: {}", result.findings[0]);
   return {};
@@ -121,19 +120,30 @@ ToolCommand bake_command(BakeSession& session) {
                  {"-o,--output", "Run", "The pack to write. It appears whole or not at all",
                   path(args->bake.output, "PACK"), Use::kRequired}};
   append(out.options, bake_options(args->bake));
-  append(out.options,
-         {{"--cache", "Run",
-           "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
-           "is not there. Default: .oriel-cache beside the pack",
-           path(args->cache, "DIR"), Use::kEveryday, {}, "cache.md"},
-          {"--no-cache", "Run", "Compute everything, and keep nothing but the pack", flag(args->no_cache), Use::kRare,
-           {}, {}, {"--cache"}},
-          {"--report", "Run", "Write what was done, omitted, measured and how long it took, as JSON",
-           path(args->report, "FILE"), Use::kEveryday},
-          {"--strict", "Run",
-           "Exit code 5 where something is found to be likely wrong with the light, such as an energy ledger that does "
-           "not close. The pack is written all the same",
-           flag(args->strict)}});
+  append(
+      out.options,
+      {{"--cache",
+        "Run",
+        "Folder of finished units of work: a bake that was killed, or is repeated after a change, computes only what "
+        "is not there. Default: .oriel-cache beside the pack",
+        path(args->cache, "DIR"),
+        Use::kEveryday,
+        {},
+        "cache.md"},
+       {"--no-cache",
+        "Run",
+        "Compute everything, and keep nothing but the pack",
+        flag(args->no_cache),
+        Use::kRare,
+        {},
+        {},
+        {"--cache"}},
+       {"--report", "Run", "Write what was done, omitted, measured and how long it took, as JSON",
+        path(args->report, "FILE"), Use::kEveryday},
+       {"--strict", "Run",
+        "Exit code 5 where something is found to be likely wrong with the light, such as an energy ledger that does "
+        "not close. The pack is written all the same",
+        flag(args->strict)}});
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };
   out.run = [args, &session] { return run_bake(*args, session); };

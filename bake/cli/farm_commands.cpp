@@ -58,7 +58,8 @@ Status run_verify(const FarmArguments& args, BakeSession& session) {
 
 }  // namespace
 
-std::unique_ptr<UnitCache> open_cache(std::filesystem::path folder, const BakeOptions& options, const Context& context) {
+std::unique_ptr<UnitCache> open_cache(std::filesystem::path folder, const BakeOptions& options,
+                                      const Context& context) {
   if (folder.empty()) folder = options.output.parent_path() / kDefaultCache;
   return std::make_unique<UnitCache>(folder, program_identity() + instruction_sets(options.reproducible), context.warn);
 }
@@ -71,11 +72,11 @@ void print_share(const UnitShare& share, const std::filesystem::path& folder, Ba
 ToolCommand worker_command(BakeSession& session) {
   const auto args = std::make_shared<FarmArguments>();
   ToolCommand out{.name = "worker",
-              .help = "Helps with the bake of a scene: computes units of work into a cache that machines share",
-              .footer = kWorkerFooter,
-              .options = {scene_argument(args->bake.scene),
-                          {"--cache", "Run", "The folder that all workers and the bake share", path(args->cache, "DIR"),
-                           Use::kRequired}}};
+                  .help = "Helps with the bake of a scene: computes units of work into a cache that machines share",
+                  .footer = kWorkerFooter,
+                  .options = {scene_argument(args->bake.scene),
+                              {"--cache", "Run", "The folder that all workers and the bake share",
+                               path(args->cache, "DIR"), Use::kRequired}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };
@@ -88,15 +89,16 @@ ToolCommand verify_command(BakeSession& session) {
   ToolCommand out{
       .name = "verify",
       .help = "Tells whether a pack is what a bake of the scene gives: bakes again out of the cache, a sample anew",
-      .footer = "Takes the options that the pack was baked with. Exit code 0: the same bytes; 5: others.\n"
-                "Without a cache everything is computed.",
-      .options = {{"PACK", "Arguments", "The pack", path(args->bake.output, "PACK"), Use::kRequired},
-                  {"SCENE", "Arguments", "The scene that it was baked of", path(args->bake.scene, "SCENE"),
-                   Use::kRequired},
-                  {"--cache", "Run", "Its cache. Default: .oriel-cache beside the pack", path(args->cache, "DIR"),
-                   Use::kEveryday},
-                  {"--sample", "Run", "Share of the units in the cache that are computed again and compared",
-                   quantity(args->sample, "SHARE", parse_fraction, share_text), Use::kEveryday}}};
+      .footer =
+          "Takes the options that the pack was baked with. Exit code 0: the same bytes; 5: others.\n"
+          "Without a cache everything is computed.",
+      .options = {
+          {"PACK", "Arguments", "The pack", path(args->bake.output, "PACK"), Use::kRequired},
+          {"SCENE", "Arguments", "The scene that it was baked of", path(args->bake.scene, "SCENE"), Use::kRequired},
+          {"--cache", "Run", "Its cache. Default: .oriel-cache beside the pack", path(args->cache, "DIR"),
+           Use::kEveryday},
+          {"--sample", "Run", "Share of the units in the cache that are computed again and compared",
+           quantity(args->sample, "SHARE", parse_fraction, share_text), Use::kEveryday}}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -62,24 +62,29 @@ ToolCommand lux_command(BakeSession& session) {
       .name = "lux",
       .help = "Prints the illuminance at points as CSV; no lightmap, no pack",
       .footer = kFooter,
-      .options = {scene_argument(job.scene),
-                  {"--points", "Meters",
-                   "CSV of x,y,z,nx,ny,nz: position in metres and the direction that the meter faces, in the scene's own "
-                   "space; one header line may come first",
-                   path(job.points, "FILE"), Use::kEveryday},
-                  {"--grid", "Meters",
-                   "A level grid over a node's upward faces: its name, the spacing, the height above it", grid(job.grid),
-                   Use::kEveryday, {}, {}, {"--points"}},
-                  {"-o,--output", "Meters", "File for the table instead of stdout", path(args->output, "FILE"),
-                   Use::kEveryday},
-                  {"--error", "Meters",
-                   "Standard error asked for, of luminance, relative to the point's illuminance plus 1 % of the mean "
-                   "over all points",
-                   quantity(job.lux.relative_error, "SHARE", parse_fraction, share_text), Use::kEveryday},
-                  {"--samples", "Meters",
-                   "Paths a point at most; without --error exactly so many. Rounded down to a power of two, at least "
-                   "1024",
-                   number(job.lux.max_samples, 1, 1u << 31), Use::kEveryday}}};
+      .options = {
+          scene_argument(job.scene),
+          {"--points", "Meters",
+           "CSV of x,y,z,nx,ny,nz: position in metres and the direction that the meter faces, in the scene's own "
+           "space; one header line may come first",
+           path(job.points, "FILE"), Use::kEveryday},
+          {"--grid",
+           "Meters",
+           "A level grid over a node's upward faces: its name, the spacing, the height above it",
+           grid(job.grid),
+           Use::kEveryday,
+           {},
+           {},
+           {"--points"}},
+          {"-o,--output", "Meters", "File for the table instead of stdout", path(args->output, "FILE"), Use::kEveryday},
+          {"--error", "Meters",
+           "Standard error asked for, of luminance, relative to the point's illuminance plus 1 % of the mean "
+           "over all points",
+           quantity(job.lux.relative_error, "SHARE", parse_fraction, share_text), Use::kEveryday},
+          {"--samples", "Meters",
+           "Paths a point at most; without --error exactly so many. Rounded down to a power of two, at least "
+           "1024",
+           number(job.lux.max_samples, 1, 1u << 31), Use::kEveryday}}};
   append(out.options, light_options(job.import));
   append(out.options, scene_options(job.import, job.reproducible));
   append(out.options, run_options(session));

@@ -61,8 +61,14 @@ std::vector<Option> run_options(BakeSession& session) {
       {"--seed", kRun, "Of every random number: another seed gives another, equally good, estimate",
        number(session.seed, 0, 18446744073709551615.0)},
       {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
-      {"--json-log", kRun, "Progress, warnings and errors as JSON lines on stderr", flag(session.json_log),
-       Use::kRare, {}, {}, {"--quiet"}},
+      {"--json-log",
+       kRun,
+       "Progress, warnings and errors as JSON lines on stderr",
+       flag(session.json_log),
+       Use::kRare,
+       {},
+       {},
+       {"--quiet"}},
   };
 }
 

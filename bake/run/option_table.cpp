@@ -63,7 +63,9 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two",
        samples(o),
        Use::kRare,
-       "samples", {}, {"--error"}},
+       "samples",
+       {},
+       {"--error"}},
       {"--verify", kLightmap,
        "After the lightmap, measure its error on held-out pixels by unbiased paths: with so many of the bake's rays, "
        "or off. What misses --error by a tenth is refined",
@@ -92,7 +94,8 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
        "it is shown: softer penumbrae, but comparable texel by texel",
        texel_means(o), Use::kRare, "texel_values"},
       {"--detail", kLightmap,
-       "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into up "
+       "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into "
+       "up "
        "to so many steps a side; 1: never",
        detail_steps(o), Use::kRare, "detail", "radiosity.md"},
       {"--directional", kLightmap,
@@ -250,8 +253,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
   options.push_back({"--unit", kScene,
                      "What a unit of the file is: auto (metres, as glTF has it, unless rooms are as high as towers or "
                      "matchboxes), mm, cm, in, ft, m, km. Light on surfaces stays what it is",
-                     unit(o),
-                     Use::kRare, "unit_m", "conventions.md"});
+                     unit(o), Use::kRare, "unit_m", "conventions.md"});
   append(options, scene_options(o.import, o.reproducible));
   return options;
 }

@@ -126,7 +126,8 @@ Status check_given(const ToolCommand& command, const Given& given) {
       return fail(ErrorCode::kUsage, "", "found no {}, expected it: {}", name, option.help);
     if (!given.has(name)) continue;
     for (const std::string& other : option.excludes)
-      if (given.has(other)) return fail(ErrorCode::kUsage, "", "found both {} and {}, expected one of them", name, other);
+      if (given.has(other))
+        return fail(ErrorCode::kUsage, "", "found both {} and {}, expected one of them", name, other);
     if (!option.needs.empty() && !given.has(option.needs))
       return fail(ErrorCode::kUsage, name, "needs {}", option.needs);
   }

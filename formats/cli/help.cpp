@@ -75,9 +75,11 @@ void add_rows(const std::vector<const Option*>& options, std::string& page) {
   page += "| option | default | what it does |\n|---|---|---|\n";
   for (const Option* option : options) {
     std::string names = option->name;
-    if (const std::size_t comma = names.find(','); comma != std::string::npos) names = names.substr(0, comma).append("`, `").append(names, comma + 1);
+    if (const std::size_t comma = names.find(','); comma != std::string::npos)
+      names = names.substr(0, comma).append("`, `").append(names, comma + 1);
     std::string type = option->value.type.empty() ? "" : fmt::format(" {}", option->value.type);
-    for (std::size_t at = 0; (at = type.find('|', at)) != std::string::npos; at += 2) type.insert(type.begin() + static_cast<std::ptrdiff_t>(at), '\\');
+    for (std::size_t at = 0; (at = type.find('|', at)) != std::string::npos; at += 2)
+      type.insert(type.begin() + static_cast<std::ptrdiff_t>(at), '\\');
     std::string value = option->value.get();
     if (option->value.type.empty() || is_positional(*option)) value.clear();
     page += fmt::format("| `{}{}` | {} | {}{} |\n", names, is_positional(*option) ? "" : type, value, option->help,

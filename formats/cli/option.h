@@ -34,7 +34,7 @@ struct Option {
   Use use = Use::kRare;
   // Name in the record of what was asked. Empty: members of value.json, where that is an object; else not recorded.
   std::string record = {};
-  std::string see = {};                   // page of the docs that tells more
+  std::string see = {};                    // page of the docs that tells more
   std::vector<std::string> excludes = {};  // names of other options
   std::string needs = {};                  // of another
 };
@@ -111,7 +111,8 @@ OptionValue each(std::vector<T>& target, std::string type, Parse parse, Print pr
             for (const T& value : target) add_word(all, print(value));
             return all;
           },
-          {}, true};
+          {},
+          true};
 }
 
 }  // namespace oriel
