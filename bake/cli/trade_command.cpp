@@ -1,10 +1,10 @@
 #include "bake/cli/commands.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
-#include "bake/trade/page/html.h"
-#include "bake/trade/page/table.h"
-#include "bake/trade/sweep.h"
 #include "formats/core/file.h"
+#include "tools/trade/page/html.h"
+#include "tools/trade/page/table.h"
+#include "tools/trade/sweep.h"
 
 namespace oriel {
 namespace {

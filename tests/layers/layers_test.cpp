@@ -97,11 +97,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
   m["bake/plan"] = plus(m["bake/plan/doctor"], {"bake/plan/doctor"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
-  m["bake/trade"] =
+  m["tools/trade"] =
       plus(assets, {"bake/jobs", "formats/diff", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
-  m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
-  m["bake/cli"] = plus(
-      m["bake/plan"], {"bake/cache", "bake/plan", "bake/reference", "bake/trade", "bake/trade/page", "formats/camera"});
+  m["tools/trade/page"] = plus(m["tools/trade"], {"tools/trade"});
+  m["bake/cli"] = plus(m["bake/plan"], {"bake/cache", "bake/plan", "bake/reference", "tools/trade", "tools/trade/page",
+                                        "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});

@@ -2,8 +2,8 @@
 // the programs that users have, as processes of their own, so that figures are those that users get.
 #pragma once
 
-#include "bake/trade/configurations.h"
-#include "bake/trade/units.h"
+#include "tools/trade/configurations.h"
+#include "tools/trade/units.h"
 
 namespace oriel::trade {
 

@@ -2,12 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bake/trade/page/html.h"
-#include "bake/trade/page/plot.h"
-#include "bake/trade/page/table.h"
-#include "bake/trade/page/thumbnails.h"
 #include "formats/image/png.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/trade/page/html.h"
+#include "tools/trade/page/plot.h"
+#include "tools/trade/page/table.h"
+#include "tools/trade/page/thumbnails.h"
 
 namespace oriel::trade {
 namespace {

@@ -1,4 +1,4 @@
-#include "bake/trade/configurations.h"
+#include "tools/trade/configurations.h"
 
 #include <gmock/gmock.h>
 

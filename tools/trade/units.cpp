@@ -1,4 +1,4 @@
-#include "bake/trade/units.h"
+#include "tools/trade/units.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "bake/trade/store.h"
+#include "tools/trade/store.h"
 
 #include <nlohmann/json.hpp>
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "bake/jobs/context.h"
-#include "bake/trade/store.h"
+#include "tools/trade/store.h"
 
 namespace oriel::trade {
 

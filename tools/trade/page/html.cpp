@@ -1,13 +1,13 @@
-#include "bake/trade/page/html.h"
+#include "tools/trade/page/html.h"
 
 #include <algorithm>
 #include <thread>
 
-#include "bake/trade/front.h"
-#include "bake/trade/page/plot.h"
-#include "bake/trade/page/table.h"
-#include "bake/trade/page/thumbnails.h"
 #include "formats/core/text.h"
+#include "tools/trade/front.h"
+#include "tools/trade/page/plot.h"
+#include "tools/trade/page/table.h"
+#include "tools/trade/page/thumbnails.h"
 
 namespace oriel::trade {
 namespace {

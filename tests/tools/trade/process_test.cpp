@@ -1,4 +1,4 @@
-#include "bake/trade/process.h"
+#include "tools/trade/process.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // where there is one.
 #pragma once
 
-#include "bake/trade/sweep.h"
+#include "tools/trade/sweep.h"
 
 namespace oriel::trade {
 

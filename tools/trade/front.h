@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "bake/trade/measures.h"
+#include "tools/trade/measures.h"
 
 namespace oriel::trade {
 

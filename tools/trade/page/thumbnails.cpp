@@ -1,4 +1,4 @@
-#include "bake/trade/page/thumbnails.h"
+#include "tools/trade/page/thumbnails.h"
 
 #include "formats/core/text.h"
 #include "formats/image/png.h"

@@ -1,9 +1,9 @@
-#include "bake/trade/page/table.h"
+#include "tools/trade/page/table.h"
 
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bake/trade/front.h"
+#include "tools/trade/front.h"
 
 namespace oriel::trade {
 namespace {

@@ -1,13 +1,13 @@
-#include "bake/trade/sweep.h"
+#include "tools/trade/sweep.h"
 
 #include <nlohmann/json.hpp>
 
-#include "bake/trade/front.h"
-#include "bake/trade/process.h"
 #include "formats/core/file.h"
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
 #include "formats/pack/reader.h"
+#include "tools/trade/front.h"
+#include "tools/trade/process.h"
 
 namespace oriel::trade {
 namespace {

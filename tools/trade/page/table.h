@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bake/trade/sweep.h"
+#include "tools/trade/sweep.h"
 
 namespace oriel::trade {
 

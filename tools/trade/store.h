@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "bake/trade/measures.h"
+#include "tools/trade/measures.h"
 
 namespace oriel::trade {
 

@@ -1,4 +1,4 @@
-#include "bake/trade/measures.h"
+#include "tools/trade/measures.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

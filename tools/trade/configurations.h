@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/trade/survey.h"
+#include "tools/trade/survey.h"
 
 namespace oriel::trade {
 

@@ -1,4 +1,4 @@
-#include "bake/trade/front.h"
+#include "tools/trade/front.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "bake/trade/survey.h"
+#include "tools/trade/survey.h"
 
 #include <algorithm>
 #include <array>

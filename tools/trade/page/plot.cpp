@@ -1,4 +1,4 @@
-#include "bake/trade/page/plot.h"
+#include "tools/trade/page/plot.h"
 
 #include <fmt/format.h>
 
