@@ -1,4 +1,4 @@
-#include "player/maps/march.h"
+#include "tests/player/twins/march.h"
 
 namespace oriel {
 namespace {

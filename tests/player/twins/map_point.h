@@ -11,9 +11,6 @@ namespace oriel {
 inline Vec4 map_point(const Vec3& eye, const Vec2& on_plane, float disparity) {
   return Vec4(disparity * eye + Vec3(on_plane, 0) - eye, disparity);
 }
-inline Vec4 map_point_step(const Vec3& eye, const Vec2& plane_step, float disparity_step) {
-  return Vec4(disparity_step * eye + Vec3(plane_step, 0), disparity_step);
-}
 // How far a step in clip space moves the picture, in pixels.
 inline Vec2 screen_step(const Vec4& clip, const Vec4& clip_step, const Vec2& viewport) {
   const Vec2 moved = Vec2(clip_step) * clip.w - Vec2(clip) * clip_step.w;

@@ -1,4 +1,4 @@
-#include "player/maps/surround_march.h"
+#include "tests/player/twins/surround_march.h"
 
 #include <algorithm>
 #include <optional>
