@@ -57,8 +57,7 @@ struct BakeOptions {
   bool with_transfer = true;  // movers move; else they stand still in the scene
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
-  double time_s =
-      0;  // wall clock of the whole bake (stages/deadline.h); 0: no limit. The bytes then depend on the machine
+  double time_s = 0;  // wall clock of the whole bake (time_budget.h); 0: no limit. The bytes then depend on the machine
   bool reproducible = false;  // the same bytes on every CPU type
 };
 

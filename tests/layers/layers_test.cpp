@@ -71,8 +71,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
       plus(m["bake/trace"], {"bake/trace", "formats/lobes"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   m["bake/trace"].insert("bake/trace/lights");
-  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
-    m[name] = stage;
+  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer"}) m[name] = stage;
   m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
   m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
   m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
@@ -87,15 +86,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});
   m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
   m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
-  m["bake/run"] =
-      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow",
-                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                   "bake/radiance/plan", "bake/radiance/reuse", "bake/visibility", "bake/walk", "formats/cli",
-                   "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
-  m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
-  m["bake/run"].insert("bake/run/stages");
-  m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
-  m["bake/plan"] = plus(m["bake/plan/doctor"], {"bake/plan/doctor"});
+  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
+                               "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                               "bake/radiance/plan", "bake/radiance/reuse", "bake/visibility", "bake/walk",
+                               "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
+  m["bake/plan"] = plus(m["bake/run"], {"bake/run"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
   m["tools/trade"] =
       plus(assets, {"bake/jobs", "formats/diff", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
@@ -209,6 +204,14 @@ TEST(Layers, TheCheckerSeesAForbiddenInclude) {
   EXPECT_NE(objection("player/scene", "bake/jobs/context.h"), "");
   EXPECT_NE(objection("bake/radiosity", "embree3/rtcore.h"), "");
   EXPECT_EQ(objection("bake/radiosity", "bake/trace/accel.h"), "");
+}
+
+TEST(Layers, FoldersOfTheTableAreThere) {
+  for (const auto& [folder, allowed] : kArrows) {
+    EXPECT_TRUE(fs::is_directory(kRoot / folder)) << folder;
+    for (const std::string& target : allowed)
+      EXPECT_TRUE(fs::is_directory(kRoot / target)) << folder << " to " << target;
+  }
 }
 
 TEST(Layers, IncludesFollowTheArrows) {

@@ -1,4 +1,4 @@
-#include "bake/run/stages/judge.h"
+#include "bake/run/judge.h"
 
 #include <limits>
 #include <optional>

@@ -1,8 +1,8 @@
-#include "bake/run/stages/movers.h"
+#include "bake/run/movers.h"
 
 #include "bake/jobs/units.h"
-#include "bake/run/stages/baked_light.h"
-#include "bake/run/stages/inputs.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/inputs.h"
 #include "formats/motion/mover_pose.h"
 
 namespace oriel {

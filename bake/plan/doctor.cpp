@@ -1,4 +1,4 @@
-#include "bake/plan/doctor/doctor.h"
+#include "bake/plan/doctor.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "bake/run/stages/prepare.h"
+#include "bake/run/prepare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/run/stages/deadline.h"
-#include "bake/run/stages/inputs.h"
+#include "bake/run/deadline.h"
+#include "bake/run/inputs.h"
 #include "bake/walk/lit_eyes.h"
 #include "bake/walk/scene_unit.h"
 #include "formats/core/color.h"

@@ -5,10 +5,10 @@
 #include "bake/radiance/plan/samples.h"
 #include "bake/radiance/reuse/kept_maps.h"
 #include "bake/run/assemble.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/judge.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/baked_light.h"
-#include "bake/run/stages/judge.h"
-#include "bake/run/stages/prepare.h"
+#include "bake/run/prepare.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {

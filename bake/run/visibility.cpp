@@ -1,8 +1,8 @@
-#include "bake/run/stages/visibility.h"
+#include "bake/run/visibility.h"
 
 #include "bake/jobs/units.h"
-#include "bake/run/stages/deadline.h"
-#include "bake/run/stages/inputs.h"
+#include "bake/run/deadline.h"
+#include "bake/run/inputs.h"
 #include "bake/visibility/eye_cells.h"
 #include "bake/visibility/triangle_groups.h"
 

@@ -3,7 +3,7 @@
 
 #include "bake/plan/view_shares.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/prepare.h"
+#include "bake/run/prepare.h"
 
 namespace oriel {
 

@@ -7,7 +7,7 @@
 
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/stopwatch.h"
+#include "bake/run/stopwatch.h"
 #include "bake/run/view_demand.h"
 #include "bake/scene/motion/movers.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bake/run/assemble.h"
+#include "bake/run/baked_light.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/baked_light.h"
 #include "bake/scene/motion/movers.h"
 
 namespace oriel {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bake/plan/doctor/doctor.h"
+#include "bake/plan/doctor.h"
 #include "formats/core/color.h"
 
 namespace oriel {

@@ -1,4 +1,4 @@
-#include "bake/run/stages/inputs.h"
+#include "bake/run/inputs.h"
 
 #include "formats/assets/fields.h"
 

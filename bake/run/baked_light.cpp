@@ -1,4 +1,4 @@
-#include "bake/run/stages/baked_light.h"
+#include "bake/run/baked_light.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bake/atlas/atlas.h"
-#include "bake/run/stages/baked_light.h"
+#include "bake/run/baked_light.h"
 #include "formats/core/archive.h"
 
 namespace oriel {

@@ -1,4 +1,4 @@
-#include "bake/run/stages/reflections.h"
+#include "bake/run/reflections.h"
 
 #include <cmath>
 #include <limits>
@@ -9,10 +9,10 @@
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
 #include "bake/radiance/plan/residual.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/deadline.h"
+#include "bake/run/inputs.h"
 #include "bake/run/option_table.h"
-#include "bake/run/stages/baked_light.h"
-#include "bake/run/stages/deadline.h"
-#include "bake/run/stages/inputs.h"
 
 namespace oriel {
 namespace {
