@@ -53,20 +53,22 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/jobs"] = core;
   m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
-  m["bake/scene/optics"] = core;  // physics of surfaces: no scene
+  m["bake/scene/texture"] = plus(assets, {"bake/jobs", "bake/scene"});  // images of the file
+  m["bake/scene/optics"] = core;                                        // physics of surfaces: no scene
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
   m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf", "formats/motion"});  // what animations move
-  m["bake/scene"] =
-      plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
+  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion",
+                                           "bake/scene/optics", "bake/scene/texture"});
   m["bake/trace"] = m["bake/atlas"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
   m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
   m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
   m["bake/atlas"].insert("bake/atlas/chart");
   m["bake/trace"].insert("bake/trace/brdf");
-  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
+  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});     // one kind of light each
+  m["bake/trace/particles"] = plus(m["bake/trace"], {"bake/trace"});  // light as particles
   m["bake/direct"] =
       plus(m["bake/trace"], {"bake/trace", "formats/lobes"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
@@ -80,16 +82,23 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});      // what eyes see
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
-  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/paths", "bake/radiosity/texels"});
+  m["bake/radiosity/frames"] = stage;  // pixels that eyes see of the lightmap
+  m["bake/radiosity"].insert(
+      {"bake/radiosity/cached", "bake/radiosity/frames", "bake/radiosity/paths", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
-  m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
-  m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});
-  m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
-  m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
-  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
-                               "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                               "bake/radiance/plan", "bake/radiance/reuse", "bake/visibility", "bake/walk",
-                               "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
+  m["bake/radiosity/gather"] =
+      plus(stage, {"bake/radiosity/texels", "bake/trace/particles"});  // rays into light that texels hold
+  m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/frames", "bake/radiosity/texels"});
+  m["bake/radiosity/detail"] = plus(stage, {"bake/radiosity", "bake/radiosity/cached", "bake/radiosity/frames",
+                                            "bake/radiosity/gather", "bake/radiosity/texels"});  // between texels
+  m["bake/radiosity/cached"] = plus(m["bake/radiosity/detail"], {"bake/radiosity/detail"});
+  m["bake/ledger"] = plus(
+      stage, {"bake/radiosity", "bake/radiosity/texels", "bake/trace/particles"});  // a check of what radiosity made
+  m["bake/run"] =
+      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
+                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                   "bake/radiance/plan", "bake/radiance/reuse", "bake/radiosity/frames", "bake/visibility", "bake/walk",
+                   "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
   m["bake/plan"] = plus(m["bake/run"], {"bake/run"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
   m["tools/trade"] =
@@ -204,6 +213,16 @@ TEST(Layers, TheCheckerSeesAForbiddenInclude) {
   EXPECT_NE(objection("player/scene", "bake/jobs/context.h"), "");
   EXPECT_NE(objection("bake/radiosity", "embree3/rtcore.h"), "");
   EXPECT_EQ(objection("bake/radiosity", "bake/trace/accel.h"), "");
+}
+
+// But for formats/core/threads, which is part of core.
+TEST(Layers, FoldersOfSourcesAreInTheTable) {
+  for (const char* top : {"formats", "bake", "player", "scenes", "tools"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      const std::string folder = fs::relative(entry.path().parent_path(), kRoot).string();
+      if (is_source(entry.path()) && folder != "formats/core/threads")
+        EXPECT_TRUE(kArrows.contains(folder)) << entry.path();
+    }
 }
 
 TEST(Layers, FoldersOfTheTableAreThere) {
