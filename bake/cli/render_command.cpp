@@ -1,14 +1,50 @@
-// What `oriel-bake render` does.
-#include "bake/cli/render_arguments.h"
+#include "bake/cli/commands.h"
 #include "bake/jobs/parallel.h"
+#include "bake/reference/reference.h"
+#include "bake/run/option_table.h"
+#include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
 #include "bake/scene/motion/movers.h"
 #include "formats/camera/camera_notes.h"
 #include "formats/camera/camera_spec.h"
 #include "formats/image/exr.h"
+#include "formats/motion/mover_pose.h"
 
 namespace oriel {
 namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  oriel-bake render house.glb --camera living -o living.exr                  256 paths a pixel
+  oriel-bake render house.glb --camera walk@3.5 --error 1% -o walk.exr       as many as 1 % needs
+  oriel-play house.oriel --offscreen --camera living --compare living.exr    what the player makes of it
+
+Layers of the file, linear cd/m²: R,G,B is the sum of direct, indirect (both reflected by the diffuse lobe), specular and
+emission; error, diffuse_error and specular_error are standard errors of the sum, of direct + indirect and of specular.)";
+
+constexpr std::uint32_t kMostSamples = 1u << 24;
+constexpr int kLargestSide = 16384;
+
+struct RenderArguments {
+  std::filesystem::path scene, output;
+  std::string camera;  // as written; empty: the scene's first
+  std::vector<MoverMove> moves;
+  ImportOptions import;
+  ReferenceOptions frame{.width = 1280, .height = 720, .samples = 256};
+  bool reproducible = false;  // the same pixels on every CPU type
+};
+
+OptionValue size(ReferenceOptions& frame) {
+  return {"WxH",
+          [&frame](const std::string& typed) -> Status {
+            char rest = 0;
+            const bool read = std::sscanf(typed.c_str(), "%dx%d%c", &frame.width, &frame.height, &rest) == 2;
+            if (read && std::min(frame.width, frame.height) >= 1 && std::max(frame.width, frame.height) <= kLargestSide)
+              return {};
+            return fail(ErrorCode::kUsage, "", "found '{}', expected WIDTHxHEIGHT, as 1280x720, at most {} a side",
+                        typed, kLargestSide);
+          },
+          [&frame] { return fmt::format("{}x{}", frame.width, frame.height); }};
+}
 
 Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
   const CameraChoices choices{scene.cameras, scene.paths, scene.origin};
@@ -29,9 +65,11 @@ Status move_movers(std::span<const MoverMove> moves, Scene& scene) {
   return {};
 }
 
-}  // namespace
-
-Status run_render(const RenderArguments& args, Context& context) {
+Status run_render(const RenderArguments& args, BakeSession& session) {
+  Context& context = session.context;
+  stop_on_signals(context, args.output, OnStop::kStop);
+  session.less_memory = "a smaller --size";
+  ORIEL_TRY_VOID(check_output(args.output, inputs_of(args.scene, args.import)));
   ORIEL_TRY(ImportedScene imported, import_gltf(args.scene, args.import, context));
   ORIEL_TRY_VOID(move_movers(args.moves, imported.scene));
   const Scene& scene = imported.scene;
@@ -55,6 +93,58 @@ Status run_render(const RenderArguments& args, Context& context) {
   image.attributes["oriel.samples"] = std::to_string(frame.samples);
   image.attributes["oriel.noise"] = fmt::format("{:.4g}", frame.relative_noise);
   return write_exr(args.output, image);
+}
+
+std::vector<Option> frame_options(RenderArguments& args) {
+  constexpr const char* kFrame = "Frame";
+  return {
+      scene_argument(args.scene),
+      {"-o,--output", kFrame, "The OpenEXR file to write", path(args.output, "FILE"), Use::kRequired},
+      {"--camera", kFrame,
+       "A camera by name or by number from 0, PATH@SECONDS for a point of a path, or eye and target in world metres; "
+       "as "
+       "oriel-play takes it. Default: the first",
+       text(args.camera, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz"), Use::kEveryday},
+      {"--size", kFrame, "Pixels of the frame", size(args.frame), Use::kEveryday},
+      {"--error", kFrame,
+       "Instead of --samples: so many that the sum's standard error is at most this, relative, root mean square over "
+       "the frame, dark pixels by 1 % of the mean",
+       quantity(args.frame.error, "SHARE", parse_fraction, share_text), Use::kEveryday},
+      {"--samples",
+       kFrame,
+       "Paths a pixel for each component, best a power of two",
+       number(args.frame.samples, 1, kMostSamples),
+       Use::kEveryday,
+       {},
+       {},
+       {"--error"}},
+      {"--no-antialias", kFrame,
+       "Every ray through its pixel's centre, as a rasteriser without supersampling sees the scene",
+       flag(args.frame.antialias, false)},
+      {"--move", kFrame, "Puts a mover there, world metres, and turns it about up by degrees from its rest; repeatable",
+       each(args.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); })},
+  };
+}
+
+}  // namespace
+
+ToolCommand render_command(BakeSession& session) {
+  const auto args = std::make_shared<RenderArguments>();
+  ToolCommand out{
+      .name = "render",
+      .help = "Path-traces one frame by component, with its noise: the reference that frames are compared with",
+      .footer = kFooter,
+      .options = frame_options(*args)};
+  out.options.push_back(mover_option(args->import));
+  append(out.options, light_options(args->import));
+  append(out.options, scene_options(args->import, args->reproducible));
+  append(out.options, run_options(session));
+  out.settle = [args](const Given& given) -> Status {
+    if (given.has("--error")) args->frame.samples = kMostSamples;
+    return {};
+  };
+  out.run = [args, &session] { return run_render(*args, session); };
+  return out;
 }
 
 }  // namespace oriel

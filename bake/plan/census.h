@@ -2,9 +2,9 @@
 #pragma once
 
 #include "bake/run/options.h"
-#include "bake/run/stages/prepare.h"
-#include "bake/run/stages/reflections.h"
-#include "bake/run/stages/visibility.h"
+#include "bake/run/prepare.h"
+#include "bake/run/reflections.h"
+#include "bake/run/visibility.h"
 
 namespace oriel {
 

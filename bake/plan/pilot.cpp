@@ -67,10 +67,12 @@ Result<double> stored_bytes(const CensusInput& in, const BakedScene& coarse, Ref
   Pack pack = pack_of_scene(in.prepared.scene(), coarse.atlas);
   pack.lightmaps.assign(coarse.pages.begin(), coarse.pages.end());
   ORIEL_TRY(const Bytes without, encode_pack(pack));
-  reflector.elements_x = reflector.elements_y = 1;
+  reflector.elements_x = 1;
+  reflector.elements_y =
+      static_cast<std::uint32_t>(maps.size());  // parts of one map, which are no views of one element
   reflector.first_map = 0;
   reflector.map_count = static_cast<std::uint32_t>(maps.size());
-  for (RadianceMap& map : maps) map.reflector = 0;
+  for (std::uint32_t i = 0; i < maps.size(); ++i) maps[i].reflector = 0, maps[i].element = i;
   pack.reflectors.push_back(std::move(reflector));
   pack.radiance_maps = std::move(maps);
   ORIEL_TRY(const Bytes with, encode_pack(pack));

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "bake/plan/predict.h"
-#include "bake/run/stages/baked_light.h"
+#include "bake/run/baked_light.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {

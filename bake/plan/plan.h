@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bake/plan/census.h"
-#include "bake/plan/doctor/doctor.h"
+#include "bake/plan/doctor.h"
 #include "bake/plan/predict.h"
 
 namespace oriel {

@@ -34,8 +34,9 @@ std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& 
   for (std::uint32_t y = 0; y < grid.y; ++y)
     for (std::uint32_t x = 0; x < grid.x; ++x) {
       const Vec2 lower = r.lower + step * Vec2(x, y);
-      elements.push_back({lower, Vec2(x + 1 == grid.x ? r.upper.x : lower.x + step.x,
-                                      y + 1 == grid.y ? r.upper.y : lower.y + step.y)});
+      elements.push_back(
+          {lower, Vec2(x + 1 == grid.x ? r.upper.x : lower.x + step.x, y + 1 == grid.y ? r.upper.y : lower.y + step.y),
+           y * grid.x + x});
     }
   std::vector<double> covered(elements.size());
   for (const std::uint32_t t : found.triangles) {
@@ -72,6 +73,7 @@ RadianceMap blank_map(std::uint32_t reflector, const Vec3& eye, const Element& e
   const UVec2 size = map_size(element, resolution);
   RadianceMap map;
   map.reflector = reflector;
+  map.element = element.index;
   map.eye = eye;
   map.lower = element.lower;
   map.upper = element.upper;

@@ -14,6 +14,7 @@ ElementGrid element_grid(const Vec2& size, float element_m, std::uint32_t max_el
 
 struct Element {
   Vec2 lower{0}, upper{0};  // reflector x, y
+  std::uint32_t index = 0;  // in the grid, row by row
 };
 // The elements of the grid over the reflector's bounds that its triangles cover, row by row.
 std::vector<Element> covered_elements(const Scene& scene, const FoundReflector& found, const ElementGrid& grid);

@@ -2,49 +2,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
 #include "formats/core/text.h"
 
 namespace oriel {
-namespace {
-
-const char* directional_name(Directional directional) {
-  return directional == Directional::kAuto ? "auto" : directional == Directional::kOn ? "on" : "off";
-}
-
-const char* visible_sets_name(VisibleSetsWanted wanted) {
-  return wanted == VisibleSetsWanted::kAuto ? "auto" : wanted == VisibleSetsWanted::kOn ? "on" : "off";
-}
-
-const char* eye_source_name(EyeSource source) {
-  return source == EyeSource::kWalk ? "walk" : source == EyeSource::kBox ? "box" : "file";
-}
-
-nlohmann::ordered_json eye_points(const EyeOptions& eyes) {
-  nlohmann::ordered_json points = nlohmann::ordered_json::array();
-  for (const DVec3& p : eyes.points) points.push_back({p.x, p.y, p.z});
-  return points;
-}
-
-}  // namespace
-
 Result<float> parse_length(const std::string& text) {
   static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}};
   ORIEL_TRY(const double metres, parse_quantity(text, kUnits, "length", "10cm, 0.1m or 100mm"));
   return static_cast<float>(metres);
-}
-
-Result<double> parse_unit(const std::string& text) {
-  constexpr std::pair<const char*, double> kUnits[] = {{"auto", 1},    {"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254},
-                                                       {"ft", 0.3048}, {"m", 1},      {"km", 1000}};
-  for (const auto& [name, metres] : kUnits)
-    if (text == name) return metres;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected auto, mm, cm, in, ft, m or km", text);
 }
 
 Result<float> parse_texel(const std::string& text) {
@@ -136,71 +104,6 @@ Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     return fail(ErrorCode::kUsage, "", "found '{}', expected NODE=FILE such as lamp=downlight.ies", text);
   return std::pair{text.substr(0, equals), std::filesystem::path(text.substr(equals + 1))};
-}
-
-std::string options_json(const BakeOptions& o, std::uint64_t seed) {
-  nlohmann::ordered_json ies = nlohmann::ordered_json::object();
-  for (const auto& [node, file] : o.import.ies) ies[node] = file.filename().string();
-  const bool planned = o.view_scheme == ViewScheme::kPlanned;
-  const nlohmann::ordered_json json = {
-      {"seed", seed},
-      {"reproducible", o.reproducible},
-      {"scene_index", o.import.scene},
-      {"double_sided", o.import.double_sided},
-      {"sky_cd_m2", {o.import.sky.r, o.import.sky.g, o.import.sky.b}},
-      {"sky_file", o.import.sky_file.filename().string()},
-      {"sky_scale", o.import.sky_scale},
-      {"sky_rotation_deg", o.import.sky_rotation_deg},
-      {"sun_angle_deg", o.import.sun_angle_deg ? nlohmann::ordered_json(*o.import.sun_angle_deg) : nullptr},
-      {"ies", ies},
-      {"atlas", o.atlas.source == AtlasOptions::Source::kUv1 ? "uv1" : "auto"},
-      {"unit_m", o.guess_unit ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(o.import.unit_m)},
-      {"texel_m", o.choose_texel ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(o.atlas.texel_m)},
-      {"resolution", o.atlas.resolution},
-      {"max_page", o.atlas.max_page},
-      {"padding", o.atlas.padding},
-      {"memory_limit", o.memory_given ? o.memory_bytes : 0},
-      {"atlas_time_limit_s", o.atlas.time_limit_s},
-      {"estimator", o.radiosity.estimator == Estimator::kCached ? "cached" : "reference"},
-      {"samples", o.radiosity.samples},
-      {"error", o.radiosity.error},
-      {"most_rays", o.radiosity.most_rays},
-      {"time_s", o.time_s},
-      {"verify", o.radiosity.verify},
-      {"reuse_error", o.radiosity.reuse_error},
-      {"filter_scales", o.radiosity.filter.scales},
-      {"filter_strength", o.radiosity.filter.strength},
-      {"bounces", o.radiosity.bounces},
-      {"hidden", o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"},
-      {"texel_values", o.radiosity.fit_texels ? "fitted" : "means"},
-      {"detail", o.radiosity.detail},
-      {"dilation", o.radiosity.dilation},
-      {"directional", directional_name(o.directional)},
-      {"radiance", o.with_radiance},
-      {"material", o.with_material},
-      {"max_reflectors", o.reflectors.max_reflectors},
-      {"max_reflector_roughness", o.reflectors.max_roughness},
-      {"min_reflector_area_m2", o.reflectors.min_area_m2},
-      {"element_m", planned ? o.planned.element_m : o.views.element_m},
-      {"views", planned ? "planned" : "hemisphere"},
-      {"views_per_element", planned ? o.planned.choice.max_maps : o.views.views_per_element},
-      {"eyes", eye_source_name(o.eyes.source)},
-      {"eye_points", eye_points(o.eyes)},
-      {"visible_sets", visible_sets_name(o.visible_sets)},
-      {"orders", o.sight.orders},
-      {"map_resolution", planned ? o.planned.map_resolution : o.views.map_resolution},
-      {"map_price", planned ? o.planned.pixel_price : 0},
-      {"map_memory", planned ? o.planned.memory_bytes : o.views.memory_bytes},
-      {"movers", o.import.movers},
-      {"transfer", o.with_transfer},
-      {"sh_bands", o.transfer.bands},
-      {"transfer_shadowed", o.transfer.shadowed},
-      {"transfer_bounces", o.transfer.bounces},
-      {"transfer_samples", o.transfer.samples},
-      {"clusters", o.compress.clusters},
-      {"probe_m", o.probes.spacing_m},
-  };
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // names may hold any bytes
 }
 
 // 1024 at 2 %: what is noisier than that is a handful of texels in the dark, on which half of all rays would go, for

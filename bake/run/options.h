@@ -1,4 +1,4 @@
-// Everything that a user can ask of a bake, and how it is told and recorded.
+// Everything that a user can ask of a bake, and how its values are written.
 #pragma once
 
 #include <filesystem>
@@ -57,16 +57,13 @@ struct BakeOptions {
   bool with_transfer = true;  // movers move; else they stand still in the scene
   bool with_radiance = true;  // radiance maps behind reflectors
   bool with_material = true;  // kernels; Fresnel maps are always there, the diffuse part needs them too
-  double time_s =
-      0;  // wall clock of the whole bake (stages/deadline.h); 0: no limit. The bytes then depend on the machine
+  double time_s = 0;  // wall clock of the whole bake (time_budget.h); 0: no limit. The bytes then depend on the machine
   bool reproducible = false;  // the same bytes on every CPU type
 };
 
 // Bytes: parse_bytes of formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
-// "mm", "cm", "in", "ft", "m" or "km", as metres; "auto" as 1. Error kUsage.
-Result<double> parse_unit(const std::string& text);
 // As parse_length, or "auto" as 0.
 Result<float> parse_texel(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
@@ -90,9 +87,6 @@ struct SkyChoice {
 Result<SkyChoice> parse_sky(const std::string& text);
 // "lamp=profile.ies": the first = divides. Error kUsage.
 Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text);
-
-// The options that can change a pack's bytes, as JSON: for provenance. Threads and paths are not among them.
-std::string options_json(const BakeOptions& options, std::uint64_t seed);
 
 inline constexpr std::uint32_t kMostTexelRays = 4096;  // a texel, however small the error asked for
 

@@ -5,44 +5,36 @@
 #include <optional>
 
 #include "bake/run/assemble.h"
+#include "bake/run/inputs.h"
+#include "bake/run/movers.h"
+#include "bake/run/prepare.h"
 #include "bake/run/report.h"
-#include "bake/run/stages/deadline.h"
-#include "bake/run/stages/inputs.h"
-#include "bake/run/stages/movers.h"
-#include "bake/run/stages/prepare.h"
-#include "bake/run/stages/visibility.h"
 #include "bake/run/start.h"
+#include "bake/run/time_budget.h"
+#include "bake/run/visibility.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-constexpr double kMostForAtlas = 0.2;       // of the time that is left, for charts that are more than plain
-constexpr double kMostForViews = 0.15;      // of the same, for choosing viewpoints
-constexpr double kMostForSets = 0.2;        // of the same, for visible sets
-constexpr double kMostForTiming = 0.1;      // of the same, for finding out how long capture takes
-constexpr double kMostForMaps = 0.5;        // of the time that is left when the lightmap begins
-constexpr double kMostForField = 0.2;       // of the same, kept for the light field of movers
-constexpr double kUnlooked = 1.3;           // times longer than foretold, for which time is kept
-constexpr double kSlowPaths = 1.5;          // a ray of verification takes longer than a gathered one
-constexpr double kLedgerRays = 0.01;        // of the lightmap's
-constexpr double kWritten_per_s = 25e6;     // bytes of maps and lightmaps that a pack takes in
-constexpr std::uint32_t kEyes = 1024;       // by which the lightmap's error is told, and as many that verify it
-constexpr double kLate_s = 2, kLate = 0.1;  // by which --time may be missed
+constexpr double kWorse = 1.3;         // times the error that was stated, which is worth a warning
+constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
+constexpr double kLedgerRays = 0.01;   // of the lightmap's
+constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
 
-void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const Deadline& deadline,
+void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget,
                       Context& context) {
   const double asked = options.radiosity.error, stated = report.relative_error;
   const Certificate& c = report.certificate;
   if (asked <= 0 || context.finish) return;
-  if (c.error_low > kUnlooked * std::max(asked, stated))
+  if (c.error_low > kWorse * std::max(asked, stated))
     context.warning(
         fmt::format("held-out pixels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
                     "is stated: light "
                     "varies more within texels than they tell; --texel makes those finer",
                     100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
   if (stated <= 1.25 * asked) return;
-  if (report.ended_early && deadline.limited() && asked > kBestError)
+  if (report.ended_early && budget.limited() && asked > kBestError)
     context.warning(
         fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is "
                     "{:.3g} %, {:.2g} times too much",
@@ -61,15 +53,15 @@ void warn_about_error(const BakeOptions& options, const RadiosityReport& report,
       100 * stated, 100 * asked, options.radiosity.samples));
 }
 
-void warn_about_time(const BakeOptions& options, const Deadline& deadline, const std::vector<StageTime>& times,
+void warn_about_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
                      Context& context) {
-  if (!deadline.limited() || deadline.spent() <= options.time_s + std::max(kLate_s, kLate * options.time_s)) return;
+  if (!budget.missed()) return;
   const auto longest = std::max_element(times.begin(), times.end(),
                                         [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
   context.warning(
       fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
                   "end earlier; a larger --texel takes less",
-                  options.time_s, deadline.spent() - options.time_s, longest->stage, longest->seconds));
+                  options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds));
 }
 
 double bytes_of(const Pack& pack, const PlannedReflections& planned) {
@@ -81,25 +73,25 @@ double bytes_of(const Pack& pack, const PlannedReflections& planned) {
 
 // Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
 // `later`: seconds of these.
-std::function<bool()> refined_enough(const BakeOptions& options, const Deadline& deadline, double later,
+std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,
                                      const Context& context) {
   const double verifying = kSlowPaths * options.radiosity.verify;
-  return [=, &deadline, &finish = context.finish, begun = deadline.spent()] {
-    return finish || deadline.left() <= later + verifying * (deadline.spent() - begun);
+  return [=, &budget, &finish = context.finish, begun = budget.spent()] {
+    return finish || budget.left() <= later + verifying * (budget.spent() - begun);
   };
 }
 
 // Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
 Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const Deadline& deadline, Context& context, PlannedReflections& planned) {
+                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
   Pack dark;
   for (const AtlasPage& page : prepared.atlas.pages) {
     const std::size_t texels = std::size_t{page.width} * page.height;
     dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
   }
   if (!planned.empty()) {
-    const double until = deadline.left() * (1 - kMostForTiming);
-    const auto late = [&] { return deadline.left() < until; };
+    const double until = budget.left() - budget.for_timing();
+    const auto late = [&] { return budget.left() < until; };
     Status tried;
     {
       const Interruptible interruptible(context, late);
@@ -107,17 +99,17 @@ Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& 
     }
     if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
     if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
-    shrink_maps(kMostForMaps * deadline.left(), planned);
+    shrink_maps(budget.for_maps(), planned);
   }
-  const double field = prepared.movers.empty() ? 0 : kMostForField * std::max(0.0, deadline.left());
-  return kUnlooked * (planned.capture_s + bytes_of(dark, planned) / kWritten_per_s) + field;
+  const double field = prepared.movers.empty() ? 0 : budget.for_light_field();
+  return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
 }
 
 // What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.
 template <class Stage>
-auto unless_late(const Deadline& deadline, Context& context, const Stage& stage)
+auto unless_late(const TimeBudget& budget, Context& context, const Stage& stage)
     -> Result<std::optional<std::decay_t<decltype(*stage())>>> {
-  const auto late = [&] { return context.finish || deadline.left() <= 0; };
+  const auto late = [&] { return context.finish || budget.left() <= 0; };
   const Interruptible until(context, late);
   auto made = stage();
   if (made) return std::optional(std::move(*made));
@@ -127,10 +119,10 @@ auto unless_late(const Deadline& deadline, Context& context, const Stage& stage)
 
 // Reflections, left out where the user or the time wants the bake to finish.
 Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections planned, const BakedScene& baked,
-                                 const MaterialMaps& materials, const AssembledMesh& mesh, const Deadline& deadline,
+                                 const MaterialMaps& materials, const AssembledMesh& mesh, const TimeBudget& budget,
                                  Context& context, Pack& pack) {
-  const double writing = deadline.limited() ? bytes_of(pack, {}) / kWritten_per_s : 0;
-  const Interruptible until(context, [&] { return context.finish || deadline.left() <= writing; });
+  const double writing = budget.limited() ? TimeBudget::writing(bytes_of(pack, {})) : 0;
+  const Interruptible until(context, [&] { return context.finish || budget.left() <= writing; });
   auto made = bake_reflections(options, std::move(planned), baked, materials, mesh, context, pack);
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
@@ -170,6 +162,217 @@ void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, P
   pack.sky = scene.sky;
 }
 
+// One bake: what its stages hand on to each other. Each stage is a function; run() names them in their order.
+class Bake {
+ public:
+  Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {}
+
+  Result<BakeResult> run() {
+    ORIEL_TRY_VOID(prepare());
+    // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
+    ORIEL_TRY_VOID(make_materials());
+    ORIEL_TRY_VOID(plan_views());
+    ORIEL_TRY_VOID(find_visible_sets());
+    ORIEL_TRY_VOID(make_transfer());
+    ORIEL_TRY_VOID(fit_to_time());
+    ORIEL_TRY_VOID(bake_lightmap());
+    ORIEL_TRY_VOID(keep_energy_ledger());
+    ORIEL_TRY_VOID(capture_reflections());
+    ORIEL_TRY_VOID(make_light_field());
+    ORIEL_TRY_VOID(assemble());
+    ORIEL_TRY_VOID(check());
+    describe();
+    return std::move(result_);
+  }
+
+ private:
+  // The scene, where people can be, and the lightmap's layout.
+  Status prepare() {
+    ORIEL_TRY(prepared_, prepare_scene(options_, timed_, context_));
+    BakeOptions layout = options_;
+    if (budget_.limited() && layout.atlas.time_limit_s <= 0) layout.atlas.time_limit_s = budget_.for_atlas();
+    ORIEL_TRY_VOID(lay_out_lightmap(layout, timed_, context_, prepared_, budget_.left()));
+    result_.omissions = prepared_.omissions;
+    lights_.emplace(scene());
+    warn_about_light(scene(), *lights_, context_);
+    return {};
+  }
+
+  Status make_materials() {
+    ORIEL_TRY(materials_, timed_("material", [&](auto&) {
+                const StageInputs inputs(context_, std::string("material"));
+                return bake_materials(scene(), material_options(options_), context_);
+              }));
+    return {};
+  }
+
+  Status plan_views() {
+    if (options_.with_radiance) {
+      ORIEL_TRY(planned_, timed_("views", [&](auto&) {
+                  return plan_reflections(options_, prepared_, *lights_, materials_, budget_.for_views(), context_);
+                }));
+    }
+    if (planned_.empty()) return {};
+    return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
+  }
+
+  Status find_visible_sets() {
+    mesh_ = assemble_mesh(scene(), prepared_.atlas);
+    ORIEL_TRY(pack().visible_sets, timed_("visibility", [&](std::uint64_t& rays) {
+                auto sets = bake_visibility(options_, accel(), planned_.all.region.grids, mesh_,
+                                            budget_.for_visible_sets(), context_, visibility_, result_.omissions);
+                rays += visibility_.lines;
+                return sets;
+              }));
+    return {};
+  }
+
+  Status make_transfer() {
+    if (prepared_.movers.empty()) return {};
+    ORIEL_TRY(movers_, timed_("transfer", [&](std::uint64_t& rays) {
+                return bake_movers(options_, prepared_.movers, materials_, context_, pack(), rays);
+              }));
+    return {};
+  }
+
+  Status fit_to_time() {
+    if (!budget_.limited()) return {};
+    ORIEL_TRY(later_s_, timed_("timing", [&](auto&) {
+                return fit_reflections(options_, prepared_, *lights_, budget_, context_, planned_);
+              }));
+    return {};
+  }
+
+  Status bake_lightmap() {
+    RadiosityOptions radiosity = options_.radiosity;
+    radiosity.enough = refined_enough(options_, budget_, later_s_, context_);
+    if (budget_.limited()) radiosity.left = [this] { return budget_.left() - later_s_; };
+    radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
+    radiosity.eyes = sample_eyes(prepared_.region, kEyes, context_.seed);
+    radiosity.held_out = held_out_eyes(prepared_.region, kEyes, context_.seed);
+    ORIEL_TRY(radiosity_, timed_("radiosity", [&](std::uint64_t& rays) {
+                const StageInputs inputs(context_, SurfacesOf{scene()}, LightsOf{scene()}, LayoutOf{prepared_.atlas},
+                                         path_options(options_).max_bounces);
+                auto baked = bake_radiosity(transport(), prepared_.atlas, prepared_.texel_map, radiosity, context_);
+                if (baked) rays = baked->report.rays;
+                return baked;
+              }));
+    result_.radiosity = radiosity_.report;
+    planned_.light_reused = radiosity_.report.reuse.kept > 0;
+    context_.finishable = true;
+    warn_about_error(options_, radiosity_.report, budget_, context_);
+    return {};
+  }
+
+  Status keep_energy_ledger() {
+    ORIEL_TRY(auto ledger, timed_("ledger", [&](std::uint64_t& rays) {
+                const auto at_most =
+                    static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity_.report.rays));
+                auto kept = unless_late(budget_, context_, [&] {
+                  return keep_ledger(transport(), prepared_.atlas, prepared_.texel_map, radiosity_, at_most, context_);
+                });
+                if (kept && *kept) rays = (*kept)->rays;
+                return kept;
+              }));
+    if (!ledger) result_.omissions.emplace_back("energy ledger: left out, --time was over");
+    result_.ledger = ledger.value_or(Ledger());
+    result_.findings = ledger_findings(result_.ledger);
+    pack().lightmaps = std::move(radiosity_.pages);
+    return {};
+  }
+
+  Status capture_reflections() {
+    if (!options_.with_radiance) {
+      result_.omissions.emplace_back("radiance maps: left out by --only");
+      return {};
+    }
+    ORIEL_TRY(reflections_, timed_("radiance", [&](std::uint64_t& rays) {
+                auto made =
+                    reflect(options_, std::move(planned_), baked(), materials_, mesh_, budget_, context_, pack());
+                if (made) rays = made->rays;
+                return made;
+              }));
+    result_.map_reuse = reflections_.reuse;
+    omit(reflections_.omissions);
+    return {};
+  }
+
+  // The light that movers meet.
+  Status make_light_field() {
+    if (prepared_.movers.empty()) {
+      if (options_.with_transfer)
+        result_.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
+      return {};
+    }
+    std::atomic<bool> late{false};
+    const double writing = TimeBudget::writing(bytes_of(pack(), {}));
+    const auto enough = [&] {
+      if (context_.finish || budget_.left() <= writing) late = true;
+      return late.load();
+    };
+    ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) {
+      return bake_light_field(options_, baked(), prepared_.movers, enough, context_, pack(), rays);
+    }));
+    if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
+    return {};
+  }
+
+  Status assemble() {
+    if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
+    fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
+    ORIEL_TRY(start_, choose_start(options_, prepared_.region, baked(), context_, pack()));
+    if (!pack().visible_sets.empty())
+      pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
+    return {};
+  }
+
+  Status check() {
+    if (context_.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
+    ORIEL_TRY_VOID(timed_("checks", [&](auto&) { return leave_out_unsound(pack(), result_.left_out); }));
+    omit(result_.left_out);
+    return {};
+  }
+
+  // What the pack says of itself.
+  void describe() {
+    tell_dropped(accel(), result_.findings);
+    for (const std::string& finding : result_.findings) context_.warning(finding);
+    pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
+                             result_.omissions, lights_->power(), reflections_, movers_, visibility_,
+                             options_.radiosity.estimator == Estimator::kCached, options_.radiosity.error, start_,
+                             result_.findings});
+    pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
+    warn_about_time(options_, budget_, result_.times, context_);
+    if (context_.units) result_.units = context_.units->share();
+  }
+
+  const Scene& scene() const { return prepared_.scene(); }
+  const Accel& accel() const { return *prepared_.accel; }
+  Pack& pack() { return result_.pack; }
+  Transport transport() const { return {accel(), *lights_, path_options(options_)}; }
+  BakedScene baked() { return {accel(), *lights_, prepared_.atlas, pack().lightmaps}; }
+  void omit(const std::vector<std::string>& lines) {
+    result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());
+  }
+
+  const BakeOptions& options_;
+  Context& context_;
+  TimeBudget budget_;
+  BakeResult result_;
+  Stopwatch timed_{result_.times};
+  PreparedScene prepared_;
+  std::optional<LightSet> lights_;  // of the prepared scene
+  MaterialMaps materials_;
+  PlannedReflections planned_;
+  AssembledMesh mesh_;
+  VisibilityReport visibility_;
+  std::vector<MoverReport> movers_;
+  double later_s_ = 0;  // that all stages behind the lightmap are likely to take
+  Radiosity radiosity_;
+  ReflectionReport reflections_;
+  Start start_ = Start::kOfScene;
+};
+
 }  // namespace
 
 void warn_about_light(const Scene& scene, const LightSet& lights, Context& context) {
@@ -178,133 +381,7 @@ void warn_about_light(const Scene& scene, const LightSet& lights, Context& conte
 }
 
 Result<BakeResult> bake(const BakeOptions& options, Context& context) {
-  BakeResult result;
-  const Deadline deadline(options.time_s);
-  Stopwatch timed(result.times);
-  ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  BakeOptions layout = options;
-  if (deadline.limited() && layout.atlas.time_limit_s <= 0)
-    layout.atlas.time_limit_s = kMostForAtlas * std::max(deadline.left(), kLate * options.time_s);
-  ORIEL_TRY_VOID(lay_out_lightmap(layout, timed, context, prepared, deadline.left()));
-  result.omissions = prepared.omissions;
-  const Scene& scene = prepared.scene();
-  const Accel& accel = *prepared.accel;
-  const Atlas& atlas = prepared.atlas;
-  const std::vector<TakenMover>& movers = prepared.movers;
-  const LightSet lights(scene);
-  warn_about_light(scene, lights, context);
-
-  // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
-  Pack& pack = result.pack;
-  ORIEL_TRY(MaterialMaps materials, timed("material", [&](auto&) {
-              const StageInputs inputs(context, std::string("material"));
-              return bake_materials(scene, material_options(options), context);
-            }));
-  PlannedReflections planned;
-  if (options.with_radiance) {
-    ORIEL_TRY(planned, timed("views", [&](auto&) {
-                return plan_reflections(options, prepared, lights, materials, kMostForViews * deadline.left(), context);
-              }));
-  }
-  if (!planned.empty())
-    ORIEL_TRY_VOID(timed("mips", [&](auto&) { return make_mips(prepared.imported->scene, context); }));
-  AssembledMesh mesh = assemble_mesh(scene, atlas);
-  VisibilityReport visibility;
-  ORIEL_TRY(pack.visible_sets, timed("visibility", [&](std::uint64_t& rays) {
-              auto sets = bake_visibility(options, accel, planned.all.region.grids, mesh,
-                                          kMostForSets * deadline.left(), context, visibility, result.omissions);
-              rays += visibility.lines;
-              return sets;
-            }));
-  std::vector<MoverReport> mover_reports;
-  if (!movers.empty()) {
-    ORIEL_TRY(mover_reports, timed("transfer", [&](std::uint64_t& rays) {
-                return bake_movers(options, movers, materials, context, pack, rays);
-              }));
-  }
-  double later = 0;
-  if (deadline.limited()) {
-    ORIEL_TRY(later, timed("timing", [&](auto&) {
-                return fit_reflections(options, prepared, lights, deadline, context, planned);
-              }));
-  }
-
-  RadiosityOptions radiosity_options = options.radiosity;
-  radiosity_options.enough = refined_enough(options, deadline, later, context);
-  if (deadline.limited()) radiosity_options.left = [&, later] { return deadline.left() - later; };
-  radiosity_options.directional = choose_directional(scene, options.directional, result.omissions);
-  radiosity_options.eyes = sample_eyes(prepared.region, kEyes, context.seed);
-  radiosity_options.held_out = held_out_eyes(prepared.region, kEyes, context.seed);
-  ORIEL_TRY(Radiosity radiosity, timed("radiosity", [&](std::uint64_t& rays) {
-              const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, LayoutOf{atlas},
-                                       path_options(options).max_bounces);
-              auto baked = bake_radiosity({accel, lights, path_options(options)}, atlas, prepared.texel_map,
-                                          radiosity_options, context);
-              if (baked) rays = baked->report.rays;
-              return baked;
-            }));
-  result.radiosity = radiosity.report;
-  planned.light_reused = radiosity.report.reuse.kept > 0;
-  context.finishable = true;
-  warn_about_error(options, radiosity.report, deadline, context);
-  ORIEL_TRY(auto ledger, timed("ledger", [&](std::uint64_t& rays) {
-              const auto at_most = static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity.report.rays));
-              auto kept = unless_late(deadline, context, [&] {
-                return keep_ledger({accel, lights, path_options(options)}, atlas, prepared.texel_map, radiosity,
-                                   at_most, context);
-              });
-              if (kept && *kept) rays = (*kept)->rays;
-              return kept;
-            }));
-  if (!ledger) result.omissions.emplace_back("energy ledger: left out, --time was over");
-  result.ledger = ledger.value_or(Ledger());
-  result.findings = ledger_findings(result.ledger);
-  pack.lightmaps = std::move(radiosity.pages);
-  const BakedScene baked{accel, lights, atlas, pack.lightmaps};
-  ReflectionReport reflections;
-  if (options.with_radiance) {
-    ORIEL_TRY(reflections, timed("radiance", [&](std::uint64_t& rays) {
-                auto made = reflect(options, std::move(planned), baked, materials, mesh, deadline, context, pack);
-                if (made) rays = made->rays;
-                return made;
-              }));
-    result.map_reuse = reflections.reuse;
-    result.omissions.insert(result.omissions.end(), reflections.omissions.begin(), reflections.omissions.end());
-  } else {
-    result.omissions.emplace_back("radiance maps: left out by --only");
-  }
-  if (!movers.empty()) {
-    std::atomic<bool> late{false};
-    const double writing = bytes_of(pack, {}) / kWritten_per_s;
-    const auto enough = [&] {
-      if (context.finish || deadline.left() <= writing) late = true;
-      return late.load();
-    };
-    ORIEL_TRY_VOID(timed("probes", [&](std::uint64_t& rays) {
-      return bake_light_field(options, baked, movers, enough, context, pack, rays);
-    }));
-    if (late) result.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
-  } else if (options.with_transfer) {
-    result.omissions.emplace_back("movers: no node is marked, animated or named by --mover");
-  }
-  if (!options.with_material) leave_out_kernels(materials, result.omissions);
-  fill_pack(scene, std::move(materials), std::move(mesh), pack);
-  ORIEL_TRY(const Start start, choose_start(options, prepared.region, baked, context, pack));
-  if (!pack.visible_sets.empty())
-    pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
-  if (context.stopped()) return fail(ErrorCode::kStopped, "bake", "stopped");
-  ORIEL_TRY_VOID(timed("checks", [&](auto&) { return leave_out_unsound(pack, result.left_out); }));
-  result.omissions.insert(result.omissions.end(), result.left_out.begin(), result.left_out.end());
-  tell_dropped(accel, result.findings);
-  for (const std::string& finding : result.findings) context.warning(finding);
-  pack.plan =
-      plan_json({scene, atlas, prepared.sides, radiosity.report, result.ledger, pack, result.omissions, lights.power(),
-                 reflections, mover_reports, visibility, options.radiosity.estimator == Estimator::kCached,
-                 options.radiosity.error, start, result.findings});
-  pack.provenance = provenance_json(options, context.seed, prepared.imported->inputs);
-  warn_about_time(options, deadline, result.times, context);
-  if (context.units) result.units = context.units->share();
-  return result;
+  return Bake(options, context).run();
 }
 
 }  // namespace oriel

@@ -5,7 +5,7 @@
 #include "bake/ledger/ledger.h"
 #include "bake/radiance/reuse/kept_maps.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/stopwatch.h"
+#include "bake/run/stopwatch.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "bake/radiosity/lit_sides.h"
+#include "bake/run/movers.h"
 #include "bake/run/pipeline.h"
-#include "bake/run/stages/movers.h"
-#include "bake/run/stages/reflections.h"
-#include "bake/run/stages/visibility.h"
+#include "bake/run/reflections.h"
 #include "bake/run/start.h"
+#include "bake/run/visibility.h"
 
 namespace oriel {
 

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kDirectionIssue = 304;  // of a lightmap's section, which can do without
+constexpr int kDirectionIssue = 304;  // of a lightmap page, which can do without directions
 
 // Sections that mean something together only, and how a pack is without them.
 struct Removable {
@@ -59,14 +59,12 @@ void remove_walk_grids(Pack& pack) {
 
 const std::array<Removable, 11>& removables() {
   static const std::array<Removable, 11> kAll = {{
-      {"directions of the lightmap", {kDirectionSection}, remove_directions},
+      {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
-      {"normal maps", {kNormalTextureSection, kNormalMappingSection}, remove_normal_textures},
-      {"radiance maps",
-       {kReflectorSection, kRadianceMapSection, kResidualSection, kEmitterSection, kReflectorEmitterSection},
-       remove_reflectors},
+      {"normal maps", {kNormalTextureSection}, remove_normal_textures},
+      {"radiance maps", {kReflectorSection, kRadianceMapSection, kEmitterSection}, remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
-      {"kernels", {kKernelSection, kKernelSliceSection, kKernelFitSection}, remove_kernels},
+      {"kernels", {kKernelSection}, remove_kernels},
       {"cameras", {kCameraSection}, [](Pack& pack) { pack.cameras.clear(); }},
       {"camera paths", {kPathSection}, [](Pack& pack) { pack.paths.clear(); }},
       {"walk grids", {kWalkSection}, remove_walk_grids},
@@ -77,9 +75,9 @@ const std::array<Removable, 11>& removables() {
 }
 
 const Removable* find_removable(const Issue& issue) {
-  const std::uint32_t kind = issue.number == kDirectionIssue ? kDirectionSection : issue.kind;
+  if (issue.number == kDirectionIssue) return &removables().front();
   for (const Removable& r : removables())
-    if (std::find(r.kinds.begin(), r.kinds.end(), kind) != r.kinds.end()) return &r;
+    if (std::find(r.kinds.begin(), r.kinds.end(), issue.kind) != r.kinds.end()) return &r;
   return nullptr;
 }
 

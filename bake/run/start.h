@@ -1,8 +1,8 @@
 // The camera that a pack starts with.
 #pragma once
 
+#include "bake/run/baked_light.h"
 #include "bake/run/options.h"
-#include "bake/run/stages/baked_light.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {

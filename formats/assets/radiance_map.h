@@ -41,8 +41,9 @@ inline constexpr std::size_t kMostMapsPerElement = 16;
 // lower + ((x+½)/width, (y+½)/height) * (upper - lower). It starts on the plane: what lies behind it is not seen.
 struct RadianceMap {
   std::uint32_t reflector = 0;  // into Pack::reflectors
+  std::uint32_t element = 0;    // of its grid, row by row: j * elements_x + i
   Vec3 eye{0, 0, -1};           // reflector space
-  Vec2 lower{0}, upper{0};      // the element, reflector x, y
+  Vec2 lower{0}, upper{0};      // the element's rectangle, reflector x, y: one for all of its maps
   std::uint32_t width = 0, height = 0;
   std::vector<Vec3>
       radiance;  // cd/m², linear Rec. 709: all that the pixel sees, emission included, but for has_emission

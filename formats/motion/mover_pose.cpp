@@ -64,6 +64,11 @@ Result<MoverMove> parse_move(std::string_view text) {
   return move;
 }
 
+std::string text_of(const MoverMove& move) {
+  return fmt::format("{}={:.3f},{:.3f},{:.3f},{:.1f}", move.node, move.position.x, move.position.y, move.position.z,
+                     std::remainder(move.yaw_rad, 2 * kPiD) * 180 / kPiD);
+}
+
 MoverPose moved(const MoverPose& pose, const MoverMove& move, const DVec3& origin) {
   const glm::quat turn = glm::angleAxis(static_cast<float>(std::remainder(move.yaw_rad, 2 * kPiD)), Vec3(0, 1, 0));
   return {Vec3(move.position - origin), stored(turn * quaternion(pose.rotation))};

@@ -25,6 +25,7 @@ struct MoverMove {
 };
 // NODE=x,y,z or NODE=x,y,z,yaw with yaw in degrees. Error kUsage.
 Result<MoverMove> parse_move(std::string_view text);
+std::string text_of(const MoverMove& move);  // as parse_move() takes it
 
 // `pose` moved so. origin: Mesh::origin.
 MoverPose moved(const MoverPose& pose, const MoverMove& move, const DVec3& origin);

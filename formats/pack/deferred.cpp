@@ -14,7 +14,7 @@ constexpr std::uint64_t kPiece = 256 << 10;  // bytes that stay in a core's own 
 
 bool is_image(std::uint32_t kind) {
   return kind == kTextureSection || kind == kNormalTextureSection || kind == kLightmapSection ||
-         kind == kDirectionSection || kind == kRadianceMapSection || kind == kSurroundMapSection;
+         kind == kRadianceMapSection || kind == kSurroundMapSection;
 }
 
 std::size_t number_of(std::uint32_t kind) {
@@ -79,14 +79,15 @@ Result<Bytes> head_in(const OpenFile& file, const SectionInfo& section, std::siz
   return Bytes();
 }
 
-// Decodes the beginning of a section. per_texel, further: bytes that follow what `decode` reads.
-template <class Decode>
-Status decode_start(const OpenFile& file, const SectionInfo& section, std::size_t bytes, const Decode& decode,
+// Describes the beginning of a section.
+template <class Describe>
+Status decode_start(const OpenFile& file, const SectionInfo& section, std::size_t bytes, const Describe& describe_start,
                     std::uint64_t& position) {
   ORIEL_TRY(const Bytes head, head_in(file, section, bytes));
   ByteReader in(head);
-  if (auto status = decode(in); !status && in.ok())
-    return invalid(section.label, "element 0: {}", status.error().message);
+  Serial s(in);
+  describe_start(s);
+  if (!s.status() && in.ok()) return invalid(section.label, "element 0: {}", s.status().error().message);
   if (!in.ok()) return invalid(section.label, "found {} bytes, expected more of its place", section.raw_bytes);
   position = in.position();
   return {};
@@ -119,22 +120,29 @@ Status expect_size(const IVec2& found, const IVec2& expected, const SectionInfo&
 }
 
 Status decode_texture_place(const OpenFile& file, const SectionInfo& section, Texture& texture) {
-  std::uint64_t name = 0, at = 0;
-  const auto length = [&](ByteReader& in) -> Status {
-    name = in.get<std::uint32_t>();
-    return {};
-  };
-  ORIEL_TRY_VOID(decode_start(file, section, 4, length, at));
+  std::uint32_t name = 0;
+  std::uint64_t at = 0;
   ORIEL_TRY_VOID(decode_start(
-      file, section, std::min(4 + name + 12, section.raw_bytes),
-      [&](ByteReader& in) { return decode_place(in, texture); }, at));
+      file, section, 4, [&](Serial& s) { s(name); }, at));
+  ORIEL_TRY_VOID(decode_start(
+      file, section, std::min(4 + std::uint64_t{name} + 12, section.raw_bytes),
+      [&](Serial& s) { describe_place(s, texture); }, at));
   return expect_bytes(section, at + 4 * area(texture.width, texture.height));
 }
 
+// A pack whose images have their sizes only.
+struct Opened {
+  Pack pack;
+  std::vector<std::uint8_t> directional;  // by lightmap page: whether it has directions
+};
+
 // An image without its pixels.
-Status decode_image_place(const OpenFile& file, const SectionInfo& section, PackParts& parts) {
+Status decode_image_place(const OpenFile& file, const SectionInfo& section, Opened& opened) {
   std::uint64_t at = 0;
-  Pack& pack = parts.pack;
+  Pack& pack = opened.pack;
+  const auto start = [&](std::size_t bytes, const auto& describe_start) {
+    return decode_start(file, section, bytes, describe_start, at);
+  };
   switch (section.kind) {
     case kTextureSection:
       return decode_texture_place(file, section, pack.textures[section.nth]);
@@ -142,46 +150,40 @@ Status decode_image_place(const OpenFile& file, const SectionInfo& section, Pack
       return decode_texture_place(file, section, pack.normal_textures[section.nth]);
     case kLightmapSection: {
       LightmapPage& page = pack.lightmaps[section.nth];
-      ORIEL_TRY_VOID(decode_start(
-          file, section, 16, [&](ByteReader& in) { return decode_place(in, page); }, at));
+      bool directional = false;
+      ORIEL_TRY_VOID(start(kLightmapPlaceBytes, [&](Serial& s) { describe_place(s, page, directional); }));
+      opened.directional[section.nth] = directional;
       const std::uint64_t texels = area(page.width, page.height);
-      return expect_bytes(section, light_bytes(texels, area(page.detail_width, page.detail_height)) + 4 + 7 * texels);
-    }
-    case kDirectionSection: {
-      DirectionPage& page = parts.directions[section.nth];
-      ORIEL_TRY_VOID(decode_start(
-          file, section, 12, [&](ByteReader& in) { return decode_place(in, page); }, at));
-      return expect_bytes(section, at + 6 * area(page.width, page.height));
+      return expect_bytes(
+          section, light_bytes(texels, directional, area(page.detail_width, page.detail_height)) + 4 + 7 * texels);
     }
     case kSurroundMapSection: {
       SurroundMap& map = pack.surround_maps[section.nth];
       SurroundMapScale scale;
-      ORIEL_TRY_VOID(decode_start(
-          file, section, 24, [&](ByteReader& in) { return decode_place(in, map, scale); }, at));
+      ORIEL_TRY_VOID(start(kSurroundMapPlaceBytes, [&](Serial& s) { describe_place(s, map, scale); }));
       return expect_bytes(section, at + 7 * area(map.size, map.size));
     }
     default: {
       RadianceMap& map = pack.radiance_maps[section.nth];
       RadianceMapScale scale;
-      ORIEL_TRY_VOID(decode_start(
-          file, section, kRadianceMapPlaceBytes, [&](ByteReader& in) { return decode_place(in, map, scale); }, at));
+      ORIEL_TRY_VOID(start(kRadianceMapPlaceBytes, [&](Serial& s) { describe_place(s, map, scale); }));
       return expect_bytes(section, at + 7 * area(map.width, map.height));
     }
   }
 }
 
 // What was decoded makes no sense where the bytes are not those that were written: then that is told.
-Status open_section(const OpenFile& file, const SectionInfo& section, PackParts& parts) {
+Status open_section(const OpenFile& file, const SectionInfo& section, Opened& opened) {
   const bool known = find_section_kind(section.kind) != nullptr;
   if (!known) return {};
   if (is_image(section.kind)) {
-    Status place = decode_image_place(file, section, parts);
+    Status place = decode_image_place(file, section, opened);
     if (!place) ORIEL_TRY_VOID(check_in(file, section));
     return place;
   }
   ORIEL_TRY(const auto stored, stored_in(file, section));
   ORIEL_TRY(const RawBytes raw, decompressed(stored, section, section.raw_bytes));
-  return decode_section(raw.span(), section, parts);
+  return decode_section(raw.span(), section, opened.pack);
 }
 
 Result<PackIndex> read_index_of(const OpenFile& file) {
@@ -195,32 +197,25 @@ Result<PackIndex> read_index_of(const OpenFile& file) {
 
 Result<DeferredPack> open_sections(OpenFile file) {
   ORIEL_TRY(PackIndex index, read_index_of(file));
-  PackParts parts(index);
+  Opened opened{pack_of(index), {}};
+  opened.directional.resize(opened.pack.lightmaps.size());
   std::uint64_t bytes = 0;  // that are no images
   for (const SectionInfo& section : index.sections) bytes += is_image(section.kind) ? 0 : section.raw_bytes;
   ORIEL_TRY_VOID(first_failure(index.sections.size(), bytes + 2048 * index.sections.size(),
-                               [&](std::size_t i) { return open_section(file, index.sections[i], parts); }));
-  ORIEL_TRY_VOID(attach(parts));
-  std::vector<std::uint32_t> directed;  // by section of directions, its page
-  for (const DirectionPage& part : parts.directions) {
-    if (std::find(directed.begin(), directed.end(), part.page) != directed.end())
-      return invalid(section_label(kDirectionSection, directed.size()),
-                     "page {} has directions already, expected one section", part.page);
-    directed.push_back(part.page);
-  }
-  ORIEL_TRY_VOID(refuse_errors(validate(parts.pack, ImagePixels::kDeferred)));
-  auto images = std::make_shared<DeferredImages>(std::move(file), std::move(index.sections), parts.pack, directed);
-  return DeferredPack{std::move(parts.pack), std::move(images)};
+                               [&](std::size_t i) { return open_section(file, index.sections[i], opened); }));
+  ORIEL_TRY_VOID(refuse_errors(validate(opened.pack, ImagePixels::kDeferred)));
+  auto images = std::make_shared<DeferredImages>(std::move(file), std::move(index.sections), opened.pack,
+                                                 std::move(opened.directional));
+  return DeferredPack{std::move(opened.pack), std::move(images)};
 }
 
 }  // namespace
 
 DeferredImages::DeferredImages(OpenFile file, std::vector<SectionInfo> sections, const Pack& pack,
-                               const std::vector<std::uint32_t>& directed)
-    : file_(std::move(file)), sections_(std::move(sections)) {
+                               std::vector<std::uint8_t> directional)
+    : file_(std::move(file)), sections_(std::move(sections)), directional_(std::move(directional)) {
   by_kind_.resize(std::size(kSectionKinds));
   checked_ = std::make_unique<std::atomic<bool>[]>(sections_.size());
-  directions_.resize(pack.lightmaps.size(), kNone);
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     const SectionInfo& section = sections_[i];
     IVec2 size(0);
@@ -233,10 +228,6 @@ DeferredImages::DeferredImages(OpenFile file, std::vector<SectionInfo> sections,
     }
     if (section.kind == kRadianceMapSection) size = size_of(pack.radiance_maps[section.nth]);
     if (section.kind == kSurroundMapSection) size = size_of(pack.surround_maps[section.nth]);
-    if (section.kind == kDirectionSection) {
-      size = size_of(pack.lightmaps[directed[section.nth]]);
-      directions_[directed[section.nth]] = i;
-    }
     sizes_.push_back(size);
     checked_[i] = find_section_kind(section.kind) != nullptr && !is_image(section.kind);
     if (find_section_kind(section.kind)) by_kind_[number_of(section.kind)].push_back(i);
@@ -247,93 +238,56 @@ std::size_t DeferredImages::of(std::uint32_t kind, std::size_t nth) const {
   return by_kind_[number_of(kind)][nth];
 }
 
-// A whole image of a section, by way of what reads packs; take: from the parts to the image.
-template <class Image, class Take>
-Result<Image> DeferredImages::load(std::uint32_t kind, std::size_t nth, const Take& take) const {
+template <class Image>
+Result<Image> DeferredImages::load(std::uint32_t kind, std::size_t nth) const {
   const std::size_t at = of(kind, nth);
-  SectionInfo section = sections_[at];
+  const SectionInfo& section = sections_[at];
   checked_[at] = true;
   auto loaded = without_exceptions([&]() -> Result<Image> {
     ORIEL_TRY(const auto stored, stored_in(file_, section));
     ORIEL_TRY(const RawBytes raw, decompressed(stored, section, section.raw_bytes));
-    section.nth = 0;
-    PackParts parts({0, 0, {section}});
-    ORIEL_TRY_VOID(decode_section(raw.span(), section, parts));
-    Image& image = take(parts);
+    Image image;
+    ORIEL_TRY_VOID(decode_element(raw.span(), section, image));
     ORIEL_TRY_VOID(expect_size(size_of(image), sizes_[at], section));
     IssueList list;
     list.in_section(kind, nth);
     validate_pixels(image, list);
     ORIEL_TRY_VOID(refuse_errors(list.issues));
-    return std::move(image);
+    return image;
   });
   if (!loaded) return in_file(file_.path().string(), std::move(loaded).error());
   return loaded;
 }
 
-// Empty where the page has none.
-Result<std::vector<Vec3>> DeferredImages::direction(std::size_t i) const {
-  const std::size_t at = directions_[i];
-  if (at == kNone) return std::vector<Vec3>();
-  const SectionInfo& section = sections_[at];
-  checked_[at] = true;
-  DirectionPage page;
-  const auto loaded = without_exceptions([&]() -> Status {
-    ORIEL_TRY(const auto stored, stored_in(file_, section));
-    ORIEL_TRY(const RawBytes raw, decompressed(stored, section, section.raw_bytes));
-    ByteReader in(raw.span());
-    if (auto status = decode(in, page); !status && in.ok())
-      return invalid(section.label, "element 0: {}", status.error().message);
-    if (!in.ok()) return invalid(section.label, "its counts need more than its {} bytes", section.raw_bytes);
-    const auto wrong = std::find_if(page.direction.begin(), page.direction.end(), [](const Vec3& d) {
-      return !(is_finite(d) && length2(d) <= 1.001f);  // as validate() has it
-    });
-    if (wrong != page.direction.end())
-      return invalid(section.label, "direction {}: found one that is not finite or longer than 1, expected none",
-                     wrong - page.direction.begin());
-    return expect_size(size_of(page), sizes_[at], section);
-  });
-  if (!loaded) return in_file(file_.path().string(), loaded.error());
-  return std::move(page.direction);
-}
-
 Result<Texture> DeferredImages::texture(std::size_t i) const {
-  return load<Texture>(kTextureSection, i, [](PackParts& parts) -> Texture& { return parts.pack.textures[0]; });
+  return load<Texture>(kTextureSection, i);
 }
 
 Result<Texture> DeferredImages::normal_texture(std::size_t i) const {
-  return load<Texture>(kNormalTextureSection, i,
-                       [](PackParts& parts) -> Texture& { return parts.pack.normal_textures[0]; });
+  return load<Texture>(kNormalTextureSection, i);
 }
 
 Result<LightmapPage> DeferredImages::lightmap(std::size_t i) const {
-  ORIEL_TRY(std::vector<Vec3> directions, direction(i));
-  return load<LightmapPage>(kLightmapSection, i, [&](PackParts& parts) -> LightmapPage& {
-    parts.pack.lightmaps[0].direction = std::move(directions);
-    return parts.pack.lightmaps[0];
-  });
+  return load<LightmapPage>(kLightmapSection, i);
 }
 
 Result<RadianceMap> DeferredImages::radiance_map(std::size_t i) const {
-  return load<RadianceMap>(kRadianceMapSection, i,
-                           [](PackParts& parts) -> RadianceMap& { return parts.pack.radiance_maps[0]; });
+  return load<RadianceMap>(kRadianceMapSection, i);
 }
 
 Result<SurroundMap> DeferredImages::surround_map(std::size_t i) const {
-  return load<SurroundMap>(kSurroundMapSection, i,
-                           [](PackParts& parts) -> SurroundMap& { return parts.pack.surround_maps[0]; });
+  return load<SurroundMap>(kSurroundMapSection, i);
 }
 
 Result<HalfPage> DeferredImages::light(std::size_t i) const {
-  ORIEL_TRY(const std::vector<Vec3> directions, direction(i));
   const std::size_t at = of(kLightmapSection, i);
   const SectionInfo& section = sections_[at];
   checked_[at] = true;
   auto loaded = without_exceptions([&]() -> Result<HalfPage> {
     ORIEL_TRY(const auto stored, stored_in(file_, section));
     thread_local RawBytes buffer;
-    const std::span<std::byte> raw =
-        some_of(buffer, light_bytes(area(sizes_[at].x, sizes_[at].y), area(details_[i].x, details_[i].y)));
+    const std::span<std::byte> raw = some_of(
+        buffer, light_bytes(area(sizes_[at].x, sizes_[at].y), directional(i), area(details_[i].x, details_[i].y)));
     ORIEL_TRY_VOID(decompress(stored, section, raw));
     ByteReader in(raw);
     HalfPage page;
@@ -347,7 +301,6 @@ Result<HalfPage> DeferredImages::light(std::size_t i) const {
     list.in_section(kLightmapSection, i);
     validate_cells(page.cell, {page.width, page.height}, details_[i], list);
     ORIEL_TRY_VOID(refuse_errors(list.issues));
-    page.direction = halves_of(directions);
     return page;
   });
   if (!loaded) return in_file(file_.path().string(), std::move(loaded).error());

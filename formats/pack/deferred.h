@@ -18,12 +18,12 @@ namespace oriel {
 // must be of the size that it had.
 class DeferredImages {
  public:
-  // pack: decoded from the file, with images that have their sizes only. directed: the page of each section of
-  // directions.
+  // pack: decoded from the file, with images that have their sizes only. directional: of each lightmap page, whether it
+  // has directions.
   DeferredImages(OpenFile file, std::vector<SectionInfo> sections, const Pack& pack,
-                 const std::vector<std::uint32_t>& directed);
+                 std::vector<std::uint8_t> directional);
 
-  // Pack::textures[i] and so on, decoded and checked as read_pack does. A radiance map is without `residual`.
+  // Pack::textures[i] and so on, decoded and checked as read_pack does.
   Result<Texture> texture(std::size_t i) const;
   Result<Texture> normal_texture(std::size_t i) const;
   Result<LightmapPage> lightmap(std::size_t i) const;
@@ -31,7 +31,7 @@ class DeferredImages {
   Result<SurroundMap> surround_map(std::size_t i) const;
   // Of a lightmap page what lights surfaces: half of its bytes, and nothing is computed.
   Result<HalfPage> light(std::size_t i) const;
-  bool directional(std::size_t page) const { return directions_[page] != kNone; }
+  bool directional(std::size_t page) const { return directional_[page] != 0; }
 
   // All sections of the file, those too that are no images: compares the checksum.
   std::size_t sections() const { return sections_.size(); }
@@ -42,18 +42,16 @@ class DeferredImages {
   std::uint64_t file_bytes() const { return file_.size(); }
 
  private:
-  static constexpr std::size_t kNone = ~std::size_t{0};
   std::size_t of(std::uint32_t kind, std::size_t nth) const;  // into sections_
-  template <class Image, class Take>
-  Result<Image> load(std::uint32_t kind, std::size_t nth, const Take& take) const;
-  Result<std::vector<Vec3>> direction(std::size_t page) const;
+  template <class Image>
+  Result<Image> load(std::uint32_t kind, std::size_t nth) const;
 
   OpenFile file_;
   std::vector<SectionInfo> sections_;
   std::vector<IVec2> sizes_;                       // of images, by section
   std::vector<IVec2> details_;                     // of pages' details, by page
   std::vector<std::vector<std::size_t>> by_kind_;  // into sections_, in the order of kSectionKinds
-  std::vector<std::size_t> directions_;            // by page, into sections_
+  std::vector<std::uint8_t> directional_;          // by page
   std::unique_ptr<std::atomic<bool>[]> checked_;   // by section
 };
 

@@ -79,21 +79,14 @@ inline constexpr std::uint32_t kMeshSection = fourcc("MESH");
 inline constexpr std::uint32_t kMaterialSection = fourcc("MATL");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
-inline constexpr std::uint32_t kDirectionSection = fourcc("LDIR");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
-inline constexpr std::uint32_t kNormalMappingSection = fourcc("NMAP");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
-inline constexpr std::uint32_t kResidualSection = fourcc("RRES");
 inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
-inline constexpr std::uint32_t kReflectorEmitterSection = fourcc("REMT");
 inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
 inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
 inline constexpr std::uint32_t kKernelSection = fourcc("KERN");
-inline constexpr std::uint32_t kKernelSliceSection = fourcc("KINC");
-inline constexpr std::uint32_t kKernelFitSection = fourcc("KLTC");
 inline constexpr std::uint32_t kFresnelSection = fourcc("FRES");
-inline constexpr std::uint32_t kFresnelFactorSection = fourcc("FFAC");
 inline constexpr std::uint32_t kSplitSection = fourcc("SPLT");
 inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
@@ -103,7 +96,7 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 29> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -111,21 +104,14 @@ inline constexpr std::array<SectionKind, 29> kSectionKinds = {{
     {kMaterialSection, "materials", false, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
-    {kDirectionSection, "direction page", true, false, true},
     {kNormalTextureSection, "normal texture", true, false, true},
-    {kNormalMappingSection, "normal mapping", true, false, false},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
-    {kResidualSection, "residual radiance maps", true, false, false},
     {kEmitterSection, "emitters", true, false, false},
-    {kReflectorEmitterSection, "emitters by reflector", true, false, false},
     {kCurvedReflectorSection, "curved reflectors", true, false, false},
     {kSurroundMapSection, "surround map", true, false, true},
     {kKernelSection, "kernels", false, false, false},
-    {kKernelSliceSection, "kernels by incidence", true, false, false},
-    {kKernelFitSection, "kernels as cosines", true, false, false},
     {kFresnelSection, "Fresnel maps", false, false, false},
-    {kFresnelFactorSection, "Fresnel factors", true, false, false},
     {kSplitSection, "split reflectance", true, false, false},
     {kCameraSection, "cameras", true, false, false},
     {kPathSection, "camera paths", true, false, false},

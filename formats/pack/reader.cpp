@@ -9,30 +9,28 @@ namespace oriel {
 namespace {
 
 // A section that may be decoded beside others.
-Status decode_known(std::span<const std::byte> file, const SectionInfo& section, PackParts& parts) {
+Status decode_known(std::span<const std::byte> file, const SectionInfo& section, Pack& pack) {
   if (!find_section_kind(section.kind)) return check_section(file, section);
   ORIEL_TRY(const RawBytes raw, section_bytes(file, section));
-  return decode_section(raw.span(), section, parts);
+  return decode_section(raw.span(), section, pack);
 }
 
 // The error of the first section in the file that has one, whatever was decoded first.
-Status decode_known(std::span<const std::byte> file, const PackIndex& index, PackParts& parts) {
+Status decode_known(std::span<const std::byte> file, const PackIndex& index, Pack& pack) {
   return first_failure(index.sections.size(), file.size(),
-                       [&](std::size_t i) { return decode_known(file, index.sections[i], parts); });
+                       [&](std::size_t i) { return decode_known(file, index.sections[i], pack); });
 }
 
 Result<Pack> decode_all(std::span<const std::byte> file, const PackIndex& index) {
-  PackParts parts(index);
-  Pack& pack = parts.pack;
-  ORIEL_TRY_VOID(decode_known(file, index, parts));
+  Pack pack = pack_of(index);
+  ORIEL_TRY_VOID(decode_known(file, index, pack));
   for (const auto& section : index.sections) {
     if (find_section_kind(section.kind)) continue;
     const auto stored = stored_bytes(file, section);
     pack.unknown.push_back(
         {section.kind, section.codec, section.raw_bytes, section.count, Bytes(stored.begin(), stored.end())});
   }
-  ORIEL_TRY_VOID(attach(parts));
-  return std::move(parts.pack);
+  return pack;
 }
 
 Result<Pack> decode_valid(std::span<const std::byte> file, const PackIndex& index) {

@@ -1,129 +1,97 @@
-// What lies inside each section: one pair of functions a kind. Used by the writer and the reader only.
+// What lies inside each section: one description an asset, which writes it and reads it.
 #pragma once
 
-#include "formats/core/bytes.h"
-#include "formats/core/result.h"
 #include "formats/pack/encoding/half_page.h"
 #include "formats/pack/pack.h"
+#include "formats/pack/serial.h"
 
 namespace oriel {
 
-// What a section adds to elements of other kinds: read apart, because sections come in any order.
-struct DirectionPage {
-  std::uint32_t page = 0;  // into Pack::lightmaps
-  std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> direction;
-};
-// Of one kernel.
-struct KernelSlices {
-  std::uint32_t kernel = 0;  // into Pack::kernels
-  std::uint32_t size = 0;
-  std::vector<KernelSlice> slices;
-};
-// A radiance map that is a residual.
-struct ResidualMap {
-  std::uint32_t map = 0;  // into Pack::radiance_maps
-};
-// What a reflector's maps leave out.
-struct ReflectorEmitters {
-  std::uint32_t reflector = 0;  // into Pack::reflectors
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint32_t> emitters;
-  std::vector<std::uint8_t> visibility;
-};
-struct KernelFits {
-  std::uint32_t kernel = 0;  // into Pack::kernels
-  std::vector<LobeFit> fits;
-};
-struct FresnelFactor {
-  std::uint32_t map = 0;  // into Pack::fresnel_maps
-  std::vector<Vec3> factor;
-};
-struct NormalMapping {
-  struct Use {
-    std::uint32_t material = 0;       // into Pack::materials
-    std::int32_t normal_texture = 0;  // into Pack::normal_textures
-    float normal_scale = 1;
-  };
-  std::vector<Use> uses;
-  std::vector<Vec2> uvs;
-  std::vector<Vec4> tangents;
-};
+// The members of one element. Writing relies on a pack that validate() finds nothing wrong with.
+void describe(Serial& s, Mesh& mesh);
+void describe(Serial& s, Material& material);
+void describe(Serial& s, Texture& texture);
+void describe(Serial& s, LightmapPage& page);
+void describe(Serial& s, Reflector& reflector);
+void describe(Serial& s, RadianceMap& map);
+void describe(Serial& s, Emitter& emitter);
+void describe(Serial& s, CurvedReflector& reflector);
+void describe(Serial& s, SurroundMap& map);
+void describe(Serial& s, BrdfKernel& kernel);
+void describe(Serial& s, FresnelMap& map);
+void describe(Serial& s, SplitReflectance& split);
+void describe(Serial& s, Camera& camera);
+void describe(Serial& s, CameraPath& path);
+void describe(Serial& s, WalkGrid& grid);
+void describe(Serial& s, VisibleSets& sets);
+void describe(Serial& s, Mover& mover);
+void describe(Serial& s, LightField& field);
 
-// Append one element. They rely on a pack that validate() finds nothing wrong with.
-void encode(ByteWriter& out, const Mesh& mesh);
-void encode(ByteWriter& out, const Material& material);
-void encode(ByteWriter& out, const Reflector& reflector);
-void encode(ByteWriter& out, const Camera& camera);
-void encode(ByteWriter& out, const CameraPath& path);
-void encode(ByteWriter& out, const Texture& texture);
-void encode(ByteWriter& out, const LightmapPage& page);
-void encode(ByteWriter& out, const DirectionPage& page);
-void encode(ByteWriter& out, const NormalMapping& mapping);
-void encode(ByteWriter& out, const RadianceMap& map);
-void encode(ByteWriter& out, const CurvedReflector& reflector);
-void encode(ByteWriter& out, const SurroundMap& map);
-void encode(ByteWriter& out, const BrdfKernel& kernel);
-void encode(ByteWriter& out, const KernelSlices& slices);
-void encode(ByteWriter& out, const FresnelMap& map);
-void encode(ByteWriter& out, const FresnelFactor& factor);
-void encode(ByteWriter& out, const SplitReflectance& split);
-void encode(ByteWriter& out, const WalkGrid& grid);
-void encode(ByteWriter& out, const Emitter& emitter);
-void encode(ByteWriter& out, const ReflectorEmitters& part);
-void encode(ByteWriter& out, const ResidualMap& residual);
-void encode(ByteWriter& out, const KernelFits& fits);
-void encode(ByteWriter& out, const VisibleSets& sets);
-void encode(ByteWriter& out, const Mover& mover);
-void encode(ByteWriter& out, const LightField& field);
-
-// Read one element from hostile bytes. Codes that mean nothing give an error without a place; where the bytes end early
-// the element is incomplete and in is not ok(), which the caller asks. Allocations stay in proportion to the bytes
-// left.
-Status decode(ByteReader& in, Mesh& mesh);
-Status decode(ByteReader& in, Material& material);
-Status decode(ByteReader& in, Reflector& reflector);
-Status decode(ByteReader& in, Camera& camera);
-Status decode(ByteReader& in, CameraPath& path);
-Status decode(ByteReader& in, Texture& texture);
-Status decode(ByteReader& in, LightmapPage& page);
-Status decode(ByteReader& in, DirectionPage& page);
-Status decode(ByteReader& in, NormalMapping& mapping);
-Status decode(ByteReader& in, RadianceMap& map);
-// The same without what is there by texel: the beginning of the section.
+// The beginning of an image's section: all but what is there by texel.
 struct RadianceMapScale {
-  int exponent = 0;  // of 2: what radiance was divided by
-  int shift = 0;     // disparity_from_code's
+  std::int32_t exponent = 0;  // of 2: what radiance was divided by
+  std::int32_t shift = 0;     // disparity_from_code's
 };
-inline constexpr std::size_t kRadianceMapPlaceBytes = 52;
-Status decode_place(ByteReader& in, RadianceMap& map, RadianceMapScale& scale);
-Status decode_place(ByteReader& in, Texture& texture);
-Status decode_place(ByteReader& in, LightmapPage& page);
-Status decode_place(ByteReader& in, DirectionPage& page);
 struct SurroundMapScale {
-  int exponent = 0;   // of 2: what radiance was divided by
-  float nearest = 0;  // what codes of inverse distance are shares of
+  std::int32_t exponent = 0;  // of 2: what radiance was divided by
+  float nearest = 0;          // what codes of inverse distance are shares of
 };
-Status decode_place(ByteReader& in, SurroundMap& map, SurroundMapScale& scale);
-// Of a lightmap page all that lights surfaces, which is its beginning, light_bytes() of the section.
-inline std::uint64_t light_bytes(std::uint64_t texels, std::uint64_t details) {
-  return 20 + 6 * texels + (details > 0 ? 4 * texels + 6 * details : 0);
+inline constexpr std::size_t kRadianceMapPlaceBytes = 56, kSurroundMapPlaceBytes = 24, kLightmapPlaceBytes = 20;
+void describe_place(Serial& s, Texture& texture);
+void describe_place(Serial& s, LightmapPage& page, bool& directional);
+void describe_place(Serial& s, RadianceMap& map, RadianceMapScale& scale);
+void describe_place(Serial& s, SurroundMap& map, SurroundMapScale& scale);
+
+// Of a lightmap page all that lights surfaces, which is the beginning of its section: so many bytes.
+inline std::uint64_t light_bytes(std::uint64_t texels, bool directional, std::uint64_t details) {
+  return kLightmapPlaceBytes + 4 + (directional ? 12 : 6) * texels + (details > 0 ? 4 * texels + 6 * details : 0);
 }
 Status decode(ByteReader& in, HalfPage& page);
-Status decode(ByteReader& in, CurvedReflector& reflector);
-Status decode(ByteReader& in, SurroundMap& map);
-Status decode(ByteReader& in, BrdfKernel& kernel);
-Status decode(ByteReader& in, KernelSlices& slices);
-Status decode(ByteReader& in, FresnelMap& map);
-Status decode(ByteReader& in, FresnelFactor& factor);
-Status decode(ByteReader& in, SplitReflectance& split);
-Status decode(ByteReader& in, WalkGrid& grid);
-Status decode(ByteReader& in, Emitter& emitter);
-Status decode(ByteReader& in, ReflectorEmitters& part);
-Status decode(ByteReader& in, ResidualMap& residual);
-Status decode(ByteReader& in, KernelFits& fits);
-Status decode(ByteReader& in, VisibleSets& sets);
-Status decode(ByteReader& in, Mover& mover);
-Status decode(ByteReader& in, LightField& field);
+
+template <class T>
+void encode(ByteWriter& out, const T& element) {
+  Serial s(out);
+  describe(s, const_cast<T&>(element));  // it is only looked at
+}
+
+// An error has no place. Where the bytes end early the element is incomplete and in is not ok(), which the caller asks.
+template <class T>
+Status decode(ByteReader& in, T& element) {
+  Serial s(in);
+  describe(s, element);
+  return s.status();
+}
+
+// All sections of a pack in the order of kSectionKinds, for whoever writes or reads one:
+//   text(kind, string)   JSON              one(kind, value, present)   exactly one element, where present
+//   list(kind, vector)   all in one        each(kind, vector)          a section an element
+template <class P, class Visitor>
+void visit_sections(P& pack, Visitor& v) {
+  v.text(kProvenanceSection, pack.provenance);
+  v.text(kPlanSection, pack.plan);
+  v.one(kSceneSection, pack.sky, true);
+  v.one(kMeshSection, pack.mesh, true);
+  v.list(kMaterialSection, pack.materials);
+  v.each(kTextureSection, pack.textures);
+  v.each(kLightmapSection, pack.lightmaps);
+  v.each(kNormalTextureSection, pack.normal_textures);
+  v.list(kReflectorSection, pack.reflectors);
+  v.each(kRadianceMapSection, pack.radiance_maps);
+  v.list(kEmitterSection, pack.emitters);
+  v.list(kCurvedReflectorSection, pack.curved_reflectors);
+  v.each(kSurroundMapSection, pack.surround_maps);
+  v.list(kKernelSection, pack.kernels);
+  v.list(kFresnelSection, pack.fresnel_maps);
+  v.one(kSplitSection, pack.split_reflectance, pack.split_reflectance.angles > 0);
+  v.list(kCameraSection, pack.cameras);
+  v.list(kPathSection, pack.paths);
+  v.list(kWalkSection, pack.walk_grids);
+  v.one(kVisibleSetsSection, pack.visible_sets, !pack.visible_sets.empty());
+  v.each(kMoverSection, pack.movers);
+  v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
+}
+inline void describe(Serial& s, Vec3& sky) {
+  s(sky);
+}
 
 }  // namespace oriel

@@ -1,5 +1,9 @@
-# cmake -DPROGRAM=FILE -DNAME=NAME -DOUTPUT=FILE -P man.cmake: a manual page of what --help says.
-execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+# cmake -DPROGRAM=FILE -DNAME=NAME -DOUTPUT=FILE -P man.cmake: a manual page of what --help-all says.
+set(HELP --help-all)
+if(NAME STREQUAL oriel-inspect)
+  set(HELP --help)  # it has none that are rare
+endif()
+execute_process(COMMAND ${PROGRAM} ${HELP} OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCH "^[^\n]*" summary "${help}")
 string(REPLACE "\\" "\\e" help "${help}")
 string(REPLACE "-" "\\-" help "${help}")

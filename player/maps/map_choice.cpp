@@ -1,7 +1,6 @@
 #include "player/maps/map_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <tuple>
 
@@ -33,12 +32,11 @@ struct Ranked {
 
 std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps) {
   std::vector<ReflectorElement> elements;
-  std::map<std::array<float, 4>, std::size_t> by_rectangle;
+  std::map<std::uint32_t, std::size_t> by_number;
   for (std::uint32_t i = 0; i < reflector.map_count; ++i) {
     const std::uint32_t index = reflector.first_map + i;
     const RadianceMap& map = maps[index];
-    const auto [element, is_new] =
-        by_rectangle.try_emplace({map.lower.x, map.lower.y, map.upper.x, map.upper.y}, elements.size());
+    const auto [element, is_new] = by_number.try_emplace(map.element, elements.size());
     if (is_new) elements.push_back({map.lower, map.upper, {}});
     elements[element->second].maps.push_back(index);
   }

@@ -16,8 +16,7 @@ struct ReflectorElement {
   std::vector<std::uint32_t> maps;  // into Pack::radiance_maps
 };
 
-// The maps of `reflector`, grouped by the rectangle they look through, in their order, whether
-// or not those of an element lie side by side.
+// The maps of `reflector` by element, in their order.
 std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps);
 
 struct WeighedMap {

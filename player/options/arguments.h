@@ -1,6 +1,7 @@
 // The command line of oriel-play.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -57,6 +58,9 @@ struct PlayArguments {
 inline int samples_of_picture(const PlayArguments& arguments) {
   return arguments.supersample > 1 && !arguments.sampled ? 1 : arguments.frame.samples;
 }
+
+// Those options that can change a frame, by name.
+nlohmann::ordered_json options_json(const PlayArguments& arguments);
 
 // The arguments, or the exit code after help or a complaint was printed.
 std::variant<PlayArguments, int> parse_arguments(int argc, const char* const* argv);

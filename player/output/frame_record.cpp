@@ -5,7 +5,6 @@
 
 #include "formats/core/color.h"
 #include "formats/core/file.h"
-#include "player/options/option_names.h"
 
 namespace oriel {
 namespace {
@@ -40,25 +39,6 @@ nlohmann::ordered_json as_json(const FrameRecord& record) {
           {"mirror_pixels", s.mirror_pixels},
           {"sharp", s.sharp},
           {"in_zone", record.in_zone}};
-}
-
-nlohmann::ordered_json as_json(const PlayArguments& arguments) {
-  const FrameOptions& o = arguments.frame;
-  nlohmann::ordered_json exposure = "auto";
-  if (arguments.ev100) exposure = *arguments.ev100;
-  return {{"show", name_of(kStages, o.show)},
-          {"reflections", name_of(kReflections, o.reflections)},
-          {"maps", o.maps_per_element},
-          {"select", name_of(kSelections, o.selection)},
-          {"blur", name_of(kBlurs, o.blur)},
-          {"kernel", name_of(kKernelPlaces, o.kernel)},
-          {"fresnel", name_of(kReflectances, o.reflectance)},
-          {"pvs", name_of(kSwitch, o.visible_sets)},
-          {"mipmaps", o.mipmaps},
-          {"samples", o.samples},
-          {"gpu_memory",
-           arguments.gpu_memory == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(arguments.gpu_memory)},
-          {"exposure", exposure}};
 }
 
 }  // namespace
@@ -115,9 +95,12 @@ void FlickerMeter::add(const std::vector<float>& light) {
 
 Status write_stats(const std::string& file, const PlayArguments& arguments, const std::string& renderer,
                    const std::vector<FrameRecord>& records, const FlickerMeter* flicker) {
-  nlohmann::ordered_json out{{"pack", arguments.pack},        {"renderer", renderer},
-                             {"width", arguments.width},      {"height", arguments.height},
-                             {"options", as_json(arguments)}, {"frames", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out{{"pack", arguments.pack},
+                             {"renderer", renderer},
+                             {"width", arguments.width},
+                             {"height", arguments.height},
+                             {"options", options_json(arguments)},
+                             {"frames", nlohmann::ordered_json::array()}};
   for (const FrameRecord& record : records) out["frames"].push_back(as_json(record));
   if (!records.empty()) out["median"] = as_json(median_record(records));
   if (flicker != nullptr) {

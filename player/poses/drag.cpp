@@ -69,9 +69,4 @@ MoverMove& move_of(std::vector<MoverMove>& moves, const Mover& mover, const Move
   return moves.back();
 }
 
-std::string text_of(const MoverMove& move) {
-  return fmt::format("{}={:.3f},{:.3f},{:.3f},{:.1f}", move.node, move.position.x, move.position.y, move.position.z,
-                     std::remainder(move.yaw_rad, 2 * kPiD) * 180 / kPiD);
-}
-
 }  // namespace oriel

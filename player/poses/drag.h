@@ -37,7 +37,4 @@ std::optional<Vec3> on_level(const PickRay& ray, float height, float farthest);
 // The move of that mover, which is added, where it stands, if there is none of its name.
 MoverMove& move_of(std::vector<MoverMove>& moves, const Mover& mover, const MoverPose& pose, const DVec3& origin);
 
-// As --move takes it.
-std::string text_of(const MoverMove& move);
-
 }  // namespace oriel

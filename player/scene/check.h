@@ -1,12 +1,13 @@
-// Whether a pack can be drawn: everything that the player would otherwise read out of bounds.
+// Whether a device can draw a pack. That the pack is sound is for formats/pack to tell (validate.h), which looked at it
+// when it was opened.
 #pragma once
 
-#include "formats/pack/validate.h"
+#include "formats/pack/pack.h"
 #include "player/gpu/device.h"
 
 namespace oriel {
 
-// Error kInvalid names the first index, size or number that does not fit; kRuntime names what exceeds the device.
-Status check_drawable(const Pack& pack, const gpu::Device& device, ImagePixels pixels = ImagePixels::kHere);
+// Error kRuntime names what exceeds the device.
+Status check_drawable(const Pack& pack, const gpu::Device& device);
 
 }  // namespace oriel

@@ -34,7 +34,7 @@ Status first_of(const std::vector<Error>& errors) {
 
 Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu::Device& device,
                                                    const LoadingOptions& loading) {
-  ORIEL_TRY_VOID(check_drawable(pack.pack, device, pack.images ? ImagePixels::kDeferred : ImagePixels::kHere));
+  ORIEL_TRY_VOID(check_drawable(pack.pack, device));
   std::unique_ptr<GpuScene> scene(new GpuScene);
   static std::atomic<std::uint64_t> scenes{0};
   scene->serial_ = ++scenes;

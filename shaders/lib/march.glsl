@@ -1,4 +1,4 @@
-// Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as player/maps/march.h, which tells
+// Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as tests/player/twins/march.h, which tells
 // what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
 
 const float kConnected = 0.1;

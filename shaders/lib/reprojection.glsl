@@ -1,4 +1,4 @@
-// Pixels of a radiance map as points in space (formats/assets/radiance_map.h), the same as player/maps/map_point.h.
+// Pixels of a radiance map as points in space (formats/assets/radiance_map.h), the same as tests/player/twins/map_point.h.
 // Reflector space: the plane is z = 0, the reflected world z > 0, the map's eye z < 0.
 
 // The point that a pixel saw, homogeneous: xyz / w, or the direction xyz where w = 0 (nothing but sky). on_plane: where the

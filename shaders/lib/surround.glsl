@@ -1,5 +1,5 @@
 // Marching a reflected ray through the distances around a point (formats/assets/surround_map.h), the same as
-// player/maps/surround_march.h, which tells what the numbers mean.
+// tests/player/twins/surround_march.h, which tells what the numbers mean.
 #include "lib/octahedral.glsl"
 
 const int kSurroundSteps = 24;

@@ -4,7 +4,7 @@
 
 #include "bake/radiosity/certificate.h"
 #include "bake/run/pipeline.h"
-#include "bake/run/stages/prepare.h"
+#include "bake/run/prepare.h"
 #include "formats/pack/reader.h"
 
 namespace oriel {

@@ -134,13 +134,13 @@ TEST(Hostile, CountsInsideSections) {
   expect_refusal(with_raw(kMeshSection, 24, ~0u), "section MESH (mesh): its counts need more");
   expect_refusal(with_raw(kMeshSection, 28, ~0u), "section MESH (mesh): its counts need more");
   expect_refusal(with_raw(kMeshSection, 32, ~0u), "section MESH (mesh): its counts need more");
-  expect_refusal(with_raw(kMeshSection, 36, 2u), "found mesh flags 0x2");
+  expect_refusal(with_raw(kMeshSection, 36, 4u), "found mesh flags 0x4");
   expect_refusal(with_raw(kMaterialSection, 0, ~0u), "section MATL (materials): its counts need more");
   expect_refusal(with_raw(kLightmapSection, 0, ~0u), "found 4294967295 x 4 texels");
   expect_refusal(with_raw(kLightmapSection, 0, 0u), "found 0 x 4 texels");
   expect_refusal(with_raw(kLightmapSection, 0, 32768u), "section LMAP 0 (lightmap page): its counts need more");
-  expect_refusal(with_raw(kLightmapSection, 8, 113), "found scale exponent 113");
-  expect_refusal(with_raw(kRadianceMapSection, 48, 31), "found disparity shift 31");
+  expect_refusal(with_raw(kLightmapSection, 20, 113), "found scale exponent 113");
+  expect_refusal(with_raw(kRadianceMapSection, 52, 31), "found disparity shift 31");
   expect_refusal(with_raw(kKernelSection, 0, std::uint8_t{2}), "element 0: found kernel model 2");
   expect_refusal(with_raw(kKernelSection, 20, ~0u), "section KERN (kernels): its counts need more");
   expect_refusal(with_raw(kFresnelSection, 8, ~0u), "section FRES (Fresnel maps): its counts need more");
@@ -178,45 +178,36 @@ TEST(Hostile, HalvesThatAreNotFinite) {
   Forge forge = Forge::from(tiny_file());
   auto& section = forge.find(kLightmapSection);
   Bytes raw = Forge::raw(section);
-  raw[12 + 32] = std::byte{0x7c};  // the first byte of red's high plane: infinity or NaN
+  raw[24 + 32] = std::byte{0x7c};  // the first byte of red's high plane: infinity or NaN
   Forge::set_raw(section, raw);
   expect_refusal(forge.file(), "section LMAP 0 (lightmap page): element 0: found irradiance half 0x7c");
 }
 
 TEST(Hostile, DirectionsAndNormalMapping) {
-  const std::string page = "section LDIR 0 (direction page): ", mapping = "section NMAP (normal mapping): ";
-  expect_refusal(with_raw(kDirectionSection, 0, 1u), page + "found lightmap page 1, expected less than 1");
-  expect_refusal(with_raw(kDirectionSection, 4, ~0u), page + "element 0: found 4294967295 x 4 texels");
-  expect_refusal(with_raw(kDirectionSection, 4, 32768u), page + "its counts need more");
-  expect_refusal(with_raw(kDirectionSection, 4, std::uint64_t{8} << 32 | 4u), page + "found 4 x 8 texels");
-  expect_refusal(with_raw(kDirectionSection, 12 + 32, std::uint8_t{0xfc}),
-                 page + "element 0: found direction half 0xfc");
-  Forge twice = Forge::from(tiny_file());
-  const auto copy = twice.find(kDirectionSection);
-  twice.sections.push_back(copy);
-  expect_refusal(twice.file(), "section LDIR 1 (direction page): page 0 has directions already");
-  expect_refusal(with_raw(kNormalMappingSection, 0, ~0u), mapping + "its counts need more");
-  expect_refusal(with_raw(kNormalMappingSection, 4, ~0u), mapping + "its counts need more");
-  expect_refusal(with_raw(kNormalMappingSection, 8, 2u), mapping + "found material 2, expected less than 2");
-  expect_refusal(with_raw(kNormalMappingSection, 12, -1), mapping + "found normal texture -1");
-  expect_refusal(with_raw(kNormalMappingSection, 20 + 8 * 8 + 8 * 4, std::int8_t{2}), "found side 2 of vertex 0's");
-  expect_refusal(with_record(kNormalMappingSection, [](SectionRecord& r) { r.count = 2; }), mapping + "found 2");
+  const std::string page = "section LMAP 0 (lightmap page): element 0: ";
+  expect_refusal(with_raw(kLightmapSection, 8, 2u), page + "found lightmap flags 0x2");
+  const std::size_t directions = 24 + 6 * 32;
+  expect_refusal(with_raw(kLightmapSection, directions + 32, std::uint8_t{0xfc}), page + "found direction half 0xfc");
+  const Mesh mesh = tiny_mapped_pack().mesh;
+  const std::size_t n = mesh.positions.size();
+  const std::size_t sides = 40 + n * (12 + 4 + 8 + 8 + (mesh.colors.empty() ? 0 : 4) + 8 + 4);
+  expect_refusal(with_raw(kMeshSection, sides, std::int8_t{2}), "found side 2 of vertex 0's");
 }
 
 TEST(Hostile, KernelsByIncidenceAndSplitReflectance) {
-  const std::string slices = "section KINC (kernels by incidence): ", split = "section SPLT (split reflectance): ";
-  expect_refusal(with_raw(kKernelSliceSection, 0, 2u), slices + "found kernel 2, expected less than 2");
-  expect_refusal(with_raw(kKernelSliceSection, 4, 4u), slices + "element 0: found size 4, expected an odd one");
-  expect_refusal(with_raw(kKernelSliceSection, 4, ~0u), slices + "element 0: found size 4294967295");
-  expect_refusal(with_raw(kKernelSliceSection, 4, 32767u), slices + "its counts need more");
-  expect_refusal(with_raw(kKernelSliceSection, 8, ~0u),
-                 slices + "element 0: found 4294967295 slices, expected 1 to 256");
-  expect_refusal(with_raw(kKernelSliceSection, 8, 0u), slices + "element 0: found 0 slices");
-  expect_refusal(with_raw(kKernelSliceSection, 8, 257u), slices + "element 0: found 257 slices");
-  expect_refusal(with_raw(kKernelSliceSection, 8, 256u), slices + "its counts need more");
-  expect_refusal(with_raw(kKernelSliceSection, 60, ~0u), slices + "its counts need more");
-  expect_refusal(with_raw(kKernelSliceSection, 67, std::uint8_t{0x7c}), slices + "element 0: found radial share half");
-  expect_refusal(with_raw(kKernelSliceSection, 76, std::uint8_t{0xbc}), slices + "element 0: found weight half");
+  const std::string kernels = "section KERN (kernels): ", split = "section SPLT (split reflectance): ";
+  const std::size_t at = 40 + 24 + 4 * 25;  // behind the weights of the second kernel
+  const std::size_t slice = at + 8, radial = slice + 48;
+  expect_refusal(with_raw(kKernelSection, at, 4u), kernels + "element 1: found slices of size 4, expected an odd one");
+  expect_refusal(with_raw(kKernelSection, at, ~0u), kernels + "element 1: found slices of size 4294967295");
+  expect_refusal(with_raw(kKernelSection, at, 32767u), kernels + "its counts need more");
+  expect_refusal(with_raw(kKernelSection, at + 4, ~0u), kernels + "element 1: found 4294967295 slices");
+  expect_refusal(with_raw(kKernelSection, at + 4, 257u), kernels + "element 1: found 257 slices, expected at most 256");
+  expect_refusal(with_raw(kKernelSection, at + 4, 256u), kernels + "its counts need more");
+  expect_refusal(with_raw(kKernelSection, radial, ~0u), kernels + "its counts need more");
+  expect_refusal(with_raw(kKernelSection, radial + 7, std::uint8_t{0x7c}),
+                 kernels + "element 1: found radial share half");
+  expect_refusal(with_raw(kKernelSection, radial + 16, std::uint8_t{0xbc}), kernels + "element 1: found weight half");
   expect_refusal(with_raw(kSplitSection, 0, 0u), split + "found 0 x 3 texels");
   expect_refusal(with_raw(kSplitSection, 4, 32768u), split + "its counts need more");
   expect_refusal(with_raw(kSplitSection, 14, std::uint8_t{0x80}), split + "found scale half");
@@ -236,8 +227,7 @@ TEST(Hostile, VisibleSets) {
 
 TEST(Hostile, WhatReflectionsNeed) {
   const std::string walk = "section WALK (walk grids): ", emitters = "section EMIT (emitters): ",
-                    parts = "section REMT (emitters by reflector): ", fits = "section KLTC (kernels as cosines): ",
-                    factors = "section FFAC (Fresnel factors): ", residual = "section RRES (residual radiance maps): ";
+                    reflectors = "section RFLT (reflectors): ";
   expect_refusal(with_raw(kWalkSection, 16, 0u), walk + "element 0: found 0 x 2 texels");
   expect_refusal(with_raw(kWalkSection, 16, 32768u), walk + "its counts need more");
   expect_refusal(with_raw(kWalkSection, 24, std::uint8_t{2}), walk + "element 0: found floor 0 with walkable flag 2");
@@ -249,22 +239,13 @@ TEST(Hostile, WhatReflectionsNeed) {
   expect_refusal(infinite.file(), walk + "element 0: found floor inf with walkable flag 1 in cell 0");
   expect_refusal(with_raw(kEmitterSection, 0, std::uint8_t{5}), emitters + "element 0: found 5 corners");
   expect_refusal(with_raw(kEmitterSection, 1, std::uint8_t{2}), emitters + "element 0: found two-sided flag 2");
-  expect_refusal(with_raw(kReflectorEmitterSection, 0, 1u), parts + "found reflector 1, expected less than 1");
-  expect_refusal(with_raw(kReflectorEmitterSection, 4, 0u), parts + "element 0: found 0 emitters");
-  expect_refusal(with_raw(kReflectorEmitterSection, 4, 17u), parts + "element 0: found 17 emitters");
-  expect_refusal(with_raw(kReflectorEmitterSection, 8, 32768u), parts + "its counts need more");
-  expect_refusal(with_raw(kKernelFitSection, 0, 2u), fits + "found kernel 2, expected less than 2");
-  expect_refusal(with_raw(kKernelFitSection, 4, ~0u), fits + "its counts need more");
-  expect_refusal(with_raw(kFresnelFactorSection, 0, 9u), factors + "found Fresnel map 9, expected less than 1");
-  expect_refusal(with_raw(kFresnelFactorSection, 4, ~0u), factors + "its counts need more");
-  expect_refusal(with_raw(kResidualSection, 0, 3u), residual + "found radiance map 3, expected less than 3");
-  Forge twice = Forge::from(tiny_file());
-  auto& section = twice.find(kResidualSection);
-  Bytes raw = Forge::raw(section);
-  raw.insert(raw.end(), raw.begin(), raw.begin() + 4);
-  Forge::set_raw(section, raw);
-  section.record.count = 2;
-  expect_refusal(twice.file(), residual + "radiance map 2 is there twice");
+  const Reflector reflector = tiny_mapped_pack().reflectors[0];
+  const std::size_t at = 4 + reflector.name.size() + 4 + 64 + 16 + 8 + 16 + 4 + 4 * reflector.indices.size();
+  expect_refusal(with_raw(kReflectorSection, at, 17u),
+                 reflectors + "element 0: found 17 emitters, expected at most 16");
+  expect_refusal(with_raw(kReflectorSection, at + 4, 32769u), reflectors + "element 0: found visibility from 32769 x");
+  expect_refusal(with_raw(kReflectorSection, at + 4, 32768u), reflectors + "its counts need more");
+  expect_refusal(with_raw(kRadianceMapSection, 17, std::uint8_t{2}), "element 0: found residual flag 2");
 }
 
 TEST(Hostile, CurvedReflectors) {
@@ -276,14 +257,13 @@ TEST(Hostile, CurvedReflectors) {
   expect_refusal(with_raw(kSurroundMapSection, 16, 113), map + "element 0: found scale exponent 113");
 }
 
-// Sections may come in any order: what a section adds to others does not depend on theirs.
+// Sections may come in any order.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
   std::reverse(forge.sections.begin(), forge.sections.end());
   // All but the radiance maps, whose number is their order.
   std::erase_if(forge.sections, [](const auto& s) {
-    return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
-           s.record.kind == kResidualSection || s.record.kind == kReflectorEmitterSection;
+    return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection;
   });
   const auto pack = decode_pack(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();

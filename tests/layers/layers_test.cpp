@@ -27,6 +27,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   };
   std::map<std::string, std::set<std::string>> m;
   m["formats/core"] = {};
+  m["formats/cli"] = core;
   m["formats/sh"] = m["formats/image"] = core;
   m["formats/image"].insert("formats/image/bc6h");
   m["formats/image/bc6h"] = plus(core, {"formats/core/threads"});
@@ -52,26 +53,27 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/jobs"] = core;
   m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
-  m["bake/scene/optics"] = core;  // physics of surfaces: no scene
+  m["bake/scene/texture"] = plus(assets, {"bake/jobs", "bake/scene"});  // images of the file
+  m["bake/scene/optics"] = core;                                        // physics of surfaces: no scene
   m["bake/scene/gltf"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/optics"});  // the file format apart from the scene
   m["bake/scene/light"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf"});
   m["bake/scene/motion"] = plus(m["bake/scene/gltf"], {"bake/scene/gltf", "formats/motion"});  // what animations move
-  m["bake/scene"] =
-      plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion", "bake/scene/optics"});
+  m["bake/scene"] = plus(m["bake/scene"], {"bake/scene/gltf", "bake/scene/light", "bake/scene/motion",
+                                           "bake/scene/optics", "bake/scene/texture"});
   m["bake/trace"] = m["bake/atlas"] =
       plus(assets, {"bake/jobs", "bake/scene", "bake/scene/light", "bake/scene/optics"});
   m["bake/trace/brdf"] = plus(core, {"bake/scene/optics"});       // reflection models as functions: no scene, no rays
   m["bake/atlas/chart"] = plus(m["bake/atlas"], {"bake/atlas"});  // one chart apart from the pages
   m["bake/atlas"].insert("bake/atlas/chart");
   m["bake/trace"].insert("bake/trace/brdf");
-  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});  // one kind of light each
+  m["bake/trace/lights"] = plus(m["bake/trace"], {"bake/trace"});     // one kind of light each
+  m["bake/trace/particles"] = plus(m["bake/trace"], {"bake/trace"});  // light as particles
   m["bake/direct"] =
       plus(m["bake/trace"], {"bake/trace", "formats/lobes"});  // what the stages that compute irradiance share
   const auto stage = plus(m["bake/trace"], {"bake/trace", "bake/atlas", "bake/direct"});
   m["bake/trace"].insert("bake/trace/lights");
-  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer", "bake/shadow"})
-    m[name] = stage;
+  for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer"}) m[name] = stage;
   m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
   m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
   m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
@@ -80,30 +82,30 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/visibility"] = plus(m["bake/trace/lights"], {"formats/visibility"});      // what eyes see
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
-  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/paths", "bake/radiosity/texels"});
+  m["bake/radiosity/frames"] = stage;  // pixels that eyes see of the lightmap
+  m["bake/radiosity"].insert(
+      {"bake/radiosity/cached", "bake/radiosity/frames", "bake/radiosity/paths", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
-  m["bake/radiosity/gather"] = plus(stage, {"bake/radiosity/texels"});  // rays into light that texels hold
-  m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});
-  m["bake/radiosity/cached"] = plus(stage, {"bake/radiosity", "bake/radiosity/gather", "bake/radiosity/texels"});
-  m["bake/ledger"] = plus(stage, {"bake/radiosity", "bake/radiosity/texels"});  // a check of what radiosity made
-  m["bake/run"] = plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
-                               "bake/shadow", "bake/scene/motion", "bake/lux", "bake/radiance/curved",
-                               "bake/radiance/emitters", "bake/radiance/plan", "bake/radiance/reuse", "bake/visibility",
-                               "bake/walk", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
-  m["bake/run/stages"] = plus(m["bake/run"], {"bake/run"});  // what each stage needs of the others
-  m["bake/run"].insert("bake/run/stages");
-  m["bake/plan/doctor"] = plus(m["bake/run"], {"bake/run", "bake/plan"});  // what is wrong with a scene: one check each
-  m["bake/plan"] = plus(m["bake/plan/doctor"], {"bake/plan/doctor"});
+  m["bake/radiosity/gather"] =
+      plus(stage, {"bake/radiosity/texels", "bake/trace/particles"});  // rays into light that texels hold
+  m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/frames", "bake/radiosity/texels"});
+  m["bake/radiosity/detail"] = plus(stage, {"bake/radiosity", "bake/radiosity/cached", "bake/radiosity/frames",
+                                            "bake/radiosity/gather", "bake/radiosity/texels"});  // between texels
+  m["bake/radiosity/cached"] = plus(m["bake/radiosity/detail"], {"bake/radiosity/detail"});
+  m["bake/ledger"] = plus(
+      stage, {"bake/radiosity", "bake/radiosity/texels", "bake/trace/particles"});  // a check of what radiosity made
+  m["bake/run"] =
+      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
+                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
+                   "bake/radiance/plan", "bake/radiance/reuse", "bake/radiosity/frames", "bake/visibility", "bake/walk",
+                   "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
+  m["bake/plan"] = plus(m["bake/run"], {"bake/run"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
-  m["bake/trade"] =
+  m["tools/trade"] =
       plus(assets, {"bake/jobs", "formats/diff", "formats/pack", "formats/image", "formats/metrics", "formats/camera"});
-  m["bake/trade/page"] = plus(m["bake/trade"], {"bake/trade"});
-  m["bake/cli/trade"] = plus(m["bake/run"], {"bake/run", "bake/trade", "bake/trade/page", "bake/cli"});
-  m["bake/cli/material"] = plus(m["bake/run"], {"bake/run", "bake/cli"});            // a subcommand that needs no scene
-  m["bake/cli/farm"] = plus(m["bake/run"], {"bake/run", "bake/cache", "bake/cli"});  // what machines share
-  m["bake/cli/plan"] = plus(m["bake/plan"], {"bake/plan", "bake/cli"});
-  m["bake/cli"] = plus(m["bake/cli/plan"], {"bake/cache", "bake/cli/farm", "bake/cli/plan", "bake/cli/material",
-                                            "bake/cli/trade", "bake/reference", "formats/camera"});
+  m["tools/trade/page"] = plus(m["tools/trade"], {"tools/trade"});
+  m["bake/cli"] = plus(m["bake/plan"], {"bake/cache", "bake/plan", "bake/reference", "tools/trade", "tools/trade/page",
+                                        "formats/camera"});
   m["player/gpu"] = core;
   m["player/view"] = assets;
   m["player/walk"] = plus(assets, {"formats/camera", "formats/pack"});
@@ -125,7 +127,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
   m["player/session"] =
       plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});
-  m["player/options"] = plus(m["player/session"], {"player/session"});
+  m["player/options"] = plus(m["player/session"], {"formats/cli", "player/session"});
   m["player/output"] =
       plus(m["player/options"], {"player/options", "formats/image", "formats/metrics", "formats/camera"});
   m["player/panel"] = plus(m["player/options"], {"player/options", "player/survey"});
@@ -152,6 +154,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"GLFW/", {"player/panel", "player/window"}},
     {"imgui", {"player/panel"}},
     {"backends/imgui", {"player/panel"}},
+    {"CLI/", {"formats/cli", "formats/inspect", "scenes"}},
     {"epoxy/",
      {"player/gpu", "player/loading", "player/maps", "player/scene", "player/movers", "player/reflections",
       "player/survey", "player/passes", "player/window", "player/app"}},
@@ -210,6 +213,24 @@ TEST(Layers, TheCheckerSeesAForbiddenInclude) {
   EXPECT_NE(objection("player/scene", "bake/jobs/context.h"), "");
   EXPECT_NE(objection("bake/radiosity", "embree3/rtcore.h"), "");
   EXPECT_EQ(objection("bake/radiosity", "bake/trace/accel.h"), "");
+}
+
+// But for formats/core/threads, which is part of core.
+TEST(Layers, FoldersOfSourcesAreInTheTable) {
+  for (const char* top : {"formats", "bake", "player", "scenes", "tools"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      const std::string folder = fs::relative(entry.path().parent_path(), kRoot).string();
+      if (is_source(entry.path()) && folder != "formats/core/threads")
+        EXPECT_TRUE(kArrows.contains(folder)) << entry.path();
+    }
+}
+
+TEST(Layers, FoldersOfTheTableAreThere) {
+  for (const auto& [folder, allowed] : kArrows) {
+    EXPECT_TRUE(fs::is_directory(kRoot / folder)) << folder;
+    for (const std::string& target : allowed)
+      EXPECT_TRUE(fs::is_directory(kRoot / target)) << folder << " to " << target;
+  }
 }
 
 TEST(Layers, IncludesFollowTheArrows) {
@@ -274,20 +295,13 @@ TEST(Layers, TypeNamesAreDeclaredOnce) {
   }
 }
 
-TEST(Layers, FilesAndFoldersStaySmall) {
-  std::map<std::string, int> sources;
-  each_source([&](const std::string& folder, const fs::path& path) {
-    ++sources[folder];
+TEST(Layers, FilesStaySmall) {
+  each_source([&](const std::string&, const fs::path& path) {
     std::ifstream in(path);
     int lines = 0;
     for (std::string line; std::getline(in, line);) ++lines;
     EXPECT_LE(lines, 400) << path << " is two concepts";
   });
-  for (const auto& [folder, count] : sources) EXPECT_LE(count, 16) << folder << " holds more than 16 sources";
-  std::map<fs::path, int> shaders;
-  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "shaders"))
-    if (entry.is_regular_file()) ++shaders[entry.path().parent_path()];
-  for (const auto& [folder, count] : shaders) EXPECT_LE(count, 16) << folder;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
     if (is_source(entry.path())) {
       std::ifstream in(entry.path());

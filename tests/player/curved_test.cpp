@@ -7,8 +7,8 @@
 #include "formats/camera/camera.h"
 #include "formats/core/half.h"
 #include "formats/core/octahedral.h"
-#include "player/maps/surround_march.h"
 #include "tests/player/frame_fixture.h"
+#include "tests/player/twins/surround_march.h"
 
 namespace oriel {
 namespace {

@@ -45,6 +45,7 @@ TEST_F(Elements, AResidualMapWipesNothing) {
   Pack pack = mirror_pack({{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, 32);
   pack.reflectors[0].elements_x = 2;
   pack.radiance_maps[0].upper.x = pack.radiance_maps[1].lower.x = pack.radiance_maps[2].upper.x = 0;
+  pack.radiance_maps[1].element = 1;
   pack.radiance_maps[2].residual = true;
   pack.radiance_maps[2].valid.assign(32 * 32, 0);
   const Picture p = draw_m(pack, camera_at({0, 0, 1}));

@@ -1,5 +1,5 @@
 // Marching reflected rays through radiance maps: against closed-form geometry, and the shader against its twin.
-#include "player/maps/march.h"
+#include "tests/player/twins/march.h"
 
 #include <gtest/gtest.h>
 

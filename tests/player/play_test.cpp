@@ -18,7 +18,7 @@ using namespace testing;
 TEST_F(Play, UsageErrors) {
   EXPECT_TRUE(ends(run("--help"), 0, "Exit codes"));
   EXPECT_TRUE(ends(run("--version"), 0, "oriel-play"));
-  EXPECT_TRUE(ends(run(""), 1, "required"));
+  EXPECT_TRUE(ends(run(""), 1, "found no PACK"));
   EXPECT_TRUE(ends(run("tiny.oriel --no-such-option"), 1, "--no-such-option"));
   EXPECT_TRUE(ends(run("tiny.oriel --offscreen"), 1, "-o"));
   EXPECT_TRUE(ends(run("tiny.oriel -o a.png"), 1, "--offscreen"));

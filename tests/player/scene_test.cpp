@@ -158,8 +158,9 @@ TEST(SelectMaps, WeightsAreContinuous) {
   }
 }
 
-TEST(SelectMaps, ElementsAreTheMapsRectangles) {
+TEST(SelectMaps, MapsKnowTheirElements) {
   auto maps = maps_from({{0, 0, -1}, {0, 0, -2}, {0, 0, -1}});
+  maps[2].element = 1;
   maps[2].lower = {1, -1};
   maps[2].upper = {3, 1};
   Reflector reflector;
@@ -295,23 +296,21 @@ TEST(CheckDrawable, KernelsAndReflectancesFitTheDevice) {
   };
   EXPECT_EQ(found([](Pack&) {}), "");
   const auto has = [](const std::string& text) { return testing::HasSubstr(text); };
-  EXPECT_THAT(found([](Pack& p) { p.kernels[0].weights.pop_back(); }), has("kernel 0: found 8 values, expected 9"));
-  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 3; }),
-              has("kernel 0: slice 0: found 1 values, expected 9"));
-  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 5; }), has("slice 0: found 5x5 texels, expected at most"));
-  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices[1].cos_theta = 0; }), has("slice 1: found cosine 0"));
-  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices[0].cos_theta = NAN; }), has("slice 0: found cosine nan"));
-  EXPECT_THAT(found([](Pack& p) {
-                for (int i = 2; i < 5; ++i)
-                  p.kernels[0].slices.insert(p.kernels[0].slices.end() - 1, p.kernels[0].slices[0]);
-                for (int i = 0; i < 5; ++i)
-                  p.kernels[0].slices[static_cast<std::size_t>(i)].cos_theta = 0.2f * float(i);
-              }),
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slice_size = 5; }), has("kernel 0: found 5 texels, expected at most 4"));
+  EXPECT_THAT(found([](Pack& p) { p.kernels[0].slices.resize(5, p.kernels[0].slices[0]); }),
               has("kernel 0: found 5 slices, expected at most 4"));
-  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].table.clear(); }), has("Fresnel map 0: found 0x1"));
-  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].table.resize(5); }), has("Fresnel map 0: found 5x1"));
-  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].sphere_size = 2; }), has("Fresnel map 0: found 0 values"));
+  EXPECT_THAT(found([](Pack& p) { p.fresnel_maps[0].table.resize(5); }), has("Fresnel map 0: found 5 texels"));
   EXPECT_THAT(found([](Pack& p) { p.fresnel_maps.resize(5, p.fresnel_maps[0]); }), has("Fresnel maps: found 5"));
+  EXPECT_THAT(found([](Pack& p) {
+                p.surround_maps.resize(1);
+                p.surround_maps[0].size = 2;
+              }),
+              has("surround map 0: found 7 texels"));
+  EXPECT_THAT(found([](Pack& p) {
+                p.lightmaps.resize(2);
+                p.lightmaps[1].height = 8;
+              }),
+              has("lightmap 1: found 8 texels"));
 }
 
 TEST(KernelTaps, AMirrorIsOneTap) {

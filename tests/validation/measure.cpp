@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/lux/illuminance.h"
-#include "bake/run/stages/baked_light.h"
+#include "bake/run/baked_light.h"
 #include "formats/core/check.h"
 
 namespace oriel::validation {

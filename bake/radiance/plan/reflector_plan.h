@@ -14,7 +14,7 @@ struct ElementPlan {
   double weight = 0;             // of its samples
 };
 inline void fields(Archive& archive, ElementPlan& e) {
-  archive(e.window.lower, e.window.upper, e.candidates, e.choices, e.choice, e.weight);
+  archive(e.window.lower, e.window.upper, e.window.index, e.candidates, e.choices, e.choice, e.weight);
 }
 
 struct ReflectorPlan {

@@ -21,10 +21,6 @@ bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
          pixel.y < static_cast<float>(map.height);
 }
 
-bool same_element(const RadianceMap& a, const RadianceMap& b) {
-  return a.lower == b.lower && a.upper == b.upper;
-}
-
 bool sees(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
   return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
 }
@@ -148,7 +144,7 @@ class ResidualMaker {
     ORIEL_TRY(const auto missing, find_missing(reflector, maps));
     const RadianceMap* host = best_host(maps, missing);
     if (!host) return std::nullopt;
-    const Element element{host->lower, host->upper};
+    const Element element{host->lower, host->upper, host->element};
     const std::uint32_t wanted = std::min(options_.max_resolution, std::max(host->width, host->height));
     const std::uint32_t resolution = fitting_resolution(element, wanted, bytes);
     reduced += resolution < wanted;
@@ -203,8 +199,8 @@ class ResidualMaker {
 void append_with_residual(std::span<RadianceMap> maps, std::vector<RadianceMap> residual,
                           std::vector<RadianceMap>& all) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const bool ends_element = i + 1 == maps.size() || !same_element(maps[i], maps[i + 1]);
-    const bool is_next = !residual.empty() && ends_element && same_element(maps[i], residual[0]);
+    const bool ends_element = i + 1 == maps.size() || maps[i].element != maps[i + 1].element;
+    const bool is_next = !residual.empty() && ends_element && maps[i].element == residual[0].element;
     all.push_back(std::move(maps[i]));
     if (is_next) all.push_back(std::move(residual[0])), residual.clear();
   }

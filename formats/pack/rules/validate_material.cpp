@@ -81,7 +81,7 @@ void validate_slices(std::size_t i, const BrdfKernel& kernel, IssueList& list) {
 void validate_kernels(const Pack& pack, IssueList& list) {
   list.in_section(kKernelSection);
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) validate_kernel(i, pack.kernels[i], list);
-  list.in_section(kKernelSliceSection);
+  list.in_section(kKernelSection);
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) validate_slices(i, pack.kernels[i], list);
 }
 
@@ -100,7 +100,7 @@ void validate_fresnel_maps(const Pack& pack, IssueList& list) {
     list.each(603, "Fresnel table entries", map.table, share, text3, "0 to 1");
     list.each(603, "Fresnel sphere texels", map.sphere, share, text3, "0 to 1");
   }
-  list.in_section(kFresnelFactorSection);
+  list.in_section(kFresnelSection);
   for (std::size_t i = 0; i < pack.fresnel_maps.size(); ++i) {
     const std::vector<Vec3>& factor = pack.fresnel_maps[i].factor;
     if (factor.size() == 1 || factor.size() > kMaxSide)

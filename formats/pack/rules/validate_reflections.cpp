@@ -37,41 +37,46 @@ bool is_convex_polygon(const std::vector<Vec3>& corners) {
   return true;
 }
 
-// A map's reflector and element, then its eye; floats by their bits, so that NaN has an order too.
-using MapKey = std::array<std::uint32_t, 8>;
+using ElementKey = std::pair<std::uint32_t, std::uint32_t>;  // reflector and element
+// And eye; floats by their bits, so that NaN has an order too.
+using ViewKey = std::array<std::uint32_t, 5>;
 
-MapKey view_key(const RadianceMap& map) {
+ViewKey view_key(const RadianceMap& map) {
   const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v + 0.0f); };  // -0 as 0
-  return {map.reflector,     bits(map.lower.x), bits(map.lower.y), bits(map.upper.x),
-          bits(map.upper.y), bits(map.eye.x),   bits(map.eye.y),   bits(map.eye.z)};
-}
-
-MapKey element_key(const RadianceMap& map) {
-  MapKey key = view_key(map);
-  std::fill(key.begin() + 5, key.end(), 0);
-  return key;
+  return {map.reflector, map.element, bits(map.eye.x), bits(map.eye.y), bits(map.eye.z)};
 }
 
 }  // namespace
 
 void validate_elements(const Pack& pack, IssueList& list) {
-  std::set<MapKey> views;
-  std::map<MapKey, std::size_t> counts;  // maps by element
+  std::set<ViewKey> views;
+  std::map<ElementKey, std::size_t> counts;  // maps by element
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
     if (!map.residual) views.insert(view_key(map));
-    const MapKey key = element_key(map);
-    std::size_t& count = counts[key];
-    if (count > 0 && key != element_key(pack.radiance_maps[i - 1]))
+    std::size_t& count = counts[{map.reflector, map.element}];
+    const RadianceMap* before = i > 0 ? &pack.radiance_maps[i - 1] : nullptr;
+    const bool beside = before != nullptr && before->reflector == map.reflector && before->element == map.element;
+    if (count > 0 && !beside)
       list.error(419, "comes after the maps of another element, expected it beside those of its own");
+    if (beside && (before->lower != map.lower || before->upper != map.upper))
+      list.error(425, "found rectangle {} to {}, expected {} to {} as the map before, of the same element",
+                 text_of(map.lower), text_of(map.upper), text_of(before->lower), text_of(before->upper));
     if (++count == kMostMapsPerElement + 1)
       list.warning(420, "is one of more than {} maps of an element: so many are shown at once", kMostMapsPerElement);
   }
-  list.in_section(kResidualSection);
-  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i)
-    if (pack.radiance_maps[i].residual && !views.contains(view_key(pack.radiance_maps[i])))
-      list.error(418, "radiance map {} is a residual, but no other map has its eye and element", i);
+  for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
+    const RadianceMap& map = pack.radiance_maps[i];
+    list.in_section(kRadianceMapSection, i);
+    if (map.residual && !views.contains(view_key(map)))
+      list.error(418, "is a residual, but no other map has its eye and element");
+    if (map.reflector >= pack.reflectors.size()) continue;  // another issue
+    const Reflector& reflector = pack.reflectors[map.reflector];
+    const std::uint64_t elements = std::uint64_t{reflector.elements_x} * reflector.elements_y;
+    if (map.element >= elements)
+      list.error(426, "found element {}, expected less than {} of reflector {}", map.element, elements, map.reflector);
+  }
 }
 
 void validate_emitters(const Pack& pack, IssueList& list) {
@@ -83,7 +88,7 @@ void validate_emitters(const Pack& pack, IssueList& list) {
     if (!not_negative(e.radiance))
       list.error(422, "emitter {}: found radiance {}, expected finite numbers from 0 up", i, text_of(e.radiance));
   }
-  list.in_section(kReflectorEmitterSection);
+  list.in_section(kReflectorSection);
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const Reflector& r = pack.reflectors[i];
     const auto bad = std::count_if(r.emitters.begin(), r.emitters.end(),
@@ -103,7 +108,7 @@ void validate_emitters(const Pack& pack, IssueList& list) {
 }
 
 void validate_kernel_fits(const Pack& pack, IssueList& list) {
-  list.in_section(kKernelFitSection);
+  list.in_section(kKernelSection);
   for (std::size_t i = 0; i < pack.kernels.size(); ++i) {
     const BrdfKernel& kernel = pack.kernels[i];
     if (!kernel.fits.empty() && kernel.fits.size() != kernel.slices.size())

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bake/plan/doctor/doctor.h"
+#include "bake/plan/doctor.h"
 #include "bake/plan/plan.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/scene/gltf_maker.h"

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "bake/run/pipeline.h"
-#include "bake/run/stages/prepare.h"
-#include "bake/run/stages/reflections.h"
+#include "bake/run/prepare.h"
+#include "bake/run/reflections.h"
 #include "formats/core/file.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"

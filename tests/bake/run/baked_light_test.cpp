@@ -1,5 +1,5 @@
 // What surfaces show of the baked light.
-#include "bake/run/stages/baked_light.h"
+#include "bake/run/baked_light.h"
 
 #include <gtest/gtest.h>
 

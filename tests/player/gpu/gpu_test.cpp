@@ -12,8 +12,8 @@
 #include "formats/lobes/lobe_light.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
-#include "player/maps/map_point.h"
 #include "player/scene/textures.h"
+#include "tests/player/twins/map_point.h"
 
 namespace oriel {
 namespace {

@@ -1,0 +1,118 @@
+#include "bake/cli/session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "formats/core/file.h"
+
+namespace oriel {
+namespace {
+
+// What the signal handlers need; set before they are installed.
+Context* g_context = nullptr;
+OnStop g_on_stop = OnStop::kStop;
+char g_temporary[4096] = "";
+
+// Stages look at the flag many times a second, but libraries' long calls do not: after a second the process ends
+// itself. That loses nothing: a pack exists only once it is renamed into place.
+void on_alarm(int) {
+  ::unlink(g_temporary);
+  static constexpr char kText[] = "\noriel-bake: stopped; nothing was written\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+  ::_exit(static_cast<int>(ErrorCode::kStopped));
+}
+
+void on_stop(int) {
+  if (g_on_stop == OnStop::kFinish && g_context->finishable && !g_context->finish.exchange(true)) {
+    static constexpr char kText[] = "\noriel-bake: finishing with what is there; again to stop at once\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+    return;
+  }
+  g_context->stop.store(true);
+  if (g_on_stop != OnStop::kKeep) ::alarm(1);
+}
+
+}  // namespace
+
+ProgressPrinter::Style BakeSession::style() const {
+  return json_log                  ? ProgressPrinter::Style::kJson
+         : quiet                   ? ProgressPrinter::Style::kQuiet
+         : ::isatty(STDERR_FILENO) ? ProgressPrinter::Style::kBar
+                                   : ProgressPrinter::Style::kPlain;
+}
+
+void BakeSession::begin() {
+  context.threads = threads;
+  context.seed = seed;
+  printer.emplace(style());
+  context.progress = [this](const Progress& progress) { (*printer)(progress); };
+  context.warn = [this](const std::string& message) { printer->warning(message); };
+}
+
+std::vector<Option> run_options(BakeSession& session) {
+  constexpr const char* kRun = "Run";
+  return {
+      {"--threads", kRun, "Threads; 0: all CPUs. The result does not depend on it", number(session.threads, 0, 1024),
+       Use::kEveryday},
+      {"--seed", kRun, "Of every random number: another seed gives another, equally good, estimate",
+       number(session.seed, 0, 18446744073709551615.0)},
+      {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
+      {"--json-log",
+       kRun,
+       "Progress, warnings and errors as JSON lines on stderr",
+       flag(session.json_log),
+       Use::kRare,
+       {},
+       {},
+       {"--quiet"}},
+  };
+}
+
+Option scene_argument(std::filesystem::path& scene) {
+  return {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(scene, "FILE"),
+          Use::kRequired};
+}
+
+void stop_on_signals(Context& context, const std::filesystem::path& output, OnStop on_stop_does) {
+  g_context = &context;
+  g_on_stop = on_stop_does;
+  const std::string temporary = output.empty() ? "" : temporary_name(output).string();
+  std::fill(std::begin(g_temporary), std::end(g_temporary), '\0');
+  if (temporary.size() < sizeof(g_temporary)) std::copy(temporary.begin(), temporary.end(), g_temporary);
+  std::signal(SIGALRM, on_alarm);
+  std::signal(SIGINT, on_stop);
+  std::signal(SIGTERM, on_stop);
+}
+
+std::string text_of_error(const Error& error) {
+  return error.code == ErrorCode::kStopped && g_on_stop != OnStop::kKeep ? "stopped; nothing was written"
+                                                                         : error.text();
+}
+
+std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& scene, const ImportOptions& import) {
+  std::vector<std::filesystem::path> inputs{scene, import.sky_file};
+  for (const auto& [node, file] : import.ies) inputs.push_back(file);
+  return inputs;
+}
+
+Status check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  if (!fs::is_directory(folder, ec))
+    return fail(ErrorCode::kIo, output.string(), "there is no folder {}", folder.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    return fail(ErrorCode::kIo, output.string(), "the folder {} cannot be written: {}", folder.string(),
+                std::strerror(errno));
+  if (fs::is_directory(output, ec)) return fail(ErrorCode::kIo, output.string(), "is a folder, expected a file name");
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(output, input, ec))
+      return fail(ErrorCode::kUsage, output.string(), "is an input, which would be overwritten: expected another name");
+  return {};
+}
+
+}  // namespace oriel

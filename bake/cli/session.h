@@ -1,0 +1,48 @@
+// What the commands of oriel-bake share while one of them runs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/cli/progress.h"
+#include "bake/scene/import.h"
+#include "formats/cli/command.h"
+
+namespace oriel {
+
+struct BakeSession {
+  Context context;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  bool quiet = false, json_log = false;
+  std::optional<ProgressPrinter> printer;
+  std::string less_memory = "a larger --texel, fewer --views or a smaller --memory";  // what to try
+
+  // Threads, seed and progress of the context as the options have them.
+  void begin();
+  ProgressPrinter::Style style() const;
+  void note(const std::string& text) { printer->note(text); }
+};
+
+// Threads, seed, progress.
+std::vector<Option> run_options(BakeSession& session);
+Option scene_argument(std::filesystem::path& scene);
+
+// What the first SIGINT or SIGTERM does. A second one, or a second later, ends the program.
+enum class OnStop {
+  kFinish,  // ends the bake with what is there, if that makes a pack
+  kStop,    // stops: nothing is written
+  kKeep,    // stops once the part under way is done, which is kept
+};
+// output: the file that is written, whose temporary is removed; may be empty.
+void stop_on_signals(Context& context, const std::filesystem::path& output, OnStop on_stop);
+// What a user is told of an error.
+std::string text_of_error(const Error& error);
+
+std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& scene, const ImportOptions& import);
+// Fails before hours of work where their result could not be written, or would replace what is read.
+Status check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace oriel

@@ -1,0 +1,146 @@
+#include "bake/plan/doctor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace oriel {
+namespace {
+
+constexpr double kSeenBack = 0.002;     // of what eyes see, before a wall is worth a word
+constexpr float kMostAlbedo = 0.9f;     // fresh snow; white paint has 0.85
+constexpr double kCoarsestStep = 0.01;  // of positions, in texels
+constexpr double kMostPages = 16;       // of texels
+constexpr double kLeastTexels = 100;    // of a whole scene
+
+struct ImportRule {
+  const char* text;  // in the importer's warning
+  FindingKind kind;
+  const char *expected, *fix;
+};
+constexpr std::array kImportRules{
+    ImportRule{"on the back of", FindingKind::kFlippedNormals,
+               "normals on the side from which corners run counter-clockwise",
+               "recalculate normals outside (Blender: Shift+N) and export again"},
+    ImportRule{"face against their neighbours", FindingKind::kFlippedNormals, "neighbouring triangles that face alike",
+               "recalculate normals outside (Blender: Shift+N), or bake with --double-sided"},
+    ImportRule{"degenerate", FindingKind::kDegenerate, "triangles with an area, each once",
+               "merge by distance and delete degenerate faces"},
+    ImportRule{"duplicates", FindingKind::kDegenerate, "triangles with an area, each once", "delete the copies"},
+    ImportRule{"too small or thin", FindingKind::kDegenerate, "triangles larger than the rounding of where they stand",
+               "merge by distance, or move the scene to its origin"},
+    ImportRule{"shared by more than two", FindingKind::kDegenerate, "edges of two triangles",
+               "delete faces inside the body, or split it"},
+};
+
+// 'surface "wall": text' as "wall" and the text.
+Finding split_warning(const std::string& warning) {
+  Finding f;
+  const std::size_t colon = warning.find(": ");
+  f.object = colon == std::string::npos ? "file" : warning.substr(0, colon);
+  f.found = colon == std::string::npos ? warning : warning.substr(colon + 2);
+  return f;
+}
+
+}  // namespace
+
+const char* name_of(FindingKind kind) {
+  switch (kind) {
+    case FindingKind::kOneSidedWall:
+      return "one-sided wall";
+    case FindingKind::kLightmapUv:
+      return "lightmap coordinates";
+    case FindingKind::kFlippedNormals:
+      return "flipped normals";
+    case FindingKind::kAlbedo:
+      return "albedo";
+    case FindingKind::kLightUnits:
+      return "units of light";
+    case FindingKind::kFarFromOrigin:
+      return "far from origin";
+    case FindingKind::kTexelDensity:
+      return "texel density";
+    case FindingKind::kDegenerate:
+      return "degenerate triangles";
+    case FindingKind::kNoLight:
+      return "no light";
+    case FindingKind::kImport:
+      return "import";
+  }
+  return "";
+}
+
+std::vector<Finding> findings_of_import(std::span<const std::string> warnings) {
+  std::vector<Finding> findings;
+  for (const std::string& warning : warnings) {
+    Finding f = split_warning(warning);
+    const auto rule = std::find_if(kImportRules.begin(), kImportRules.end(),
+                                   [&](const ImportRule& r) { return warning.find(r.text) != std::string::npos; });
+    const bool known = rule != kImportRules.end();
+    f.kind = known ? rule->kind : FindingKind::kImport;
+    f.expected = known ? rule->expected : "a file that is imported as it stands";
+    f.fix = known ? rule->fix : "mend it where the file was made, or accept what is said";
+    findings.push_back(std::move(f));
+  }
+  return findings;
+}
+
+void check_walls(const Scene& scene, const ViewShares& views, std::vector<Finding>& findings) {
+  for (const Surface& surface : scene.surfaces) {
+    double back = 0;
+    for (std::uint32_t i = 0; i < surface.triangle_count; ++i) back += views.back[surface.first_triangle + i];
+    if (back < kSeenBack) continue;
+    findings.push_back({FindingKind::kOneSidedWall, surface.name,
+                        fmt::format("{:.3g} % of what people see is its back, which is black", 100 * back),
+                        "walls that show their front wherever people are",
+                        fmt::format("turn it over, mark material '{}' double-sided, or bake with --double-sided",
+                                    scene.materials[surface.material].name)});
+  }
+}
+
+void check_albedos(const Scene& scene, std::span<const MaterialSummary> materials, std::vector<Finding>& findings) {
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const float albedo = max_component(materials[m].diffuse);
+    if (scene.materials[m].unlit || materials[m].area_m2 <= 0 || albedo <= kMostAlbedo) continue;
+    findings.push_back({FindingKind::kAlbedo, scene.materials[m].name, fmt::format("diffuse albedo {:.3g}", albedo),
+                        fmt::format("at most {:.2g}: white paint has 0.85, fresh snow 0.9", kMostAlbedo),
+                        fmt::format("multiply its base colour by {:.2g}; bounces take {:.0f} times longer to fade than "
+                                    "at 0.8",
+                                    0.8 / albedo, std::min(1e3, std::log(0.8) / std::log(std::min(0.9999f, albedo))))});
+  }
+}
+
+void check_texels(const Scene& scene, const AtlasOptions& atlas, double area_m2, std::vector<Finding>& findings) {
+  const glm::dvec3 a = glm::abs(scene.origin);
+  const double distance = std::max({a.x, a.y, a.z});
+  const double texel = atlas.resolution > 0 ? std::sqrt(area_m2) / atlas.resolution : atlas.texel_m;
+  if (const double step = distance * 0x1p-23; step > kCoarsestStep * texel)
+    findings.push_back(
+        {FindingKind::kFarFromOrigin, "scene",
+         fmt::format("{:.4g} m from the origin, where 32-bit coordinates step by {:.2g} mm", distance, 1000 * step),
+         fmt::format("steps of at most {:.2g} mm, a hundredth of a texel", 10 * texel),
+         "move the scene to its origin before it is exported"});
+  const double texels = area_m2 / (texel * texel), page = double{1.0f * atlas.max_page} * atlas.max_page;
+  if (texels > kMostPages * page)
+    findings.push_back(
+        {FindingKind::kTexelDensity, "--texel",
+         fmt::format("{:.3g} m asks for {:.3g} million texels", texel, texels * 1e-6),
+         fmt::format("at most {:.3g} million: {} pages of {}²", kMostPages * page * 1e-6, kMostPages, atlas.max_page),
+         fmt::format("--texel {:.2g}m", std::sqrt(area_m2 / (kMostPages * page)))});
+  if (texels < kLeastTexels)
+    findings.push_back(
+        {FindingKind::kTexelDensity, "--texel", fmt::format("{:.3g} m gives {:.0f} texels in all", texel, texels),
+         fmt::format("at least {:.0f}: a scene of {:.3g} m² shows no shadow otherwise", kLeastTexels, area_m2),
+         fmt::format("--texel {:.2g}m, and see that the scene is in metres", std::sqrt(area_m2 / 1e4))});
+}
+
+void check_lightmap_uv(const Scene& scene, const AtlasOptions& atlas, std::vector<Finding>& findings) {
+  if (atlas.source != AtlasOptions::Source::kUv1) return;
+  for (const Surface& surface : scene.surfaces)
+    if (!surface.has_uv1 && !scene.materials[surface.material].unlit)
+      findings.push_back({FindingKind::kLightmapUv, surface.name, "no TEXCOORD_1",
+                          "lightmap coordinates on every surface, as --atlas uv1 asks for",
+                          "unwrap it into a second UV layer; automatic charts are used for it otherwise"});
+}
+
+}  // namespace oriel

@@ -1,0 +1,106 @@
+#include "bake/run/baked_light.h"
+
+#include <algorithm>
+
+#include "bake/trace/albedo.h"
+#include "bake/trace/brdf/specular.h"
+#include "formats/assets/bilinear.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFewerForMirrors = 8;  // whose rays only scatter where they arrive
+constexpr int kMostLobes = 8;                  // one after the other: in a closed pipe of metal paths never end
+
+Vec2 uv_at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) {
+  const auto& corners = atlas.uv[triangle];
+  return corners[0] + barycentric.x * (corners[1] - corners[0]) + barycentric.y * (corners[2] - corners[0]);
+}
+
+// The direction there, bilinear.
+Vec3 direction_at(const LightmapPage& page, const Vec2& uv) {
+  const TexelsAround around = texels_around(uv, page.width, page.height);
+  Vec3 d(0);
+  for (std::size_t k = 0; k < around.texel.size(); ++k) d += around.weight[k] * page.direction[around.texel[k]];
+  return d;
+}
+
+// Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
+Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface, bool wide_lobe) {
+  const Scene& scene = baked.accel.scene();
+  if (scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material].unlit)
+    return surface.shade.base_color;
+  const Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
+  if (!seen.hit.front) return light;  // lit backs have triangles of their own
+  const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye));
+  const Vec3 share = surface.shade.diffuse * (1 - max_component(r)) + (wide_lobe ? r : Vec3(0));
+  const Vec3 normal = geometry_at(scene, seen.hit, -seen.towards_eye).normal;
+  const Vec3 e =
+      baked_irradiance(baked.atlas, baked.pages, surface.triangle, surface.barycentric, surface.normal, normal);
+  return light + share / kPi * e;
+}
+
+// What the specular lobes send towards the eye.
+Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3& towards_eye, std::uint32_t paths,
+                std::uint64_t seed, std::uint64_t& rays) {
+  const Transport transport{baked.accel, baked.lights, {.max_bounces = kMostLobes}};
+  const UVec2 place = glm::floatBitsToUint(surface.barycentric);
+  const std::uint64_t stream = mix64(mix64(surface.triangle) ^ (std::uint64_t{place.x} << 32u | place.y));
+  Vec3 sum(0);
+  const OnDiffuse add = [&](const DiffuseVertex& v) {
+    if (!v.front) return 1.0f;
+    const Vec3 normal = geometric_normal(baked.accel.scene(), v.triangle);
+    sum += v.weight / kPi * baked_irradiance(baked.atlas, baked.pages, v.triangle, v.barycentric, normal, normal);
+    return 1.0f;
+  };
+  for (std::uint32_t i = 0; i < paths; ++i) {
+    Sampler sampler(seed, stream, i);
+    const PathLight light = specular_light(transport, surface, towards_eye, sampler, rays, add);
+    sum += light.scattered + light.lamps;
+  }
+  return sum / static_cast<float>(paths);
+}
+
+// Whether the lobe is to be traced: of glossy reflectors, and of all that are no planar ones but reflect more than
+// their diffuse share. Dark frames beside a window, bulbs and rough metals shine where the lamp is ahead, ten times as
+// bright as even light would have them.
+bool shows_lobe(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface) {
+  if (seen.mirror || seen.planar || seen.glossy) return seen.glossy;
+  const Scene& scene = baked.accel.scene();
+  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material];
+  const float r = max_component(reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye)));
+  return seen.hit.front && !material.unlit && r > max_component(surface.shade.diffuse) * (1 - r);
+}
+
+}  // namespace
+
+Vec3 baked_irradiance(const Atlas& atlas, std::span<const LightmapPage> pages, std::uint32_t triangle,
+                      const Vec2& barycentric, const Vec3& tilted, const Vec3& normal) {
+  const std::int32_t index = atlas.page[triangle];
+  if (index < 0) return Vec3(0);
+  const LightmapPage& page = pages[static_cast<std::size_t>(index)];
+  const Vec2 uv = uv_at(atlas, triangle, barycentric);
+  const Vec3 e = irradiance_at(page, uv);
+  if (page.direction.empty() || tilted == normal) return e;
+  return e * directional_ratio(direction_at(page, uv), tilted, normal);
+}
+
+Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
+  return shown_light(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m),
+                     !seen.mirror);
+}
+
+std::uint32_t lobe_paths(double pixels) {
+  constexpr double kFewest = 4, kMost = 32, kAll = 24e6;
+  return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
+}
+
+Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
+                               std::uint64_t seed, std::uint64_t& rays) {
+  const SurfacePoint surface = surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m);
+  if (!shows_lobe(baked, seen, surface)) return shown_light(baked, seen, surface, !seen.mirror);
+  if (surface.shade.alpha < kMirrorAlpha && surface.shade.coat == 0) paths = std::max(1u, paths / kFewerForMirrors);
+  return shown_light(baked, seen, surface, false) + lobe_light(baked, surface, seen.towards_eye, paths, seed, rays);
+}
+
+}  // namespace oriel

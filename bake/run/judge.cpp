@@ -1,0 +1,97 @@
+#include "bake/run/judge.h"
+
+#include <limits>
+#include <optional>
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiance/reproject.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it
+
+// Mean of the pixels around a place that hold the same surface, by their bilinear weights; none where none does.
+std::optional<Vec3> colour_at(const RadianceMap& map, const ReflectedSample& s) {
+  const Vec2 pixel = map_pixel(map, s.image.w == 0 ? map.eye + Vec3(s.image) : Vec3(s.image)) - 0.5f;
+  const Vec2 corner = glm::floor(pixel);
+  const float disparity = s.image.w == 0 ? 0 : disparity_of(map, s.image.z);
+  Vec3 sum(0);
+  float weight = 0;
+  for (const Vec2& step : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
+    const Vec2 at = corner + step;
+    if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(map.width) || at.y >= static_cast<float>(map.height))
+      continue;
+    const std::size_t i = static_cast<std::size_t>(at.y) * map.width + static_cast<std::size_t>(at.x);
+    if (map.valid[i] == 0 || std::abs(map.disparity[i] - disparity) > kSameDisparity * std::max(disparity, 1e-3f))
+      continue;
+    const Vec2 near = 1.0f - glm::abs(at - pixel);
+    const float w = std::max(near.x, 0.0f) * std::max(near.y, 0.0f) + 1e-6f;
+    sum += w * map.radiance[i], weight += w;
+  }
+  if (weight == 0) return {};
+  return sum / weight;
+}
+
+// What the maps show of a sample: that which is sharpest there first, residual maps last.
+std::optional<Vec3> shown(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
+                          const ReflectedSample& s) {
+  std::optional<Vec3> best;
+  float sharpest = std::numeric_limits<float>::infinity();
+  for (const RadianceMap& map : maps) {
+    const float needed = map.residual
+                             ? std::numeric_limits<float>::max()
+                             : needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s) /
+                                   static_cast<float>(std::max(map.width, map.height));
+    if (!(needed < sharpest)) continue;
+    if (const auto colour = colour_at(map, s)) best = colour, sharpest = needed;
+  }
+  return best;
+}
+
+struct Judged {
+  Vec3 traced{0};
+  std::optional<Vec3> shown;
+};
+
+}  // namespace
+
+Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                                   std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
+                                   const OutgoingRadiance& outgoing, Context& context,
+                                   std::atomic<std::uint64_t>& rays) {
+  const Reflector& r = surroundings.reflectors()[reflector].reflector;
+  std::vector<Judged> judged(samples.size());
+  ORIEL_TRY_VOID(parallel_for(context, "", samples.size(), [&](std::size_t i) {
+    const ReflectedSample& s = samples[i];
+    const Vec3 along = glm::normalize(s.on_plane - Vec3(s.eye.x, s.eye.y, -s.eye.z));
+    const SeenLight seen = see(surroundings, outgoing, reflector, pack_from_reflector(r, s.on_plane),
+                               glm::normalize(Mat3(r.pack_from_reflector) * along));
+    rays += seen.rays;
+    judged[i] = {seen.radiance, shown(surroundings, maps, s)};
+  }));
+  ReflectedError e;
+  DVec3 mean(0);
+  double total = 0, with_image = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) mean += double{samples[i].weight} * DVec3(judged[i].traced);
+  for (const ReflectedSample& s : samples) total += s.weight;
+  e.samples = samples.size();
+  if (!(total > 0)) return e;
+  mean /= total;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const DVec3 truth(judged[i].traced), image(judged[i].shown.value_or(Vec3(0))), off = image - truth;
+    const DVec3 brighter = glm::max(truth, image), scale = brighter * brighter + 1e-4 * mean * mean;
+    double square = 0;
+    for (int c = 0; c < 3; ++c) square += scale[c] > 0 ? off[c] * off[c] / scale[c] / 3 : 0;
+    e.relative_error += samples[i].weight * square / total;
+    if (!judged[i].shown) continue;
+    with_image += samples[i].weight;
+    e.seen_error += samples[i].weight * square;
+  }
+  e.seen = with_image / total;
+  e.relative_error = std::sqrt(e.relative_error);
+  e.seen_error = with_image > 0 ? std::sqrt(e.seen_error / with_image) : 0;
+  return e;
+}
+
+}  // namespace oriel

@@ -1,0 +1,301 @@
+#include "bake/run/option_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bake/jobs/memory.h"
+#include "bake/run/option_values.h"
+#include "formats/core/text.h"
+
+namespace oriel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char *kLightmap = "Lightmap", *kLight = "Light", *kReflections = "Reflections", *kMovers = "Movers",
+                     *kScene = "Scene";
+
+std::vector<Option> atlas_options(BakeOptions& o) {
+  return {
+      {"--texel", kLightmap,
+       "Finest size of a lightmap texel on a surface. auto: 2.4° from where people see what they see, about 10 cm in "
+       "rooms; what is far or unseen gets larger ones. Smaller texels show finer shadows. Time and size grow with the "
+       "inverse square",
+       or_auto(o.choose_texel, "LENGTH", quantity(o.atlas.texel_m, "", parse_length, length_text)), Use::kEveryday,
+       "texel_m", "atlas.md#texels-where-people-look"},
+      {"--atlas", kLightmap,
+       "Where lightmap coordinates come from: auto (charts of our own) or uv1 (the artist's "
+       "TEXCOORD_1, where overlaps are an error)",
+       choice(o.atlas.source,
+              Names<AtlasOptions::Source>{{"auto", AtlasOptions::Source::kAuto}, {"uv1", AtlasOptions::Source::kUv1}}),
+       Use::kRare, "atlas", "atlas.md"},
+      {"--resolution", kLightmap,
+       "Side of the lightmap page in texels. With --atlas uv1 it is the page that the coordinates are meant for; with "
+       "auto, everything shall fit on one such page",
+       number(o.atlas.resolution, 16, 16384), Use::kRare, "resolution"},
+      {"--max-page", kLightmap, "Largest side of an automatic page. GPUs guarantee 2048, nearly all have 16384",
+       number(o.atlas.max_page, 64, 16384), Use::kRare, "max_page"},
+      {"--memory-limit", kLightmap,
+       "Memory that the bake may take. With --texel auto what is seen least gets larger texels to keep it; a length "
+       "that does not fit is an error that names one that does. Default: half of what is free",
+       memory_limit(o), Use::kRare, "memory_limit"},
+      {"--atlas-time-limit", kLightmap,
+       "Seconds after which the rest of the atlas gets plain charts; the pack then depends on the machine. 0: none",
+       number(o.atlas.time_limit_s, 0, 1e9), Use::kRare, "atlas_time_limit_s"},
+  };
+}
+
+std::vector<Option> radiosity_options(BakeOptions& o) {
+  RadiosityOptions& r = o.radiosity;
+  return {
+      {"--error", kLightmap,
+       "The error asked for, as people see it: root mean square over the pixels that eyes in the scene see, relative, "
+       "dark ones to a tenth of the mean. Steps of 1 to 2 % are what one can just see. Work stops there. Where none is "
+       "given, it also stops when a scene has had its share of rays (a minute or two), with the error stated then",
+       quantity(r.error, "SHARE", parse_fraction, share_text), Use::kEveryday, "error",
+       "radiosity.md#the-error-people-see"},
+      {"--time", kLightmap,
+       "Wall clock of the whole bake. The lightmap is refined for what its other parts leave, reflections get fewer "
+       "pixels where they would take half of it. With --error, whichever comes first. The pack then depends on the "
+       "machine",
+       quantity(o.time_s, "TIME", parse_duration, time_text), Use::kEveryday, "time_s", "plan.md#time"},
+      {"--samples",
+       kLightmap,
+       "Instead of --error: so many rays (cached) or paths (reference) a texel, best a power of two",
+       samples(o),
+       Use::kRare,
+       "samples",
+       {},
+       {"--error"}},
+      {"--verify", kLightmap,
+       "After the lightmap, measure its error on held-out pixels by unbiased paths: with so many of the bake's rays, "
+       "or off. What misses --error by a tenth is refined",
+       quantity(r.verify, "off|SHARE", parse_verify, verify_text), Use::kRare, "verify"},
+      {"--estimator", kLightmap,
+       "How light is computed: cached (bounces kept in the lightmap, one final gather, filtered: some hundred times "
+       "less work) or reference (unbiased paths from every texel, to check the other against)",
+       choice(r.estimator, Names<Estimator>{{"cached", Estimator::kCached}, {"reference", Estimator::kReference}}),
+       Use::kRare, "estimator", "radiosity.md"},
+      {"--reuse-error", kLightmap,
+       "After an edit of the scene: keep the light and the radiance maps of the last whole bake in the cache, with "
+       "these options, where the edit changes them by no more than that, relative. The error that this brings is "
+       "measured and stated. The pack then depends on the cache. Default: all is baked",
+       quantity(r.reuse_error, "SHARE", parse_fraction, share_text), Use::kRare, "reuse_error",
+       "cache.md#an-edit-that-changes-little"},
+      {"--bounces", kLightmap,
+       "Count so many reflections only; 0: all of them. Fewer darken the scene; for comparing with bakers that stop "
+       "there",
+       number(r.bounces, 0, 4096), Use::kRare, "bounces"},
+      {"--hidden-black", kLightmap,
+       "Count the parts of texels that lie inside other geometry as black, as most bakers do, instead of leaving them "
+       "out: dark rims, but comparable",
+       hidden_black(o), Use::kRare, "hidden"},
+      {"--texel-means", kLightmap,
+       "Texels hold the mean of their light, as most bakers have it, instead of values whose interpolation has it when "
+       "it is shown: softer penumbrae, but comparable texel by texel",
+       texel_means(o), Use::kRare, "texel_values"},
+      {"--detail", kLightmap,
+       "Where light changes within texels, at contacts and edges of shadows, the cells between them are divided into "
+       "up "
+       "to so many steps a side; 1: never",
+       detail_steps(o), Use::kRare, "detail", "radiosity.md"},
+      {"--directional", kLightmap,
+       "Lightmaps that know where their light comes from, so that normal maps show: auto (where a material has a "
+       "normal map), on, off. Costs a tenth more variance and about 4 bytes a texel",
+       choice(o.directional,
+              Names<Directional>{{"auto", Directional::kAuto}, {"on", Directional::kOn}, {"off", Directional::kOff}}),
+       Use::kRare, "directional", "conventions.md#directional-lightmaps"},
+  };
+}
+
+std::vector<Option> reflection_options(BakeOptions& o) {
+  return {
+      {"--views",
+       kReflections,
+       "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
+       "element: "
+       "those that show most of what eyes see in it. hemisphere:N are spread evenly, as published",
+       views(o),
+       Use::kEveryday,
+       {},
+       "reflections.md"},
+      {"--memory", kReflections,
+       "Limit of all radiance maps together, at 4 bytes a pixel; those that show least are left out to keep it",
+       both(o, quantity(o.views.memory_bytes, "SIZE", parse_bytes, bytes_text), o.views.memory_bytes,
+            o.planned.memory_bytes),
+       Use::kEveryday, "map_memory"},
+      {"--only", kReflections,
+       "Bake only these, comma-separated: radiosity (always: all else shows its light), radiance (maps behind "
+       "reflectors), material (kernels), transfer (movers, which stand still without it)",
+       parts(o), Use::kEveryday},
+      {"--max-reflectors", kReflections,
+       "Planar reflectors that get radiance maps, the most visible first; each costs memory and frame time",
+       number(o.reflectors.max_reflectors, 0, 4096), Use::kRare, "max_reflectors"},
+      {"--eyes",
+       kReflections,
+       "Whose views texels and reflections are made for: walk (people on the floors that the cameras can walk to), box "
+       "(anywhere in the scene), or a file with lines of x y z",
+       eyes(o),
+       Use::kRare,
+       {},
+       "reflections.md#which-viewpoints"},
+      {"--pvs", kReflections,
+       "Find out which triangles can be seen from where people walk, so that the player draws no others: auto (in "
+       "scenes of 500 000 triangles and more, where it leaves out a quarter), on, off",
+       choice(o.visible_sets, Names<VisibleSetsWanted>{{"auto", VisibleSetsWanted::kAuto},
+                                                       {"on", VisibleSetsWanted::kOn},
+                                                       {"off", VisibleSetsWanted::kOff}}),
+       Use::kRare, "visible_sets", "visibility.md"},
+      {"--orders", kReflections,
+       "Mirrors that a reflection goes by: 1 shows a mirror in a mirror as its diffuse light only",
+       number(o.sight.orders, 1, 16), Use::kRare, "orders"},
+      {"--map-resolution", kReflections,
+       "Longer side of a radiance map in pixels; 0 chooses as few as show it sharp (planned), or by the material's "
+       "lobe",
+       both(o, number(o.views.map_resolution, 0, 4096), o.views.map_resolution, o.planned.map_resolution), Use::kRare,
+       "map_resolution"},
+      {"--map-price", kReflections,
+       "What a pixel of a radiance map must show to be captured: solid angle, sr on average over eyes, times "
+       "reflectance (planned). Less gives more and sharper maps: halved, about a third more pixels; 0: all that show "
+       "anything",
+       map_price(o), Use::kRare, "map_price", "reflections.md#which-viewpoints"},
+  };
+}
+
+std::vector<Option> transfer_options(BakeOptions& o) {
+  return {
+      {"--sh-bands", kMovers,
+       "Bands of spherical harmonics of movers' transfer and of the light around them: their square is the number of "
+       "coefficients",
+       number(o.transfer.bands, 2, 6), Use::kRare, "sh_bands"},
+      {"--transfer", kMovers, "Whether movers shade themselves: shadowed or unshadowed (as if every one was convex)",
+       self_shadow(o), Use::kRare, "transfer_shadowed"},
+      {"--transfer-bounces", kMovers, "Reflections between the parts of a mover", number(o.transfer.bounces, 0, 16),
+       Use::kRare, "transfer_bounces"},
+      {"--clusters", kMovers,
+       "Clusters that a mover's transfer is compressed in: more lose less and cost the player more",
+       number(o.compress.clusters, 1, 256), Use::kRare, "clusters"},
+      {"--probe", kMovers,
+       "Distance between the probes of the light that movers meet; they are a quarter as far apart where light changes",
+       quantity(o.probes.spacing_m, "LENGTH", parse_length, length_text), Use::kRare, "probe_m"},
+  };
+}
+
+}  // namespace
+
+BakeOptions command_line_defaults() {
+  BakeOptions o;
+  o.choose_texel = true;
+  o.radiosity.estimator = Estimator::kCached;
+  o.radiosity.samples = 0;
+  o.radiosity.error = 0.02;
+  o.radiosity.fit_texels = true;
+  o.radiosity.detail = kMostDetail;
+  o.views.memory_bytes = o.planned.memory_bytes = std::uint64_t{128} << 20;
+  o.planned.map_resolution = o.views.map_resolution;
+  return o;
+}
+
+std::vector<Option> light_options(ImportOptions& import) {
+  return {
+      {"--sky", kLight,
+       "The sky: radiance in cd/m² all around (one value, or R,G,B), or an HDRI: a latitude-longitude .hdr or .exr "
+       "whose centre is +X and whose right is +Z, as in Blender",
+       sky(import), Use::kEveryday},
+      {"--sky-scale", kLight, "Radiance in cd/m² of a 1 in the sky's file", number(import.sky_scale, 0, 1e30),
+       Use::kRare, "sky_scale"},
+      {"--sky-rotation", kLight, "Turns the sky's file, counter-clockwise seen from above, degrees",
+       number(import.sky_rotation_deg, -360, 360), Use::kRare, "sky_rotation_deg"},
+      {"--sun-angle", kLight,
+       "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as the file "
+       "says (extras.oriel.angular_diameter_deg), which is a point",
+       number(import.sun_angle_deg, 0, 180), Use::kEveryday, "sun_angle_deg"},
+      {"--ies", kLight,
+       "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity and "
+       "cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated",
+       profiles(import), Use::kRare, "ies"},
+  };
+}
+
+Option mover_option(ImportOptions& import) {
+  return {
+      "--mover",
+      kMovers,
+      "A node that moves, with what is below it, beside those that the file marks (extras.oriel.mover) or animates. "
+      "May be repeated",
+      texts(import.movers, "NODE"),
+      Use::kEveryday,
+      "movers",
+      "movers.md"};
+}
+
+std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
+  return {
+      {"--scene", kScene, "Which scene of the file; -1: its default", number(import.scene, -1, 1e9), Use::kRare,
+       "scene_index"},
+      {"--double-sided", kScene,
+       "Every material reflects and emits on both sides, as renderers that know no single-sided ones have it: for "
+       "models with walls turned the wrong way",
+       flag(import.double_sided), Use::kEveryday, "double_sided"},
+      {"--reproducible", kScene,
+       "Pin Embree's instruction set, about 15 % slower: with one C library the same bytes on CPUs that differ in AVX "
+       "only",
+       flag(reproducible), Use::kRare, "reproducible"},
+  };
+}
+
+std::vector<Option> bake_options(BakeOptions& o) {
+  std::vector<Option> options = atlas_options(o);
+  append(options, radiosity_options(o));
+  append(options, light_options(o.import));
+  append(options, reflection_options(o));
+  options.push_back(mover_option(o.import));
+  append(options, transfer_options(o));
+  options.push_back({"--unit", kScene,
+                     "What a unit of the file is: auto (metres, as glTF has it, unless rooms are as high as towers or "
+                     "matchboxes), mm, cm, in, ft, m, km. Light on surfaces stays what it is",
+                     unit(o), Use::kRare, "unit_m", "conventions.md"});
+  append(options, scene_options(o.import, o.reproducible));
+  return options;
+}
+
+Status settle(BakeOptions& o, const Given& given) {
+  RadiosityOptions& r = o.radiosity;
+  if (!o.transfer.shadowed) o.transfer.bounces = 0;
+  if (r.samples > 0) {
+    r.error = 0;
+  } else if (o.time_s > 0) {
+    if (!given.has("--error")) r.error = kBestError;
+    r.samples = kMostTexelRays;
+  } else {
+    r.samples = most_texel_rays(r);
+    if (!given.has("--error")) r.most_rays = kDefaultMostRays;
+  }
+  if (!o.memory_given) o.memory_bytes = free_memory() / 2;
+  const bool artist = o.atlas.source == AtlasOptions::Source::kUv1;
+  if (!artist && o.atlas.resolution > 0 && given.has("--texel"))
+    return fail(ErrorCode::kUsage, "",
+                "found both --texel and --resolution, expected one: with --atlas auto each follows from the other");
+  if (artist && o.atlas.resolution == 0)
+    return fail(ErrorCode::kUsage, "--atlas uv1",
+                "needs --resolution N, the side of the page its coordinates are meant for");
+  return {};
+}
+
+std::string options_json(const BakeOptions& options, std::uint64_t seed) {
+  BakeOptions o = options;
+  const bool planned = o.view_scheme == ViewScheme::kPlanned;
+  Json json = {{"seed", seed}};
+  for (const Option& option : bake_options(o)) record(option, json);
+  json.update({{"padding", o.atlas.padding},
+               {"most_rays", o.radiosity.most_rays},
+               {"filter_scales", o.radiosity.filter.scales},
+               {"filter_strength", o.radiosity.filter.strength},
+               {"dilation", o.radiosity.dilation},
+               {"max_reflector_roughness", o.reflectors.max_roughness},
+               {"min_reflector_area_m2", o.reflectors.min_area_m2},
+               {"element_m", planned ? o.planned.element_m : o.views.element_m},
+               {"transfer_samples", o.transfer.samples}});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may hold any bytes
+}
+
+}  // namespace oriel

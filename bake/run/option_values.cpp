@@ -1,0 +1,189 @@
+#include "bake/run/option_values.h"
+
+#include <sstream>
+
+#include "formats/core/text.h"
+
+namespace oriel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+std::string share_text(double share) {
+  return share > 0 ? fmt::format("{:.6g}%", 100 * share) : "";
+}
+
+std::string verify_text(double share) {
+  return share > 0 ? share_text(share) : "off";
+}
+
+std::string length_text(float metres) {
+  return fmt::format("{}m", metres);
+}
+
+std::string time_text(double seconds) {
+  return seconds > 0 ? fmt::format("{}s", seconds) : "";
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  return bytes % (1u << 20) == 0 ? fmt::format("{}MiB", bytes >> 20) : fmt::format("{}B", bytes);
+}
+
+OptionValue or_auto(bool& chosen, const std::string& type, OptionValue inner) {
+  return {"auto|" + type,
+          [&chosen, set = inner.set](const std::string& typed) -> Status {
+            chosen = typed == "auto";
+            if (chosen) return {};
+            return set(typed);
+          },
+          [&chosen, get = inner.get] { return chosen ? "auto" : get(); },
+          [&chosen, json = inner.json] { return chosen ? Json("auto") : json(); }};
+}
+
+OptionValue memory_limit(BakeOptions& o) {
+  return {"SIZE",
+          [&o](const std::string& typed) -> Status {
+            ORIEL_TRY(o.memory_bytes, parse_bytes(typed));
+            o.memory_given = true;
+            return {};
+          },
+          [&o] { return o.memory_given ? bytes_text(o.memory_bytes) : ""; },
+          [&o] { return Json(o.memory_given ? o.memory_bytes : 0); }};
+}
+
+OptionValue samples(BakeOptions& o) {
+  OptionValue value = number(o.radiosity.samples, 1, 1u << 24);
+  value.get = [&o] { return o.radiosity.samples > 0 ? std::to_string(o.radiosity.samples) : ""; };
+  return value;
+}
+
+OptionValue hidden_black(BakeOptions& o) {
+  return {"",
+          [&o](const std::string&) -> Status {
+            o.radiosity.hidden = Hidden::kBlack;
+            return {};
+          },
+          [&o] { return o.radiosity.hidden == Hidden::kBlack ? "on" : "off"; },
+          [&o] { return Json(o.radiosity.hidden == Hidden::kBlack ? "black" : "left out"); }};
+}
+
+OptionValue texel_means(BakeOptions& o) {
+  OptionValue value = flag(o.radiosity.fit_texels, false);
+  value.json = [&o] { return Json(o.radiosity.fit_texels ? "fitted" : "means"); };
+  return value;
+}
+
+OptionValue detail_steps(BakeOptions& o) {
+  OptionValue value =
+      choice(o.radiosity.detail, Names<std::uint32_t>{{"1", 1}, {"2", 2}, {"4", 4}, {"8", kMostDetail}});
+  value.json = json_of(o.radiosity.detail);
+  return value;
+}
+
+OptionValue parts(BakeOptions& o) {
+  const auto set = [&o](const std::string& typed) -> Status {
+    o.with_radiance = o.with_material = o.with_transfer = false;
+    std::istringstream in(typed);
+    for (std::string part; std::getline(in, part, ',');) {
+      if (part == "radiance")
+        o.with_radiance = true;
+      else if (part == "material")
+        o.with_material = true;
+      else if (part == "transfer")
+        o.with_transfer = true;
+      else if (part != "radiosity")
+        return fail(ErrorCode::kUsage, "", "found '{}', expected radiosity, radiance, material or transfer", part);
+    }
+    return {};
+  };
+  const auto get = [&o] {
+    if (o.with_radiance && o.with_material && o.with_transfer) return std::string();
+    return std::string("radiosity") + (o.with_radiance ? ",radiance" : "") + (o.with_material ? ",material" : "") +
+           (o.with_transfer ? ",transfer" : "");
+  };
+  const auto json = [&o] {
+    return Json{{"radiance", o.with_radiance}, {"material", o.with_material}, {"transfer", o.with_transfer}};
+  };
+  return {"LIST", set, get, json};
+}
+
+OptionValue views(BakeOptions& o) {
+  const auto planned = [&o] { return o.view_scheme == ViewScheme::kPlanned; };
+  const auto count = [&o, planned] { return planned() ? o.planned.choice.max_maps : o.views.views_per_element; };
+  return {"planned:N|hemisphere:N", [&o](const std::string& typed) { return parse_views(typed, o); },
+          [planned, count] { return fmt::format("{}:{}", planned() ? "planned" : "hemisphere", count()); },
+          [planned, count] {
+            return Json{{"views", planned() ? "planned" : "hemisphere"}, {"views_per_element", count()}};
+          }};
+}
+
+OptionValue eyes(BakeOptions& o) {
+  const auto name = [&o] {
+    return o.eyes.source == EyeSource::kWalk ? "walk" : o.eyes.source == EyeSource::kBox ? "box" : "file";
+  };
+  return {"walk|box|FILE",
+          [&o](const std::string& typed) -> Status {
+            ORIEL_TRY(o.eyes, parse_eye_source(typed));
+            return {};
+          },
+          name,
+          [&o, name] {
+            Json points = Json::array();
+            for (const DVec3& p : o.eyes.points) points.push_back({p.x, p.y, p.z});
+            return Json{{"eyes", name()}, {"eye_points", points}};
+          }};
+}
+
+OptionValue map_price(BakeOptions& o) {
+  OptionValue value = number(o.planned.pixel_price, 0, 1);
+  value.json = [&o] { return Json(o.view_scheme == ViewScheme::kPlanned ? o.planned.pixel_price : 0); };
+  return value;
+}
+
+OptionValue sky(ImportOptions& o) {
+  return {"L|R,G,B|FILE",
+          [&o](const std::string& typed) -> Status {
+            ORIEL_TRY(SkyChoice choice, parse_sky(typed));
+            o.sky = choice.radiance;
+            o.sky_file = std::move(choice.file);
+            return {};
+          },
+          [&o] {
+            if (!o.sky_file.empty()) return o.sky_file.string();
+            if (o.sky == Vec3(o.sky.r)) return fmt::format("{}", o.sky.r);
+            return fmt::format("{},{},{}", o.sky.r, o.sky.g, o.sky.b);
+          },
+          [&o] {
+            return Json{{"sky_cd_m2", {o.sky.r, o.sky.g, o.sky.b}}, {"sky_file", o.sky_file.filename().string()}};
+          }};
+}
+
+OptionValue profiles(ImportOptions& o) {
+  OptionValue value = each(o.ies, "NODE=FILE", parse_ies_option,
+                           [](const auto& profile) { return profile.first + "=" + profile.second.string(); });
+  value.json = [&o] {
+    Json json = Json::object();
+    for (const auto& [node, file] : o.ies) json[node] = file.filename().string();
+    return json;
+  };
+  return value;
+}
+
+OptionValue self_shadow(BakeOptions& o) {
+  OptionValue value = choice(o.transfer.shadowed, Names<bool>{{"shadowed", true}, {"unshadowed", false}});
+  value.json = [&o] { return Json(o.transfer.shadowed); };
+  return value;
+}
+
+OptionValue unit(BakeOptions& o) {
+  OptionValue value =
+      choice(o.import.unit_m,
+             Names<double>{{"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}, {"km", 1000}});
+  value.json = json_of(o.import.unit_m);
+  const std::string type = value.type;
+  return or_auto(o.guess_unit, type, std::move(value));
+}
+
+}  // namespace oriel

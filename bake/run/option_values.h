@@ -1,0 +1,46 @@
+// How the options of a bake are read and written: one function for each that is more than a number or a name.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bake/run/options.h"
+#include "formats/cli/option.h"
+
+namespace oriel {
+
+std::string share_text(double share);  // "2%"; "" of 0
+std::string verify_text(double share);
+std::string length_text(float metres);
+std::string time_text(double seconds);  // "" of 0
+std::string bytes_text(std::uint64_t bytes);
+
+// "auto", or what `inner` takes.
+OptionValue or_auto(bool& chosen, const std::string& type, OptionValue inner);
+OptionValue memory_limit(BakeOptions& o);
+OptionValue samples(BakeOptions& o);
+OptionValue hidden_black(BakeOptions& o);
+OptionValue texel_means(BakeOptions& o);
+OptionValue detail_steps(BakeOptions& o);
+OptionValue parts(BakeOptions& o);  // --only
+OptionValue views(BakeOptions& o);
+OptionValue eyes(BakeOptions& o);
+OptionValue map_price(BakeOptions& o);
+OptionValue self_shadow(BakeOptions& o);
+OptionValue unit(BakeOptions& o);
+OptionValue sky(ImportOptions& o);
+OptionValue profiles(ImportOptions& o);  // --ies
+
+// One that planned and evenly spread viewpoints take alike.
+template <class T>
+OptionValue both(const BakeOptions& o, OptionValue value, const T& spread, T& planned) {
+  value.set = [set = value.set, &spread, &planned](const std::string& typed) -> Status {
+    ORIEL_TRY_VOID(set(typed));
+    planned = spread;
+    return {};
+  };
+  value.json = [&] { return nlohmann::ordered_json(o.view_scheme == ViewScheme::kPlanned ? planned : spread); };
+  return value;
+}
+
+}  // namespace oriel

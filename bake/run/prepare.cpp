@@ -1,0 +1,174 @@
+#include "bake/run/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/run/deadline.h"
+#include "bake/run/inputs.h"
+#include "bake/walk/lit_eyes.h"
+#include "bake/walk/scene_unit.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kEyesForSides = 256;
+constexpr double kMostForSides = 0.15;       // of --time
+constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
+constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
+constexpr double kViewRays = 6e5;     // that tell what people see, by which a ray's time is told;
+constexpr double kLeastRay_s = 1e-7;  // which says nothing where they were known already
+
+Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {
+              return Accel::build(prepared.scene(), {options.reproducible, thread_count(context)});
+            }));
+  return {};
+}
+
+// Imports the scene, takes its movers and builds the accelerator.
+Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed, Context& context,
+                    PreparedScene& prepared) {
+  ImportOptions import = options.import;
+  import.unit_m = unit_m;
+  prepared.accel.reset();
+  ORIEL_TRY(ImportedScene imported,
+            timed("import", [&](auto&) { return import_gltf(options.scene, import, context); }));
+  prepared.imported = std::make_unique<ImportedScene>(std::move(imported));
+  if (options.with_transfer) {
+    ORIEL_TRY(prepared.movers, take_movers(prepared.imported->scene));
+  }
+  return build_accel(options, timed, context, prepared);
+}
+
+// Rooms as high as a tower, or as a matchbox: the file means another unit. What people are, see and walk is in metres.
+Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  const auto guess = guess_unit(*prepared.accel);
+  if (!guess) return {};
+  context.warning(
+      fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                  "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                  guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
+  auto warn = std::exchange(context.warn, nullptr);  // all was said before
+  const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
+  context.warn = std::move(warn);
+  return again;
+}
+
+// Where people can be, and pieces of what they see both near and far.
+Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
+  ORIEL_TRY(prepared.region,
+            timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, options.eyes, context); }));
+  const LightSet lights(prepared.scene());
+  if (options.eyes.source == EyeSource::kWalk && (!lights.empty() || luminance(prepared.scene().sky) > 0))
+    ORIEL_TRY_VOID(leave_the_dark({*prepared.accel, lights, path_options(options)}, prepared.region, context));
+  if (!prepared.region.note.empty()) prepared.omissions.push_back(prepared.region.note);
+  if (prepared.region.left_out_m2 > 0)
+    prepared.omissions.push_back(fmt::format(
+        "eye region: {:.0f} m² of open ground are not walked on, where neither a roof nor a camera is near (--eyes)",
+        prepared.region.left_out_m2));
+  if (!divide_for_eyes(prepared.region, prepared.imported->scene)) return {};
+  return build_accel(options, timed, context, prepared);
+}
+
+// What a bake needs beside its texels: the scene, its accelerator and what is known of its triangles, its maps.
+std::uint64_t bytes_besides_texels(const BakeOptions& options, const Scene& scene) {
+  constexpr std::uint64_t kProgram = 100u << 20, kVertex = 64, kTriangle = 400;
+  std::uint64_t bytes = kProgram + kVertex * scene.positions.size() + kTriangle * scene.triangles.size();
+  for (const Image& image : scene.images) bytes += image.texels.size() * (options.with_radiance ? 4 : 3) / 3;
+  // Radiance maps are captured in floats, twice as large as they are stored, beside what is stored.
+  return bytes + (options.with_radiance ? 3 * options.planned.memory_bytes : 0);
+}
+
+// Splits the scene's double-sided surfaces by the light on their sides.
+Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatch& timed, Context& context) {
+  Scene& scene = prepared.imported->scene;
+  if (LightSet(scene).empty() && luminance(scene.sky) <= 0) return {};  // nothing is lit
+  ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
+              const LightSet lights(scene);
+              const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
+              const Deadline clock(0);
+              const Interruptible until(
+                  context, [&] { return options.time_s > 0 && clock.spent() > kMostForSides * options.time_s; });
+              const std::vector<Vec3> eyes = sample_eyes(prepared.region, kEyesForSides, context.seed);
+              auto sides = find_lit_sides({*prepared.accel, lights, path_options(options)}, eyes, context);
+              if (sides) rays = sides->report.rays;
+              return sides;
+            }));
+  prepared.sides = found.report;
+  if (!found.change_scene()) return {};
+  scene = split_sides(std::move(scene), found.sides);
+  return build_accel(options, timed, context, prepared);
+}
+
+}  // namespace
+
+PathOptions path_options(const BakeOptions& options) {
+  PathOptions paths;
+  if (options.radiosity.bounces > 0) paths.max_bounces = options.radiosity.bounces;
+  return paths;
+}
+
+MaterialOptions material_options(const BakeOptions& options) {
+  MaterialOptions material = options.material;
+  if (options.radiosity.error > 0) material.error = options.radiosity.error;
+  return material;
+}
+
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
+  if (wanted == Directional::kOn) return true;
+  const bool mapped = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    return material.normal_texture.image >= 0 && !material.unlit;
+  });
+  if (mapped && wanted == Directional::kAuto) return true;
+  omissions.emplace_back(mapped
+                             ? "directional lightmaps: left out by --directional off; normal maps tilt reflections only"
+                             : "directional lightmaps: no material has a normal map");
+  return false;
+}
+
+Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context) {
+  PreparedScene prepared;
+  ORIEL_TRY_VOID(import_scene(options, options.import.unit_m, timed, context, prepared));
+  if (options.guess_unit) ORIEL_TRY_VOID(settle_unit(options, timed, context, prepared));
+  if (!options.with_transfer && !prepared.scene().movers.empty())
+    prepared.omissions.emplace_back("movers: left out by --only; they stand still");
+  ORIEL_TRY_VOID(find_eyes(options, timed, context, prepared));
+  ORIEL_TRY_VOID(light_sides(options, prepared, timed, context));
+  return prepared;
+}
+
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
+                        double seconds) {
+  const Deadline clock(0);
+  if (prepared.demand.empty()) {
+    const StageInputs inputs(context, SurfacesOf{prepared.scene()});
+    ORIEL_TRY(prepared.demand,
+              timed("importance", [&](auto&) { return find_demand(*prepared.accel, prepared.region, context); }));
+  }
+  AtlasOptions atlas = options.atlas;
+  if (options.memory_bytes > 0) {
+    const std::uint64_t other = bytes_besides_texels(options, prepared.scene());
+    atlas.memory_bytes =
+        std::max(options.memory_bytes / 4, options.memory_bytes - std::min(options.memory_bytes, other));
+  }
+  if (options.choose_texel) {
+    atlas.texel_m = choose_texel(prepared.scene(), atlas.texel_m, prepared.demand);
+    atlas.coarsen = true;
+    if (std::isfinite(seconds)) {
+      const double ray_s = std::max(clock.spent() / kViewRays, kLeastRay_s);
+      atlas.texels_in_time =
+          static_cast<std::uint64_t>(std::max(1e3, kMostForFirstLight * seconds / (kFirstRays * ray_s)));
+    }
+  }
+  ORIEL_TRY(prepared.atlas,
+            timed("atlas", [&](auto&) { return build_atlas(prepared.scene(), atlas, context, prepared.demand); }));
+  ORIEL_TRY(prepared.texel_map, timed("texel map", [&](auto&) { return build_texel_map(prepared.atlas, context); }));
+  return {};
+}
+
+}  // namespace oriel

@@ -1,0 +1,45 @@
+// The scene as all stages see it: what a bake and its plan begin with.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "bake/radiosity/lit_sides.h"
+#include "bake/run/options.h"
+#include "bake/run/stopwatch.h"
+#include "bake/run/view_demand.h"
+#include "bake/scene/motion/movers.h"
+
+namespace oriel {
+
+struct PreparedScene {
+  std::unique_ptr<ImportedScene> imported;  // at one place: accel refers to it
+  std::vector<TakenMover> movers;           // apart from the scene; empty where they stand still in it
+  SidesReport sides;
+  std::optional<Accel> accel;  // never empty
+  EyeRegion region;            // where people can be
+  TexelDemand demand;          // what they want of the lightmap; empty before it is laid out
+  Atlas atlas;
+  std::vector<TexelMapPage> texel_map;
+  std::vector<std::string> omissions;
+
+  const Scene& scene() const { return imported->scene; }
+};
+
+// Imports the scene (again, where its numbers cannot be metres), takes the movers out of it, finds where people can be,
+// cuts what is near and far at once, splits the double-sided surfaces by the light on their sides. Errors as those
+// stages give them.
+Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
+// Lays out the lightmap for what people see. With choose_texel no more texels than a first estimate of their light can
+// do in a part of `seconds`, those that the bake has left; infinite: as many as are wanted. Errors as build_atlas.
+Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
+                        double seconds = std::numeric_limits<double>::infinity());
+
+PathOptions path_options(const BakeOptions& options);
+// Kernels may differ by the error that the bake may have.
+MaterialOptions material_options(const BakeOptions& options);
+// Whether the lightmap is to hold directions; why not is noted.
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions);
+
+}  // namespace oriel

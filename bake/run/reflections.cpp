@@ -1,0 +1,375 @@
+#include "bake/run/reflections.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/radiance/curved/surround_capture.h"
+#include "bake/radiance/emitters/emitters.h"
+#include "bake/radiance/plan/residual.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/deadline.h"
+#include "bake/run/inputs.h"
+#include "bake/run/option_table.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
+constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
+constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
+constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
+constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
+constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
+
+std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
+  std::vector<ReflectorMaterial> out;
+  for (const MaterialSummary& m : materials) out.push_back({m.roughness, m.f0, m.f90, m.curve});
+  return out;
+}
+
+// α by material, of those whose kernel blurs: closed forms need its lobe. 0: no kernel, or a mirror's.
+std::vector<float> lobe_widths(const MaterialMaps& maps) {
+  std::vector<float> out;
+  for (const std::int32_t index : maps.kernel) {
+    const BrdfKernel* kernel = index >= 0 ? &maps.kernels[static_cast<std::size_t>(index)] : nullptr;
+    out.push_back(kernel != nullptr && kernel->size > 1 ? kernel->alpha : 0.0f);
+  }
+  return out;
+}
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+// The reflectors that eyes see, most important first, and what shines without lying in a plane.
+Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& accel,
+                                       std::span<const ReflectorMaterial> materials, std::span<const Vec3> eyes,
+                                       Context& context, std::vector<std::string>& omissions) {
+  ReflectorOptions wide = options.reflectors;  // a large one that nobody sees must not push out a small one
+  wide.max_reflectors = 4 * std::min(options.reflectors.max_reflectors, std::numeric_limits<std::uint32_t>::max() / 4);
+  FoundReflectors found = find_reflectors(accel, materials, wide);
+  ORIEL_TRY_VOID(keep_seen_reflectors(accel, eyes, options.reflectors.max_reflectors, context, found));
+  append(omissions, found.omitted);
+  if (found.reflectors.empty())
+    omissions.push_back(fmt::format(
+        "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
+        options.reflectors.max_roughness, options.reflectors.min_area_m2));
+  return found;
+}
+
+// Whether there is a sky to be seen.
+bool shines(const Scene& scene) {
+  return max_component(scene.sky) > 0 || !scene.sky_image.texels.empty();
+}
+
+Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Context& context,
+                           PlannedReflections& planned) {
+  std::vector<FoundReflector>& reflectors = planned.all.found.reflectors;
+  if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
+  const std::vector<FoundReflector> as_found = reflectors;
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
+  planned.plans.clear();
+  const auto known = planned.known ? std::span<const KnownPlan>(planned.known->plans) : std::span<const KnownPlan>();
+  return plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), planned.all.eyes, options.planned,
+                             context, reflectors, known, &planned.plans);
+}
+
+// Where in the store the last bake with these options of a scene with as many triangles left what it knew.
+Hash128 name_of_known(const BakeOptions& options, const Scene& scene, const Context& context) {
+  BakeOptions same = options;
+  same.radiosity.reuse_error = 0;
+  return hash_of(std::string("known reflections"), scene.triangles.size(), scene.surfaces.size(),
+                 options_json(same, context.seed));
+}
+
+std::vector<ScenePart> parts_of(const Scene& scene) {
+  std::vector<ScenePart> parts;
+  for (const Hash128& look : surface_looks(scene))
+    parts.push_back({look, Vec3(std::numeric_limits<float>::max()), Vec3(std::numeric_limits<float>::lowest())});
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    ScenePart& part = parts[scene.triangle_surface[t]];
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3& p = scene.positions[scene.triangles[t][corner]];
+      part.lower = glm::min(part.lower, p), part.upper = glm::max(part.upper, p);
+    }
+  }
+  return parts;
+}
+
+// The maps' pixels, those of the bake before where that is allowed; leaves what the next one may ask for.
+Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& surroundings,
+                       const OutgoingRadiance& outgoing, PlannedReflections& planned, Context& context, MapReuse& reuse,
+                       std::atomic<std::uint64_t>& rays) {
+  const Scene& scene = surroundings.accel().scene();
+  if (!context.units) return capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays);
+  const SkyImage& sky = scene.sky_image;
+  KnownReflections now{
+      .parts = parts_of(scene),
+      .plans = planned.plans,
+      .captured = {},
+      .inputs = context.inputs,
+      .around = hash_of(scene.lower, scene.upper, scene.sky, sky.width, sky.height, sky.texels, sky.rotation_rad)};
+  for (const FoundReflector& found : surroundings.reflectors()) now.captured.push_back(identity_of(scene, found));
+  const double error = options.radiosity.reuse_error;
+  if (planned.known && planned.known->around == now.around) {
+    const std::vector<Box> edited = edited_boxes(planned.known->parts, now.parts);
+    ORIEL_TRY_VOID(capture_edited_maps(surroundings, outgoing, *planned.known, edited, error, context,
+                                       planned.plan.maps, reuse, &rays));
+  } else {
+    ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays));
+  }
+  reuse.asked = error;
+  reuse.views = planned.plan.kept;
+  // What took pixels from elsewhere is not passed on: errors would add up from edit to edit.
+  if (reuse.kept == 0 && reuse.views == 0 && !planned.light_reused)
+    remember_reflections(context, name_of_known(options, scene, context), std::move(now));
+  return {};
+}
+
+Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
+             const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
+             ReflectionReport& report) {
+  for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
+    const Reflector& reflector = surroundings.reflectors()[r].reflector;
+    const auto own = maps.subspan(reflector.first_map, reflector.map_count);
+    ViewQuality q;
+    ReflectedError e;
+    std::uint64_t traced = 0;
+    const auto inputs = [&](Archive& key) {
+      key(r, eyes);
+      for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
+    };
+    const auto compute = [&]() -> Status {
+      ORIEL_TRY(const auto samples,
+                sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
+      q = judge_maps(surroundings, own, samples, context);
+      std::atomic<std::uint64_t> judging{0};
+      ORIEL_TRY(e, judge_light(surroundings, r, own, samples, outgoing, context, judging));
+      traced = judging;
+      return {};
+    };
+    ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
+      archive(q.seen, q.sharp, q.residual, e.samples, e.seen, e.relative_error, e.seen_error, traced);
+    }));
+    rays += traced;
+    report.quality.push_back(q);
+    report.errors.push_back(e);
+  }
+  return {};
+}
+
+std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> indices;
+  for (const std::uint32_t t : triangles)
+    for (std::uint32_t corner = 0; corner < 3; ++corner)
+      indices.push_back(mesh.mesh.indices[mesh.first_index[t] + corner]);
+  return indices;
+}
+
+// leave_out_emitters() as a unit of work.
+Status leave_out_lamps(const Accel& accel, const std::vector<float>& lobe_widths, Context& context,
+                       std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                       std::vector<std::string>& omissions) {
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, lobe_widths, reflectors);
+  std::vector<std::string> omitted;
+  ORIEL_TRY_VOID(one_unit(
+      context, "emitters", [](Archive&) {},
+      [&] { return leave_out_emitters(accel, lobe_widths, {}, context, reflectors, emitters, omitted); },
+      [&](Archive& archive) { archive(reflectors, emitters, omitted); }));
+  append(omissions, omitted);
+  return {};
+}
+
+template <class Found, class Kept>
+void keep(std::vector<Found>& found, const AssembledMesh& mesh, std::vector<Kept>& kept) {
+  for (Found& f : found) {
+    f.reflector.indices = mesh_indices(mesh, f.triangles);
+    kept.push_back(std::move(f.reflector));
+  }
+}
+
+std::vector<bool> marked(const Scene& scene, std::span<const std::uint32_t> triangles) {
+  std::vector<bool> is_marked(scene.triangles.size());
+  for (const std::uint32_t t : triangles) is_marked[t] = true;
+  return is_marked;
+}
+
+// The light with the lobes of these triangles traced. Both must outlive it.
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
+  return [&](const SeenSurface& seen) {
+    SeenSurface shown = seen;
+    shown.glossy = seen.glossy || triangles[seen.hit.triangle];
+    return outgoing(shown);
+  };
+}
+
+std::vector<SeenOfTriangle> seen_triangles(const TexelDemand& demand) {
+  std::vector<SeenOfTriangle> seen;
+  for (const TriangleDemand& t : demand.triangles) seen.push_back({t.pixels, t.inverse_square});
+  return seen;
+}
+
+// Of the units found so far, what computing them once took, over all threads.
+double reused_s(const Context& context) {
+  return context.units ? context.units->share().reused_s : 0;
+}
+
+}  // namespace
+
+Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                          std::span<const MaterialSummary> materials, Context& context) {
+  const Accel& accel = *prepared.accel;
+  FoundReflections all;
+  all.region = prepared.region;
+  all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
+  all.lobes = reflector_materials(materials);
+  const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
+  ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
+  CurvedOptions curved = options.curved;
+  curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
+  all.curved =
+      find_curved_reflectors(accel.scene(), all.found.unplanar, all.lobes, seen_triangles(prepared.demand), curved);
+  append(all.omissions, all.curved.omitted);
+  return all;
+}
+
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            Context& context) {
+  const Accel& accel = *prepared.accel;
+  PlannedReflections planned;
+  ORIEL_TRY(planned.all, find_reflections(options, prepared, materials.summaries, context));
+  const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
+  if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
+  if (dark) planned.all.found = {}, planned.all.curved = {};
+  if (planned.all.empty()) return planned;
+  if (options.radiosity.reuse_error > 0)
+    planned.known = recall_reflections(context, name_of_known(options, accel.scene(), context));
+  const std::vector<FoundReflector> found = planned.all.found.reflectors;
+  BakeOptions fewer = options;
+  // Planning that takes longer than twice its time ends: the maps of the round before stay, or there are none.
+  const Deadline whole(0);
+  const double most = 2 * seconds;
+  const Interruptible until(context, [&] { return whole.spent() > most; });
+  for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
+    const Deadline clock(0);
+    const double reused_before = reused_s(context);
+    fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
+    const std::vector<FoundReflector> before = std::exchange(planned.all.found.reflectors, found);
+    auto plan = plan_maps(fewer, accel, context, planned);
+    if (!plan && !context.stop && whole.spent() > most) {
+      planned.all.found.reflectors = before;
+      planned.plans.clear();
+      if (divisor == kFewest) leave_out_maps("planning them takes too long for --time", planned);
+      break;
+    }
+    if (!plan) return tl::unexpected(plan.error());
+    planned.plan = std::move(*plan);
+    seconds -= clock.spent();
+    planned.seconds = clock.spent() + (reused_s(context) - reused_before) / thread_count(context);
+    if (divisor == 1 || kFewer * planned.seconds > seconds) break;
+  }
+  return planned;
+}
+
+void leave_out_maps(const std::string& why, PlannedReflections& planned) {
+  planned.plan = {};
+  planned.all.found.reflectors.clear();
+  planned.all.curved = {};
+  planned.all.omissions.push_back("radiance maps: left out, " + why);
+}
+
+double PlannedReflections::pixels() const {
+  double sum = 0;
+  for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
+  for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
+  return sum;
+}
+
+Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
+  std::vector<RadianceMap> maps = planned.plan.maps;
+  double tried = 0;
+  for (RadianceMap& map : maps) {
+    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
+    tried += double{1.0f * map.width} * map.height;
+  }
+  const std::uint32_t paths = lobe_paths(planned.pixels());
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
+  };
+  const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
+  const Deadline clock(0);
+  UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
+  const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
+  context.units = units;
+  ORIEL_TRY_VOID(captured);
+  const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
+  planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
+  return {};
+}
+
+void shrink_maps(double seconds, PlannedReflections& planned) {
+  std::uint32_t halved = 0;
+  const double judging = kJudging * planned.seconds;
+  while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
+    const double before = planned.pixels();
+    for (RadianceMap& map : planned.plan.maps)
+      map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
+    for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
+    if (planned.pixels() >= before) break;  // all are as small as they may be
+    planned.capture_s = judging + (planned.capture_s - judging) * planned.pixels() / before;
+    ++halved;
+  }
+  if (halved > 0)
+    planned.plan.omitted.push_back(
+        fmt::format("radiance maps: of 1/{} the pixels along each side, to stay within --time", 1u << halved));
+}
+
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
+                                          const BakedScene& baked, const MaterialMaps& materials,
+                                          const AssembledMesh& mesh, Context& context, Pack& pack) {
+  const Accel& accel = baked.accel;
+  ReflectionReport report;
+  auto& [region, eyes, lobes, found, curved, omissions] = planned.all;
+  ViewPlan& plan = planned.plan;
+  report.omissions = std::move(omissions);
+  pack.walk_grids = region.grids;
+  if (planned.empty()) return report;
+  std::vector<FoundReflector>& reflectors = found.reflectors;
+  const std::uint32_t paths = lobe_paths(planned.pixels());
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+  };
+  // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
+  const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
+  const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
+  std::vector<bool> is_shiny = is_curved;
+  for (const FoundReflector& r : reflectors)
+    for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
+  if (options.with_material)
+    ORIEL_TRY_VOID(
+        leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
+  const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
+  const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
+  std::atomic<std::uint64_t> rays{0};
+  ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
+  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  if (options.view_scheme == ViewScheme::kPlanned) {
+    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};
+    ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
+  }
+  report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
+  const std::vector<Vec3> others = held_out_eyes(region, kHeldOutEyes, context.seed);
+  ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
+  report.rays = rays;
+  pack.radiance_maps = std::move(plan.maps);
+  keep(reflectors, mesh, pack.reflectors);
+  pack.surround_maps = std::move(curved.maps);
+  keep(curved.reflectors, mesh, pack.curved_reflectors);
+  return report;
+}
+
+}  // namespace oriel

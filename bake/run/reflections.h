@@ -1,0 +1,76 @@
+// Reflectors, the eyes they are planned for, and what their maps show.
+#pragma once
+
+#include "bake/radiance/curved/curved_reflectors.h"
+#include "bake/radiance/plan/samples.h"
+#include "bake/radiance/reuse/kept_maps.h"
+#include "bake/run/assemble.h"
+#include "bake/run/baked_light.h"
+#include "bake/run/judge.h"
+#include "bake/run/options.h"
+#include "bake/run/prepare.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+// What shines, and who sees it.
+struct FoundReflections {
+  EyeRegion region;
+  std::vector<Vec3> eyes;                // that maps are planned for, scene space
+  std::vector<ReflectorMaterial> lobes;  // by material
+  FoundReflectors found;                 // planar ones that eyes see, most important first, and what is not planar
+  FoundCurvedReflectors curved;          // without texels
+  std::vector<std::string> omissions;    // what was left out, and why
+  bool empty() const { return found.reflectors.empty() && curved.reflectors.empty(); }
+};
+
+// Finds the reflectors of a scene that eyes of its region see, once its lightmap is laid out. Traces no ray where no
+// material may be one. Error kStopped.
+Result<FoundReflections> find_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                          std::span<const MaterialSummary> materials, Context& context);
+
+struct ReflectionReport {
+  std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
+  std::vector<ReflectedError> errors;  // by reflector: and how right that is
+  std::vector<std::string> omissions;  // what was not modelled, and why
+  std::uint64_t rays = 0;              // of capture and judging
+  MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
+};
+
+// Reflections before there is light: what needs none of it.
+struct PlannedReflections {
+  FoundReflections all;
+  ViewPlan plan;                          // of the planar reflectors; without pixels
+  double seconds = 0;                     // that planning takes where nothing of it is known already
+  double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
+  std::vector<KnownPlan> plans;           // to be known next time
+  std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
+  bool light_reused = false;              // some of the lightmap is that of the bake before
+  double pixels() const;                  // of all maps
+  bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
+};
+
+// Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
+// `seconds`; infinite: all at once. Error kStopped.
+Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
+                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            Context& context);
+
+// Nothing is captured, and the reason is among the omissions.
+void leave_out_maps(const std::string& why, PlannedReflections& planned);
+
+// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
+// residual maps go by what planning took. Error kStopped.
+Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
+
+// Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
+void shrink_maps(double seconds, PlannedReflections& planned);
+
+// Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
+// then as it was but for its emitters and walk grids.
+Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
+                                          const BakedScene& baked, const MaterialMaps& materials,
+                                          const AssembledMesh& mesh, Context& context, Pack& pack);
+
+}  // namespace oriel

@@ -1,0 +1,38 @@
+// How a bake shares out the wall clock that it may take: --time.
+#pragma once
+
+#include <algorithm>
+
+#include "bake/run/deadline.h"
+
+namespace oriel {
+
+// Seconds that parts of the bake may take; infinite where there is no limit. Runs from when it is made.
+class TimeBudget : public Deadline {
+ public:
+  // seconds: 0 for no limit.
+  explicit TimeBudget(double seconds) : Deadline(seconds), whole_(seconds) {}
+
+  // Charts that are more than plain: some even where the scene alone took too long.
+  double for_atlas() const { return kAtlas * std::max(left(), kLate * whole_); }
+  double for_views() const { return kViews * left(); }  // choosing viewpoints
+  double for_visible_sets() const { return kSets * left(); }
+  double for_timing() const { return kTiming * left(); }  // finding out how long capture takes
+  double for_maps() const { return kMaps * left(); }
+  double for_light_field() const { return kField * std::max(0.0, left()); }
+  // Until a pack of so many bytes of images is written.
+  static double writing(double bytes) { return bytes / kWritten_per_s; }
+  // What to keep for work that was foretold to take so long.
+  static double kept_for(double foretold) { return kUnforeseen * foretold; }
+  bool missed() const { return limited() && spent() > whole_ + std::max(kLate_s, kLate * whole_); }
+
+ private:
+  static constexpr double kAtlas = 0.2, kViews = 0.15, kSets = 0.2, kTiming = 0.1;  // of the time that is left
+  static constexpr double kMaps = 0.5, kField = 0.2;  // of what is left when the lightmap begins
+  static constexpr double kUnforeseen = 1.3;          // times longer than foretold
+  static constexpr double kWritten_per_s = 25e6;      // bytes of maps and lightmaps
+  static constexpr double kLate_s = 2, kLate = 0.1;   // by which the whole may be missed
+  double whole_;
+};
+
+}  // namespace oriel
