@@ -49,7 +49,7 @@ SurfaceChange compare(const Pack& before, const MeshPart& a, const Pack& after, 
   }
   double squares = 0, noise = 0;
   for_points(first, points, [&](std::size_t t, const Vec3& at, double weight) {
-    const TexelLight x = first.at(t, at), y = second.at(t, at);
+    const SampledLight x = first.at(t, at), y = second.at(t, at);
     squares += weight * (x.lux - y.lux) * (x.lux - y.lux);
     noise += weight * (x.variance + y.variance);
   });

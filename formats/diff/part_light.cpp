@@ -7,9 +7,9 @@ namespace oriel {
 namespace {
 
 // Bilinear; texels that were not baked have light but no error.
-TexelLight light_at(const LightmapPage& page, const Vec2& uv) {
+SampledLight light_at(const LightmapPage& page, const Vec2& uv) {
   const TexelsAround around = texels_around(uv, page.width, page.height);
-  TexelLight light;
+  SampledLight light;
   light.lux = double{luminance(irradiance_at(page, uv))};
   for (std::size_t i = 0; i < 4; ++i) {
     const double error = luminance(page.standard_error[around.texel[i]]);
@@ -21,7 +21,7 @@ TexelLight light_at(const LightmapPage& page, const Vec2& uv) {
 
 }  // namespace
 
-TexelLight PartSampler::at(std::size_t t, const Vec3& barycentric) const {
+SampledLight PartSampler::at(std::size_t t, const Vec3& barycentric) const {
   Vec2 uv(0);
   for (std::size_t c = 0; c < 3; ++c) uv += barycentric[static_cast<int>(c)] * pack_.mesh.lightmap_uvs[vertex(t, c)];
   return light_at(pack_.lightmaps[static_cast<std::size_t>(part_.lightmap_page)], uv);
@@ -39,7 +39,7 @@ PartLight light_of(const PartSampler& part, std::size_t points) {
   sums.area_m2 = part.area();
   bool first = true;
   for_points(part, points, [&](std::size_t t, const Vec3& at, double weight) {
-    const TexelLight light = part.at(t, at);
+    const SampledLight light = part.at(t, at);
     sums.mean += weight * light.lux;
     sums.variance += weight * light.variance;
     sums.lowest = first ? light.lux : std::min(sums.lowest, light.lux);

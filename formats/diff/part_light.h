@@ -8,7 +8,7 @@
 
 namespace oriel {
 
-struct TexelLight {
+struct SampledLight {
   double lux = 0, variance = 0;
 };
 
@@ -27,7 +27,7 @@ class PartSampler {
     for (std::size_t t = 0; t < triangles(); ++t) sum += area(t);
     return sum;
   }
-  TexelLight at(std::size_t t, const Vec3& barycentric) const;  // lux
+  SampledLight at(std::size_t t, const Vec3& barycentric) const;  // lux
 
  private:
   std::uint32_t vertex(std::size_t t, std::size_t c) const { return pack_.mesh.indices[part_.first_index + 3 * t + c]; }
