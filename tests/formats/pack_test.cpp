@@ -314,6 +314,8 @@ TEST(Pack, LargeBlackPageIsNoBomb) {
   Pack pack = tiny_pack();
   auto& page = pack.lightmaps[0];
   page.width = page.height = 2048;
+  page.cell.clear(), page.detail.clear();
+  page.detail_width = page.detail_height = 0;
   page.irradiance.assign(2048 * 2048, Vec3(0));
   page.standard_error = page.irradiance;
   page.state.assign(2048 * 2048, TexelState::kValid);
