@@ -27,6 +27,7 @@ Pack pack_with_a_large_page() {
   Pack pack = testing::tiny_pack();
   LightmapPage& page = pack.lightmaps[0];
   page.width = page.height = 256;
+  page.cell.clear(), page.detail.clear(), page.detail_width = page.detail_height = 0;
   page.irradiance.clear();
   std::uint32_t random = 1;
   for (int i = 0; i < 256 * 256; ++i) {
