@@ -138,6 +138,11 @@ std::vector<Option> reflection_options(BakeOptions& o) {
        Use::kRare,
        {},
        "reflections.md#which-viewpoints"},
+      {"--eye-height", kReflections,
+       "How high people's eyes are over the floor, with which their steps, width and reach go. auto: 1.6 m, unless the "
+       "scene's cameras or a guessed unit tell of larger or smaller people",
+       or_auto(o.guess_eye_height, "LENGTH", quantity(o.eye_height_m, "", parse_length, length_text)), Use::kRare,
+       "eye_height_m", "oriel-bake.md#eye-height"},
       {"--pvs", kReflections,
        "Find out which triangles can be seen from where people walk, so that the player draws no others: auto (in "
        "scenes of 500 000 triangles and more, where it leaves out a quarter), on, off",

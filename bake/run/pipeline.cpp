@@ -320,7 +320,7 @@ class Bake {
   Status assemble() {
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
-    ORIEL_TRY(start_, choose_start(options_, prepared_.region, baked(), context_, pack()));
+    ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
     if (!pack().visible_sets.empty())
       pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
     return {};

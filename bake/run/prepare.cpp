@@ -8,6 +8,7 @@
 #include "bake/jobs/units.h"
 #include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
+#include "bake/walk/eye_height.h"
 #include "bake/walk/lit_eyes.h"
 #include "bake/walk/scene_unit.h"
 #include "formats/core/color.h"
@@ -48,6 +49,7 @@ Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed,
 Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   const auto guess = guess_unit(*prepared.accel);
   if (!guess) return {};
+  prepared.unit_guessed = true;
   context.warning(
       fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
@@ -58,10 +60,32 @@ Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& contex
   return again;
 }
 
+// How tall the people are who walk here: as the user says, or as the file tells.
+void settle_eye_height(const BakeOptions& options, bool unit_guessed, Context& context, PreparedScene& prepared) {
+  prepared.walk = options.eyes.walk;
+  const float usual = prepared.walk.eye_height_m;
+  if (!options.guess_eye_height) {
+    prepared.walk = prepared.walk.scaled(options.eye_height_m / usual);
+    return;
+  }
+  const auto told = guess_eye_height(*prepared.accel, unit_guessed);
+  if (!told) return;
+  prepared.walk = prepared.walk.scaled(told->eye_height_m / usual);
+  context.warning(fmt::format(
+      "people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to go with it: "
+      "{} "
+      "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells another unit",
+      told->eye_height_m, usual,
+      told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
+                        : std::string("without a camera"),
+      told->room_height_m, usual));
+}
+
 // Where people can be, and pieces of what they see both near and far.
 Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
-  ORIEL_TRY(prepared.region,
-            timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, options.eyes, context); }));
+  EyeOptions eyes = options.eyes;
+  eyes.walk = prepared.walk;
+  ORIEL_TRY(prepared.region, timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, eyes, context); }));
   const LightSet lights(prepared.scene());
   if (options.eyes.source == EyeSource::kWalk && (!lights.empty() || luminance(prepared.scene().sky) > 0))
     ORIEL_TRY_VOID(leave_the_dark({*prepared.accel, lights, path_options(options)}, prepared.region, context));
@@ -137,6 +161,7 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
   if (options.guess_unit) ORIEL_TRY_VOID(settle_unit(options, timed, context, prepared));
   if (!options.with_transfer && !prepared.scene().movers.empty())
     prepared.omissions.emplace_back("movers: left out by --only; they stand still");
+  settle_eye_height(options, prepared.unit_guessed, context, prepared);
   ORIEL_TRY_VOID(find_eyes(options, timed, context, prepared));
   ORIEL_TRY_VOID(light_sides(options, prepared, timed, context));
   return prepared;

@@ -18,6 +18,8 @@ struct PreparedScene {
   std::vector<TakenMover> movers;           // apart from the scene; empty where they stand still in it
   SidesReport sides;
   std::optional<Accel> accel;  // never empty
+  bool unit_guessed = false;   // the file's numbers could not be metres
+  WalkOptions walk;            // of people as tall as the scene is made for
   EyeRegion region;            // where people can be
   TexelDemand demand;          // what they want of the lightmap; empty before it is laid out
   Atlas atlas;
@@ -27,9 +29,9 @@ struct PreparedScene {
   const Scene& scene() const { return imported->scene; }
 };
 
-// Imports the scene (again, where its numbers cannot be metres), takes the movers out of it, finds where people can be,
-// cuts what is near and far at once, splits the double-sided surfaces by the light on their sides. Errors as those
-// stages give them.
+// Imports the scene (again, where its numbers cannot be metres), takes the movers out of it, finds how tall people are
+// and where they can be, cuts what is near and far at once, splits the double-sided surfaces by the light on their
+// sides. Errors as those stages give them.
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context);
 // Lays out the lightmap for what people see. With choose_texel no more texels than a first estimate of their light can
 // do in a part of `seconds`, those that the bake has left; infinite: as many as are wanted. Errors as build_atlas.

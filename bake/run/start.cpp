@@ -4,13 +4,13 @@
 
 namespace oriel {
 
-Result<Start> choose_start(const BakeOptions& options, const EyeRegion& region, const BakedScene& baked,
-                           Context& context, Pack& pack) {
+Result<Start> choose_start(const BakeOptions& options, const WalkOptions& people, const EyeRegion& region,
+                           const BakedScene& baked, Context& context, Pack& pack) {
   if (!pack.cameras.empty() || !pack.paths.empty()) return Start::kOfScene;
   std::vector<WalkGrid> floors = region.grids;
   if (options.eyes.source != EyeSource::kWalk) {
     EyeOptions walk;  // people walk whatever eyes reflections are planned for
-    walk.walk = options.eyes.walk;
+    walk.walk = people;
     ORIEL_TRY(EyeRegion walked, find_eye_region(baked.accel, walk, context));
     floors = std::move(walked.grids);
   }

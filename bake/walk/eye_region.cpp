@@ -53,9 +53,9 @@ std::vector<Region> connected_regions(const FloorPlan& plan, const Links& links)
 }
 
 // The place under an eye: of the columns within reach the nearest one that has a floor not too far down.
-std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye) {
+std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye, float size) {
   const Vec2 at = (Vec2(eye.x, eye.z) - plan.lower) / plan.cell_m - 0.5f;
-  const float reach = std::max(kStartReach / plan.cell_m, 1.0f);
+  const float reach = std::max(size * kStartReach / plan.cell_m, 1.0f);
   std::optional<std::uint32_t> best;
   float nearest = reach;
   const auto range = [&](float middle, std::uint32_t count) {
@@ -72,7 +72,7 @@ std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye)
       const std::size_t column = std::size_t{z} * plan.width + x;
       for (std::uint32_t i = plan.first[column]; i < plan.first[column + 1]; ++i) {
         const float drop = eye.y - plan.places[i].y;
-        if (drop < 0 || drop > kMaxDrop) continue;
+        if (drop < 0 || drop > size * kMaxDrop) continue;
         nearest = distance;
         best = i;  // places rise: the last is the one right under the eye
       }
@@ -81,14 +81,14 @@ std::optional<std::uint32_t> place_under(const FloorPlan& plan, const Vec3& eye)
 }
 
 // The regions that starts stand in; none: the one with the most covered places, then the most places.
-Region reachable(const FloorPlan& plan, const Links& links, std::span<const Vec3> starts) {
+Region reachable(const FloorPlan& plan, const Links& links, std::span<const Vec3> starts, float people) {
   const std::vector<Region> regions = connected_regions(plan, links);
   std::vector<std::size_t> region_of(plan.places.size());
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (const std::uint32_t place : regions[r]) region_of[place] = r;
   std::vector<char> chosen(regions.size());
   for (const Vec3& start : starts)
-    if (const auto place = place_under(plan, start)) chosen[region_of[*place]] = 1;
+    if (const auto place = place_under(plan, start, people)) chosen[region_of[*place]] = 1;
   if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end() && !regions.empty()) {
     const auto size = [&](const Region& region) {
       const auto covered =
@@ -118,7 +118,7 @@ Region near_roofs(const FloorPlan& plan, const Links& links, const Region& regio
   for (const std::uint32_t place : region)
     if (plan.places[place].covered) begin(place, options.doorstep_m);
   for (const Vec3& start : starts)
-    if (const auto place = place_under(plan, start); place && !plan.places[*place].covered)
+    if (const auto place = place_under(plan, start, options.size()); place && !plan.places[*place].covered)
       begin(*place, options.outdoors_m);
   const float area = static_cast<float>(region.size()) * plan.cell_m * plan.cell_m;
   if (front.empty()) return area < options.least_open_m2 ? Region{} : region;
@@ -237,7 +237,7 @@ Result<EyeRegion> find_eye_region(const Accel& accel, const EyeOptions& options,
   const std::vector<Vec3> starts = region.points.empty() ? roofed_places(accel) : region.points;
   ORIEL_TRY(const FloorPlan plan, find_floors(accel, starts, options.walk, context));
   const Links links = both_ways(plan);
-  const Region reached = reachable(plan, links, region.points);
+  const Region reached = reachable(plan, links, region.points, options.walk.size());
   const Region kept = near_roofs(plan, links, reached, region.points, options.walk);
   region.left_out_m2 = static_cast<float>(reached.size() - kept.size()) * plan.cell_m * plan.cell_m;
   region.grids = storeys(plan, kept, options.walk);

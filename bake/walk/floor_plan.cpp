@@ -114,6 +114,13 @@ Vec2 middle(const FloorPlan& plan, std::size_t column) {
 
 }  // namespace
 
+WalkOptions WalkOptions::scaled(float size) const {
+  WalkOptions out = *this;
+  for (float* length : {&out.cell_m, &out.head_room_m, &out.step_m, &out.radius_m, &out.eye_height_m}) *length *= size;
+  out.least_open_m2 *= size * size;
+  return out;
+}
+
 Result<FloorPlan> find_floors(const Accel& accel, std::span<const Vec3> starts, const WalkOptions& options,
                               Context& context) {
   const Searcher searcher(accel, options);

@@ -22,6 +22,10 @@ struct WalkOptions {
   float doorstep_m = 5;     // how far from a roof people walk in the open, along the floor
   float least_open_m2 = 4;  // smaller places without a roof or a camera are tops of things
   float outdoors_m = 25;    // and how far from a camera or a path that stands there
+
+  // Of people of another size: all that goes with their bodies. How far they go does not.
+  WalkOptions scaled(float size) const;
+  float size() const { return eye_height_m / WalkOptions().eye_height_m; }
 };
 
 struct Place {

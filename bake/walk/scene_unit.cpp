@@ -100,6 +100,16 @@ std::vector<Vec3> roofed_places(const Accel& accel) {
   return places;
 }
 
+std::optional<double> typical_room_height(const Accel& accel) {
+  const Probe probe(accel);
+  std::vector<double> heights;
+  for (const Kind kind : {kBySurface, kByTriangle, kByArea})
+    for (std::uint32_t k = 0; k < kPoints; ++k)
+      if (const Probe::Found found = probe.find(kind, k); found.room) heights.push_back(found.height);
+  if (heights.size() < kFew * kPoints) return std::nullopt;
+  return typical_height(std::move(heights));
+}
+
 std::optional<UnitGuess> guess_unit(const Accel& accel) {
   const Probe probe(accel);
   std::vector<double> heights;  // of rooms

@@ -19,6 +19,9 @@ struct UnitGuess {
 // same rooms in any unit give the same rooms.
 std::optional<UnitGuess> guess_unit(const Accel& accel);
 
+// Of the rooms that points of surfaces lie in, each weighted as in guess_unit(), m; nothing without a room.
+std::optional<double> typical_room_height(const Accel& accel);
+
 // Points of floors with a roof 1.9 to 30 m overhead, scene space: some of any building, however small it is beside the
 // ground that it stands on.
 std::vector<Vec3> roofed_places(const Accel& accel);
