@@ -79,6 +79,13 @@ void Framebuffer::attach_depth_layer(const TextureArray& depth, int layer) const
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
 }
 
+void Framebuffer::stretch_over_window(const IVec2& size, const IVec2& window) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, window.x, window.y, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 void Framebuffer::attach_color_level(const Texture2d& color, int level) const {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), level);
 }

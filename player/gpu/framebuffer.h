@@ -28,6 +28,8 @@ class Framebuffer {
   // depth and stencil. Leaves this one bound.
   void resolve_color(const Framebuffer& samples, const IVec2& size) const;
   void resolve_depth_stencil(const Framebuffer& samples, const IVec2& size) const;
+  // The colour of this one, stretched over the window's, which is bound then.
+  void stretch_over_window(const IVec2& size, const IVec2& window) const;
   // Draws into a level of a texture from now on.
   void attach_color_level(const Texture2d& color, int level) const;
   // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.

@@ -70,6 +70,18 @@ OptionValue gpu_memory(std::uint64_t& bytes) {
           [&bytes] { return bytes == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(bytes); }};
 }
 
+OptionValue eye_height(float& metres) {
+  return {"LENGTH",
+          [&metres](const std::string& typed) -> Status {
+            static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
+            ORIEL_TRY(const double found, parse_quantity(typed, kUnits, "length", "1.6m or 160cm"));
+            metres = static_cast<float>(found);
+            return {};
+          },
+          [&metres] { return metres > 0 ? fmt::format("{:g}m", metres) : ""; },
+          [&metres] { return metres > 0 ? nlohmann::ordered_json(metres) : nlohmann::ordered_json(); }};
+}
+
 OptionValue frames(int& count) {
   OptionValue value = number(count, 1, 1e9);
   value.get = [&count] { return count > 0 ? std::to_string(count) : ""; };
@@ -262,8 +274,15 @@ std::vector<Option> window_options(PlayArguments& out) {
        "May "
        "be repeated offscreen; all: every camera of the pack",
        texts(out.cameras, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz|all"), Use::kEveryday},
-      {"--panel", kWindow, "Open the panel at once: exposure, stages, reflections, times, what is under the pointer",
+      {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
        flag(out.panel), Use::kEveryday},
+      {"--quality", kWindow,
+       "auto keeps 15 frames a second while something moves, with coarser frames where the device needs that, and draws "
+       "the whole frame once it stands still; full draws each frame whole; fast none",
+       choice(out.quality, kQualities), Use::kEveryday},
+      {"--eye-height", kWindow,
+       "Of people who walk, over the floor; their steps, speed and reach go with it. Default: as the bake found it",
+       eye_height(out.eye_height_m)},
       {"--gpu-memory", kDevice,
        "Textures, lightmap pages and maps take no more than this on the device: what is near and in view is shown as "
        "it "

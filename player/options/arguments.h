@@ -12,6 +12,7 @@
 #include "player/loading/residency.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
+#include "player/session/pace.h"
 
 namespace oriel {
 
@@ -51,6 +52,8 @@ struct PlayArguments {
   std::string stats;                    // a file for what the frames cost
   std::uint64_t gpu_memory = kNoLimit;  // bytes of images on the device
   bool panel = false;
+  Quality quality = Quality::kAutomatic;
+  float eye_height_m = 0;  // of people over the floors; 0: as the pack has it
   bool gl_debug = false;
 };
 

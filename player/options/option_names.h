@@ -7,6 +7,7 @@
 
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
+#include "player/session/pace.h"
 
 namespace oriel {
 
@@ -31,6 +32,9 @@ inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflecta
 inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverLights::kShadowed},
                                                              {"unshadowed", MoverLights::kUnshadowed},
                                                              {"harmonics", MoverLights::kHarmonics}};
+
+inline const std::map<std::string, Quality> kQualities{
+    {"auto", Quality::kAutomatic}, {"full", Quality::kFull}, {"fast", Quality::kFast}};
 
 inline const std::map<std::string, bool> kSwitch{{"on", true}, {"off", false}};
 

@@ -12,35 +12,54 @@ namespace oriel {
 namespace {
 
 constexpr float kPanelWidth = 330;  // pixels at a scale of 1
+constexpr const char* kHint = "W A S D walk    double click: go there    F1: all keys";
 constexpr float kLeastEv100 = -6, kMostEv100 = 20;
 
+// Brighter to the right: what a photographer's exposure value says the other way round.
 void draw_light(Session& session) {
+  float ev100 = session.shown_ev100;
+  if (ImGui::SliderFloat("brightness", &ev100, kMostEv100, kLeastEv100, "EV %.1f")) session.manual_ev100 = ev100;
   bool automatic = !session.manual_ev100;
-  if (ImGui::Checkbox("automatic exposure", &automatic)) {
+  if (ImGui::Checkbox("brightness follows the room", &automatic)) {
     session.manual_ev100.reset();
     if (!automatic) session.manual_ev100 = session.shown_ev100;
   }
-  float ev100 = session.shown_ev100;
-  if (ImGui::SliderFloat("EV 100", &ev100, kLeastEv100, kMostEv100, "%.1f")) session.manual_ev100 = ev100;
-  float white = white_of_exposure(session.shown_ev100);
-  if (ImGui::SliderFloat("white, cd/m²", &white, white_of_exposure(kLeastEv100), white_of_exposure(kMostEv100), "%.4g",
-                         ImGuiSliderFlags_Logarithmic))
-    session.manual_ev100 = exposure_of_white(white);
-  choose("tone curve", kToneCurves, session.curve);
 }
 
-void draw_reflections(FrameOptions& frame) {
+const std::map<std::string, Blur> kSharpness{{"as the material", Blur::kDistance}, {"like a mirror", Blur::kOff}};
+
+void draw_quality(const FrameMeter& meter, Session& session) {
+  choose("quality", kQualities, session.quality);
+  ImGui::TextWrapped("%s", meter.pace.c_str());
+  bool reflects = session.frame.reflections != Reflections::kOff;
+  if (ImGui::Checkbox("reflections", &reflects))
+    session.frame.reflections = reflects ? Reflections::kMarch : Reflections::kOff;
+  // The published blur is a choice of the advanced ones.
+  Blur blur = session.frame.blur == Blur::kOff ? Blur::kOff : Blur::kDistance;
+  choose("their sharpness", kSharpness, blur);
+  if (blur != session.frame.blur && (session.frame.blur != Blur::kConstant || blur == Blur::kOff))
+    session.frame.blur = blur;
+}
+
+// In the words of Bastos et al. 1999.
+void draw_advanced(Session& session) {
+  FrameOptions& frame = session.frame;
   choose("stage", kStages, frame.show);
   if (is_survey(frame.show)) {
     draw_legend(frame.show);
     return;
   }
-  choose("reflections", kReflections, frame.reflections);
+  choose("reflected by", kReflections, frame.reflections);
   ImGui::SliderInt("maps", &frame.maps_per_element, 0, 8);
   choose("selection", kSelections, frame.selection);
   choose("blur", kBlurs, frame.blur);
   choose("kernel", kKernelPlaces, frame.kernel);
   choose("Fresnel", kReflectances, frame.reflectance);
+  float white = white_of_exposure(session.shown_ev100);
+  if (ImGui::SliderFloat("white, cd/m²", &white, white_of_exposure(kLeastEv100), white_of_exposure(kMostEv100), "%.4g",
+                         ImGuiSliderFlags_Logarithmic))
+    session.manual_ev100 = exposure_of_white(white);
+  choose("tone curve", kToneCurves, session.curve);
 }
 
 void draw_places(const Pack& pack, Session& session) {
@@ -156,13 +175,21 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
   if (ImGui::Begin("Oriel", &session.panel)) {
     ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
     const auto opens = [](const char* name) { return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen); };
-    if (opens("Frames")) draw_statistics(meter, pack, session.frame);
+    if (opens("Picture")) {
+      draw_light(session);
+      draw_quality(meter, session);
+    }
+    if (opens("Places")) draw_places(pack, session);
     if (session.comparison.on() && opens("Beside each other")) draw_comparison(session.comparison);
     if (opens("Under the pointer")) draw_picked(picked);
-    if (opens("Light")) draw_light(session);
-    if (opens("Shown")) draw_reflections(session.frame);
     if (!pack.movers.empty() && opens("Movers")) draw_movers(pack, session);
-    if (opens("Places")) draw_places(pack, session);
+    // Of colours the legend is there.
+    ImGui::SetNextItemOpen(session.advanced || is_survey(session.frame.show));
+    session.advanced = ImGui::CollapsingHeader("Advanced");
+    if (session.advanced) {
+      draw_advanced(session);
+      draw_statistics(meter, pack, session.frame);
+    }
     ImGui::PopItemWidth();
   }
   ImGui::End();
@@ -212,9 +239,11 @@ float FrameMeter::mean_ms() const {
 
 void draw_overlay(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,
                   Session& session) {
+  if (session.presenting) return;
   if (session.comparison.on()) draw_names(session.comparison);
   if (!meter.in_zone && meter.stats.reflectors > 0) draw_line("zone", "reflections were planned for other places", 1);
   if (!meter.message.empty()) draw_line("message", meter.message, 0);
+  if (meter.hint > 0 && !session.key_sheet) draw_line("hint", kHint, 0.93f, 0.5f, meter.hint);
   if (meter.loading.busy) draw_loading_bar(meter.loading.share());
   if (!meter.failure.empty()) draw_line("failure", "not all of it can be shown: " + meter.failure, 0.25f);
   if (session.recording)

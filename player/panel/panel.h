@@ -18,6 +18,8 @@ struct FrameMeter {
   bool gamepad = false;  // there is one
   std::string device;    // its name
   std::string message;   // for the user, while it is news
+  std::string pace;      // how finely frames are drawn
+  float hint = 0;        // how much of the first keys is shown: 1 all, 0 nothing
   LoadingState loading;
   std::string failure;  // the first image that could not be loaded; empty: none
 

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -29,18 +30,20 @@ void choose(const char* label, const std::map<std::string, T>& names, T& value) 
   ImGui::EndCombo();
 }
 
-// A line of text over the frame, `across` and `down` of it: (0, 0) the top left corner.
-inline void draw_line(const char* id, const std::string& line, float down, float across = 0) {
+// A line of text over the frame, `across` and `down` of it: (0, 0) the top left corner. opacity: 1 to be read, 0 gone.
+inline void draw_line(const char* id, const std::string& line, float down, float across = 0, float opacity = 1) {
   const float margin = scaled(kMargin);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(margin + across * (size.x - 2 * margin), margin + down * (size.y - 2 * margin)),
                           ImGuiCond_Always, ImVec2(across, down));
-  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::SetNextWindowBgAlpha(0.6f * opacity);
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::max(opacity, 0.01f));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing);
   text(line);
   ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace oriel

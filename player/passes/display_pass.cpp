@@ -1,5 +1,9 @@
 #include "player/passes/display_pass.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "player/gpu/raster_state.h"
 
 namespace oriel {
@@ -7,7 +11,50 @@ namespace {
 
 constexpr int kBlock = 16;  // pixels a side that one fragment of the meter adds up
 
+constexpr double kMiddle = 0.5;  // of the frame's half width and height: how far the look falls off by 1/e² there
+constexpr double kBright = 0.9;  // share of what is looked at that is darker than its bright parts
+constexpr double kShadows = 7;   // stops under these: nobody exposes for what is darker
+
+struct Block {
+  double log_luminance = 0, weight = 0;
+};
+
+// How much a place counts, (-1, -1) to (1, 1) over the frame: people look at the middle.
+double look(double x, double y) {
+  return 0.1 + std::exp(-0.5 * (x * x + y * y) / (kMiddle * kMiddle));
+}
+
 }  // namespace
+
+std::optional<float> log_luminance_of(std::span<const Vec4> sums, int width) {
+  std::vector<Block> blocks;
+  double all = 0;
+  const int height = static_cast<int>(sums.size()) / std::max(width, 1);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (!(sums[i].y > 0) || !std::isfinite(sums[i].x)) continue;
+    const double x = (2.0 * static_cast<double>(i % static_cast<std::size_t>(width)) + 1) / width - 1;
+    const double y = (2.0 * static_cast<double>(i / static_cast<std::size_t>(width)) + 1) / height - 1;
+    const double weight = double{sums[i].y} * look(x, y);
+    blocks.push_back({double{sums[i].x} / double{sums[i].y}, weight});
+    all += weight;
+  }
+  if (blocks.empty()) return std::nullopt;
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [](const Block& a, const Block& b) { return a.log_luminance < b.log_luminance; });
+  double run = 0, bright = blocks.back().log_luminance;
+  for (const Block& b : blocks)
+    if ((run += b.weight) >= kBright * all) {
+      bright = b.log_luminance;
+      break;
+    }
+  double sum = 0, weight = 0;
+  for (const Block& b : blocks) {
+    if (b.log_luminance < bright - kShadows) continue;
+    sum += b.log_luminance * b.weight;
+    weight += b.weight;
+  }
+  return static_cast<float>(sum / weight);
+}
 
 float white_of_exposure(float ev100) {
   return 1.2f * std::exp2(ev100);
@@ -47,13 +94,9 @@ Result<std::optional<float>> DisplayPass::meter(const FrameTarget& frame) {
   std::vector<Vec4> sums(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, sums.data());
-  double sum = 0, count = 0;
-  for (const Vec4& s : sums) {
-    sum += s.x;
-    count += s.y;
-  }
-  if (!(count > 0) || !std::isfinite(sum)) return std::optional<float>();
-  return std::optional<float>(static_cast<float>(sum / count - std::log2(1.2 * 0.18)));
+  const std::optional<float> log_luminance = log_luminance_of(sums, width);
+  if (!log_luminance) return std::optional<float>();
+  return std::optional<float>(*log_luminance - std::log2(1.2f * 0.18f));
 }
 
 void DisplayPass::draw(const FrameTarget& frame, float ev100, ToneCurve curve) const {
@@ -72,6 +115,24 @@ void DisplayPass::draw(const FrameTarget& frame, float ev100, ToneCurve curve) c
   program.set("u_exposure", 1 / white_of_exposure(ev100));
   program.set("u_curve", curve == ToneCurve::kAces ? 1 : 0);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Status DisplayPass::draw_in_window(const FrameTarget& frame, float ev100, ToneCurve curve, const IVec2& window,
+                                   bool again) {
+  const IVec2 size = frame.size();
+  const bool fits = shown_ && shown_.width() == size.x && shown_.height() == size.y;
+  if (!fits) {
+    shown_ = gpu::Texture2d(gpu::kRgba8, size.x, size.y, nullptr);
+    ORIEL_TRY(shown_framebuffer_, gpu::Framebuffer::create("shown frame", &shown_, nullptr));
+  }
+  if (!fits || !again || ev100 != shown_ev100_ || curve != shown_curve_) {
+    shown_framebuffer_.bind();
+    draw(frame, ev100, curve);
+    shown_ev100_ = ev100;
+    shown_curve_ = curve;
+  }
+  shown_framebuffer_.stretch_over_window(size, window);
+  return {};
 }
 
 }  // namespace oriel

@@ -86,6 +86,8 @@ Status Renderer::ensure_frame(int width, int height, int samples) {
     return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height,
                 device_.texture_size, device_.texture_size, device_.renderer);
   }
+  std::swap(frame_, spare_);
+  if (frame_ && frame_->size() == IVec2(width, height) && frame_->asked == given) return {};
   frame_.reset();
   ORIEL_TRY(FrameTarget frame, make_frame_target(width, height, given));
   frame_ = std::move(frame);
@@ -155,9 +157,10 @@ Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, co
   const GpuReflector& reflector = *candidate.reflector;
   ORIEL_TRY(const bool there, scene.bring_maps(reflector));
   if (!there) return {};  // another reflector's took their room
-  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
-  const ImageRect rect = choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size);
+  const ImageRect rect =
+      choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
   ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && candidate.value > 0;
@@ -243,6 +246,7 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
+  in_window_ = false;
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;
@@ -321,7 +325,7 @@ std::vector<float> Renderer::read_light() const {
 
 Status Renderer::take_light(const FloatImage& rgba) {
   ORIEL_TRY_VOID(ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->asked : 1));
-  frame_->shows_samples = false;
+  frame_->shows_samples = in_window_ = false;
   const std::size_t row = 4 * std::size_t{rgba.width};
   std::vector<float> upwards;
   upwards.reserve(rgba.pixels.size());

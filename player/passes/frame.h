@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "formats/image/image.h"
 #include "player/movers/bright_pass.h"
@@ -30,6 +31,10 @@ class Renderer {
   // Of the last frame: see DisplayPass.
   Result<std::optional<float>> meter() { return display_.meter(*frame_); }
   void display(float ev100, ToneCurve curve) const { display_.draw(*frame_, ev100, curve); }
+  // Over the window of that size, whatever the frame's.
+  Status display_in_window(float ev100, ToneCurve curve, const IVec2& window) {
+    return display_.draw_in_window(*frame_, ev100, curve, window, std::exchange(in_window_, true));
+  }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
   // A picture as the frame: RGBA as FrameTarget::light, row 0 at the top. Error kUsage where it exceeds the device.
@@ -83,8 +88,9 @@ class Renderer {
   CurvedPass curved_pass_;
   SurveyPass survey_pass_;
   DisplayPass display_;
-  std::optional<FrameTarget> frame_;
+  std::optional<FrameTarget> frame_, spare_;  // spare_: the one before of another size, which often comes back
   std::optional<ImageTarget> image_;
+  bool in_window_ = false;  // the frame was shown there
   std::vector<gpu::Query> queries_;
   PassClock clock_;
   std::vector<std::uint32_t> marked_;  // of value i + 1 in the last frame's stencil: the reflector's material

@@ -168,7 +168,7 @@ const gpu::Program* ReflectorPass::set_emitters(GpuScene& scene, const GpuReflec
                                                 const FrameOptions& options) const {
   const Pack& pack = scene.pack();
   const GpuEmitters& emitters = reflector.emitters;
-  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel);
+  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
   // M shows a mirror's world, in which a glossy lobe has no place.
   if (options.show == Show::kM || !emitters.polygons || !kernel.fits) return nullptr;
   const gpu::Program& program = options.blur == Blur::kOff ? emitters_sharp_ : emitters_;

@@ -10,7 +10,7 @@ namespace oriel {
 
 // Where the reflected image lies in the frame, and how fine it must be for a kernel of that median radius (0: none).
 // screen: what the reflector covers.
-ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit);
+ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit, bool coarse = false);
 
 // What shaders/passes/screen/blur_width.glsl asks for, to the program in use.
 void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,

@@ -59,7 +59,8 @@ void CurvedPass::draw_light(GpuScene& scene, const GpuCurvedReflector& reflector
   const Material& material = pack.materials[reflector.material];
   const SurroundTextures& map = scene.surround_map(reflector.map);
   const bool sharp = options.show == Show::kM || options.blur == Blur::kOff;
-  const GpuKernel& kernel = sharp ? scene.mirror_kernel() : scene.kernel(reflector.material, options.kernel);
+  const GpuKernel& kernel =
+      sharp ? scene.mirror_kernel() : scene.kernel(reflector.material, options.kernel, options.coarse);
   map.light.bind(kLightUnit);
   map.inverse_distance.bind(kDistanceUnit);
   scene.reflectance_tables().bind(kReflectanceUnit);

@@ -12,8 +12,8 @@ namespace {
 // Instead of 1 / distance where a coarse pixel sees nothing: what is interpolated with it is below 0 too.
 constexpr float kCoarseHole = -1e30f;
 
-// Of the lobe, in coarse pixels for those to do.
-constexpr float kLeastRadius = 2;
+// Of the lobe, in coarse pixels for those to do; in a frame that moves.
+constexpr float kLeastRadius = 2, kLeastCoarseRadius = 0.25f;
 
 struct PlaneRect {
   Vec2 from{0}, to{0};
@@ -84,7 +84,7 @@ void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, cons
                             const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
                             const FrameOptions& options, FrameStats& stats) const {
   const gpu::Texture2d& marched = target.blurred;  // M * K comes later
-  const float least_radius = kLeastRadius * static_cast<float>(rect.marched);
+  const float least_radius = (options.coarse ? kLeastCoarseRadius : kLeastRadius) * static_cast<float>(rect.marched);
   target.level_framebuffer.bind();
   target.level_framebuffer.attach_color_level(marched, 0);
   gpu::apply({});

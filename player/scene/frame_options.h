@@ -40,6 +40,7 @@ struct FrameOptions {
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   int samples = 1;           // of a pixel at edges, as many as the device has
+  bool coarse = false;       // less work by pixel, for frames while something moves
   bool timed = false;        // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;

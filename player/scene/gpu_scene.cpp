@@ -9,7 +9,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kKernelTaps = 48;
+constexpr int kKernelTaps = 48, kCoarseTaps = 12;
 
 // Where the images of ranges are seen.
 void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
@@ -239,19 +239,19 @@ const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   return texture;
 }
 
-const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place) {
+const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place, bool coarse) {
   const Material& m = pack_.materials[material];
-  return kernel(m.kernel, m.fresnel_map, place);
+  return kernel(m.kernel, m.fresnel_map, place, coarse);
 }
 
-const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place) {
-  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, place});
+const GpuKernel& GpuScene::kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place, bool coarse) {
+  const auto [at, added] = kernels_.try_emplace({index, fresnel_map, place, coarse});
   if (!added) return at->second;
   const BrdfKernel mirror;
   const FresnelMap none;
   const BrdfKernel& kernel = index < 0 ? mirror : pack_.kernels[static_cast<std::size_t>(index)];
   const FresnelMap& fresnel = fresnel_map < 0 ? none : pack_.fresnel_maps[static_cast<std::size_t>(fresnel_map)];
-  KernelTaps taps = make_kernel_taps(kernel, kKernelTaps, place);
+  KernelTaps taps = make_kernel_taps(kernel, coarse ? kCoarseTaps : kKernelTaps, place);
   const std::vector<float> factors = weigh_by_fresnel(taps, place == KernelPlace::kCentred ? none : fresnel);
   at->second = {upload_kernel_taps(taps), taps.count, taps.rows, taps.median, {}};
   if (!kernel.fits.empty())

@@ -125,13 +125,14 @@ class GpuScene {
   std::uint64_t map_bytes() const { return images_->map_bytes(); }
   const gpu::Texture2d& sphere_map(std::uint32_t fresnel_map);
   // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
-  const GpuKernel& kernel(std::uint32_t material, KernelPlace place);
-  const GpuKernel& mirror_kernel() { return kernel(-1, -1, KernelPlace::kLobe); }
+  // coarse: of few taps.
+  const GpuKernel& kernel(std::uint32_t material, KernelPlace place, bool coarse);
+  const GpuKernel& mirror_kernel() { return kernel(-1, -1, KernelPlace::kLobe, false); }
 
  private:
   GpuScene() = default;
   // Of Pack::kernels and Pack::fresnel_maps, -1: a mirror's, none.
-  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place);
+  const GpuKernel& kernel(std::int32_t index, std::int32_t fresnel_map, KernelPlace place, bool coarse);
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
@@ -155,7 +156,7 @@ class GpuScene {
   std::vector<gpu::Texture2d> sphere_maps_;
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
-  std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace>, GpuKernel> kernels_;
+  std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

@@ -11,6 +11,7 @@ enum class Action {
   kHeld,  // while it is down: the window asks for it itself
   kKeySheet,
   kPanel,
+  kPresent,
   kStage,
   kFly,
   kOrbit,

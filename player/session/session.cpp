@@ -1,5 +1,8 @@
 #include "player/session/session.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,7 +14,13 @@ namespace {
 
 constexpr float kTurnPerWidth = 2 * kPi;  // of a mover, across the window
 constexpr float kOrbit_m = 3;             // where nothing is seen
-constexpr float kAdaptation_s = 0.3f;
+// Eyes take longer to see in the dark than to bear the light.
+constexpr float kAdaptation_s = 0.3f, kDarkAdaptation_s = 0.7f, kLongestAdaptation_s = 0.1f;
+// Darker than moonlight and brighter than snow in the sun nothing is shown as middle grey.
+constexpr float kLeastAutoEv100 = -4, kMostAutoEv100 = 17;
+// Of an orbit: how far off the centre's surface sight begins, how near to a wall the eye comes, and the share of its
+// radius below which it rather stands still; the first two of the distance.
+constexpr float kOffCentre = 0.02f, kBeforeWall = 0.92f, kLeastOrbit = 0.25f;
 constexpr float kExposureStep = 1 / 3.0f;
 
 void look_from(const Camera& camera, Session& session) {
@@ -33,7 +42,8 @@ void orbit_or_end(const Pack& pack, Session& session) {
   }
   const Camera& camera = session.camera;
   const auto hit = first_triangle(pack.mesh, camera.eye, camera.forward);
-  session.move.orbit = camera.eye + (hit ? hit->distance : kOrbit_m) * camera.forward;
+  session.move.orbit_m = hit ? hit->distance : kOrbit_m;
+  session.move.orbit = camera.eye + session.move.orbit_m * camera.forward;
 }
 
 bool moves(const MoveInput& input) {
@@ -60,12 +70,18 @@ void record_or_end(Session& session) {
 void move_camera_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session) {
   if (session.path_time_s < 0) {
     const Vec3 from = session.camera.eye;
-    session.camera = move_camera(session.camera, session.move, input, dt_s);
+    const float size = floors.size();
+    MoveOptions options;
+    options.nearest_orbit_m *= size;
+    session.camera = move_camera(session.camera, session.move, input, dt_s, options);
     if (moves(input)) session.walker = {};
+    const bool glides = session.walker.on() && session.walker.glides;
     if (session.walker.on()) session.camera.eye = walk_on(session.walker, from, dt_s);
-    if (session.move.fly || session.move.orbit) return;
+    if (glides || session.move.fly || session.move.orbit) return;
     if (session.camera.eye != from) session.walking = true;
-    if (session.walking) session.camera.eye = floors.walk(from, session.camera.eye, dt_s, session.move.fall_m_s);
+    if (session.walking)
+      session.camera.eye =
+          floors.walk(from, session.camera.eye, dt_s, session.move.fall_m_s, StepOptions().scaled(size));
     return;
   }
   session.path_time_s += dt_s;
@@ -86,6 +102,9 @@ void perform(const Command& command, const Pack& pack, Session& session) {
       break;
     case Action::kKeySheet:
       session.key_sheet = !session.key_sheet;
+      break;
+    case Action::kPresent:
+      session.presenting = !session.presenting;
       break;
     case Action::kPanel:
       session.panel = !session.panel;
@@ -161,23 +180,60 @@ void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& 
 
 std::string go(const Vec2& place, const Pack& pack, const View& view, const Floors& floors, Session& session) {
   constexpr float kBefore_m = 0.4f;  // a wall or what stands in the way
-  if (floors.empty()) return "the pack knows no floor to walk on";
+  constexpr float kAhead_m = 5;      // where nothing is seen
+  constexpr float kThere_m = 0.5f;   // as good as where the user pointed
+  if (floors.empty()) return "the pack knows no floor to walk on; F flies";
   const PickRay ray = ray_through(view, place);
+  const float size = floors.size();
   const auto hit = first_triangle(pack.mesh, ray.from, ray.direction);
-  if (!hit) return "there is nothing to walk to";
-  const Vec3 at = ray.from + hit->distance * ray.direction;
-  std::vector<Vec3> way = find_way(floors, session.camera.eye, at);
-  if (way.empty()) {
-    const Vec3 before = at - kBefore_m * normalize_or(Vec3(ray.direction.x, 0, ray.direction.z), Vec3(0));
-    if (const auto floor = floors.floor_below(before)) way = find_way(floors, session.camera.eye, *floor);
+  const Vec3 at = ray.from + (hit ? hit->distance : kAhead_m * size) * ray.direction;
+  const WayOptions options{.reach_m = size, .step = StepOptions().scaled(size)};
+  NearestWay found;
+  found.way = find_way(floors, session.camera.eye, at, options);
+  if (found.way.empty()) {
+    const Vec3 ahead = normalize_or(Vec3(ray.direction.x, 0, ray.direction.z), Vec3(0));
+    const Vec3 before = at - kBefore_m * size * ahead;
+    const auto floor = floors.floor_below(before);
+    if (floor) found.way = find_way(floors, session.camera.eye, *floor, options);
+    if (found.way.empty()) {
+      const auto nearest = find_nearest_way(floors, session.camera.eye, floor.value_or(before), options);
+      if (!nearest) return "no floor here is large enough to stand on; F flies";
+      found = *nearest;
+      const Vec3 feet = found.way.back() - Vec3(0, floors.eye_height_m(), 0);
+      found.short_m = glm::distance(feet, floor ? Vec3(at.x, floor->y, at.z) : at);
+    }
   }
-  if (way.empty()) return "nobody can walk there from here";
-  session.walker = start_walking(session.camera.eye, std::move(way), session.move.speed_m_s);
+  session.walker = start_walking(session.camera.eye, std::move(found.way), session.move.speed_m_s);
+  session.walker.glides = found.glides;
   session.walking = true;
   session.move.fly = false;
   session.move.orbit.reset();
   session.path_time_s = -1;
-  return {};
+  if (found.glides) return "nobody can walk from here: flying to the nearest floor";
+  if (found.short_m <= kThere_m * size) return {};
+  return fmt::format("nobody can walk there: walking to the nearest place, {:.1f} m from it", found.short_m);
+}
+
+void stay_in_sight(const Camera& before, const Pack& pack, Session& session) {
+  if (!session.move.orbit || session.camera.eye == before.eye) return;
+  const Vec3 centre = *session.move.orbit;
+  const float distance = glm::distance(session.camera.eye, centre);
+  const Vec3 away = normalize_or(session.camera.eye - centre, Vec3(0, 1, 0));
+  // Around a thing in the open nothing is passed, though the thing may hide its front.
+  const Vec3 step = session.camera.eye - before.eye;
+  const auto passed = first_triangle(pack.mesh, before.eye, normalize_or(step, away));
+  if (!passed || passed->distance > glm::length(step)) return;
+  // Off the surface that the centre lies on: the eye began on its front.
+  const Vec3 from = centre + normalize_or(before.eye - centre, away) * kOffCentre * distance;
+  const auto wall = first_triangle(pack.mesh, from, away);
+  if (!wall || wall->distance * kBeforeWall >= distance) return;
+  const float clear = wall->distance * kBeforeWall;
+  // Behind the thing itself, or into a corner: it turns no further.
+  if (clear < std::min(kLeastOrbit * session.move.orbit_m, distance)) {
+    session.camera = before;
+    return;
+  }
+  session.camera.eye = centre + away * clear;
 }
 
 void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Session& session) {
@@ -187,8 +243,10 @@ void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Sessi
     return;
   }
   if (!metered_ev100) return;
-  const float share = session.metered ? 1 - std::exp(-dt_s / kAdaptation_s) : 1.0f;
-  session.shown_ev100 += (*metered_ev100 - session.shown_ev100) * share;
+  const float towards = std::clamp(*metered_ev100, kLeastAutoEv100, kMostAutoEv100) - session.shown_ev100;
+  const float dt = std::min(dt_s, kLongestAdaptation_s);  // after a slow frame it still glides
+  const float share = session.metered ? 1 - std::exp(-dt / (towards > 0 ? kAdaptation_s : kDarkAdaptation_s)) : 1.0f;
+  session.shown_ev100 += towards * share;
   session.metered = true;
 }
 

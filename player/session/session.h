@@ -12,6 +12,7 @@
 #include "player/scene/frame_options.h"
 #include "player/session/comparison.h"
 #include "player/session/keys.h"
+#include "player/session/pace.h"
 #include "player/walk/controller.h"
 #include "player/walk/floors.h"
 #include "player/walk/way.h"
@@ -25,6 +26,7 @@ struct Session {
   Walker walker;                 // to where the user wants to go
   std::size_t shown_camera = 0;  // of the pack's, that the next one follows
   FrameOptions frame;
+  Quality quality = Quality::kAutomatic;
   ToneCurve curve = ToneCurve::kAces;
   std::optional<float> manual_ev100;  // nothing: automatic
   float shown_ev100 = 0;
@@ -37,6 +39,8 @@ struct Session {
   bool screenshot = false, light_screenshot = false, reload = false;
   std::optional<Vec2> go_to;  // what is seen at that place of the window, [0,1]² from the top left corner
   bool panel = false, key_sheet = false;
+  bool advanced = false;    // the panel shows what the method is made of
+  bool presenting = false;  // the whole screen, and no words
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged
   ComparisonView comparison;
@@ -56,11 +60,17 @@ void perform(const Command& command, const Pack& pack, Session& session);
 // Records that, if asked to.
 void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session);
 
-// Starts to walk to what is seen there, in `view`: to the floor, or to the floor before it. Empty, or why nobody can.
+// Keeps an eye that orbits on this side of walls: before one that it would pass on its way from `before`, and where it
+// was where there is hardly room for that.
+void stay_in_sight(const Camera& before, const Pack& pack, Session& session);
+
+// Starts to walk to what is seen there, in `view`: to the floor, or to the floor before it; where nobody can come
+// there, to the nearest place that can be walked to; from where nobody stands it flies to the nearest floor. Says so
+// where it is not quite what was asked for, and why where it is nothing; else empty.
 std::string go(const Vec2& place, const Pack& pack, const View& view, const Floors& floors, Session& session);
 
-// Towards the exposure that was metered (none: nothing was seen), over a third of a second, as eyes do; at once on the
-// first frame. A manual one holds.
+// Towards the exposure that was metered (none: nothing was seen), within what eyes bear, over a third of a second, and
+// over more where it gets dark; at once on the first frame. A manual one holds.
 void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Session& session);
 
 // What the pointer does to movers: the left button takes what moves under it, and it follows, on its level or turning

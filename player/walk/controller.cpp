@@ -32,18 +32,23 @@ Vec3 wanted(const MoveInput& input) {
   return glm::clamp(keys + stick, Vec3(-1), Vec3(1));
 }
 
-Camera orbited(const Camera& camera, const Vec3& centre, MoveInput input, float dt_s, float notches,
+Camera orbited(const Camera& camera, MoveState& state, MoveInput input, float dt_s, float notches,
                const MoveOptions& options) {
-  const Vec3 by = wanted(input);
+  const Vec3 by = wanted(input), centre = *state.orbit;
   const float factor = input.fast ? options.fast_factor : 1.0f;
   const float turn_px = factor * options.orbit_rad_per_s * dt_s / options.radians_per_pixel;
   input.mouse_x_px = finite_or_zero(input.mouse_x_px) - by.x * turn_px;
   input.mouse_y_px = finite_or_zero(input.mouse_y_px) + by.y * turn_px;
   Camera next = turned(camera, input, options);
-  const float distance = glm::distance(camera.eye, centre) * std::exp(-by.z * factor * options.zoom_per_s * dt_s) *
-                         std::pow(options.wheel_factor, -notches);
-  const Vec3 eye = centre - next.forward * std::max(distance, options.nearest_orbit_m);
-  if (is_finite(eye)) next.eye = eye;
+  const float here = glm::distance(camera.eye, centre);
+  const float zoom = std::exp(-by.z * factor * options.zoom_per_s * dt_s) * std::pow(options.wheel_factor, -notches);
+  // From where it is: a wall may have held it nearer than it was to be.
+  if (state.orbit_m <= 0 || zoom < 1) state.orbit_m = here;
+  const float distance = std::max(state.orbit_m * zoom, options.nearest_orbit_m);
+  const Vec3 eye = centre - next.forward * distance;
+  if (!is_finite(eye)) return next;
+  state.orbit_m = distance;
+  next.eye = eye;
   return next;
 }
 
@@ -53,7 +58,7 @@ Camera move_camera(const Camera& camera, MoveState& state, const MoveInput& inpu
                    const MoveOptions& options) {
   const float notches = std::clamp(finite_or_zero(input.wheel), -100.0f, 100.0f);
   const float dt = std::clamp(finite_or_zero(dt_s), 0.0f, options.max_step_s);
-  if (state.orbit) return orbited(camera, *state.orbit, input, dt, notches, options);
+  if (state.orbit) return orbited(camera, state, input, dt, notches, options);
   const float speed = finite_or_zero(state.speed_m_s) * std::pow(options.wheel_factor, notches);
   state.speed_m_s = std::clamp(speed, options.min_speed_m_s, options.max_speed_m_s);
 

@@ -33,6 +33,7 @@ struct MoveState {
   float fall_m_s = 0;  // of one who walks off the ground
   // What the camera turns around, pack space: looking turns about it, ahead and the wheel come nearer.
   std::optional<Vec3> orbit;
+  float orbit_m = 0;  // how far from it the eye wants to be; 0: as far as it is
 };
 
 // The camera after dt_s seconds, and the state with the wheel's speed. Times and inputs that are not finite, or

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kMostStrides = 64;
+constexpr float kSettled = 1e-3f;  // of a step: less is not seen
 
 Vec2 on_map(const Vec3& eye) {
   return {eye.x, eye.z};
@@ -25,6 +26,15 @@ std::optional<std::size_t> cell_at(const WalkGrid& grid, const Vec2& at) {
 }
 
 }  // namespace
+
+Floors::Floors(std::vector<WalkGrid> grids, float eye_height_m) : grids_(std::move(grids)) {
+  if (eye_height_m > 0)
+    for (WalkGrid& grid : grids_) grid.eye_height_m = eye_height_m;
+}
+
+Vec3 Floors::floor_of(const Stand& stand) const {
+  return stand.eye - Vec3(0, grids_[stand.grid].eye_height_m, 0);
+}
 
 std::optional<Stand> Floors::stand(const Vec2& at, float eye_y, const StepOptions& options) const {
   std::optional<Stand> highest;
@@ -78,14 +88,35 @@ std::optional<Stand> Floors::nearest_stand_on(const Vec3& floor, float reach_m, 
                  [](const WalkGrid& grid, std::size_t cell) { return grid.floor_y[cell]; });
 }
 
-std::optional<Vec3> Floors::floor_below(const Vec3& place) const {
-  std::optional<Vec3> highest;
-  for (const WalkGrid& grid : grids_) {
+std::optional<Stand> Floors::nearest_to(const Vec3& point) const {
+  std::optional<Stand> found;
+  float nearest = kFar;
+  for (std::uint32_t i = 0; i < grids_.size(); ++i)
+    for (std::size_t cell = 0; cell < grids_[i].floor_y.size(); ++cell) {
+      if (!grids_[i].walkable(cell)) continue;
+      const Stand here{i, cell, grids_[i].eye(cell)};
+      const float distance = glm::distance(floor_of(here), point);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      found = here;
+    }
+  return found;
+}
+
+std::optional<Stand> Floors::below(const Vec3& place) const {
+  std::optional<Stand> highest;
+  for (std::uint32_t i = 0; i < grids_.size(); ++i) {
+    const WalkGrid& grid = grids_[i];
     const auto cell = cell_at(grid, on_map(place));
     if (!cell || grid.floor_y[*cell] > place.y) continue;
-    if (!highest || grid.floor_y[*cell] > highest->y) highest = Vec3(place.x, grid.floor_y[*cell], place.z);
+    if (!highest || grid.floor_y[*cell] > floor_of(*highest).y) highest = {i, *cell, grid.eye(*cell)};
   }
   return highest;
+}
+
+std::optional<Vec3> Floors::floor_below(const Vec3& place) const {
+  const auto found = below(place);
+  return found ? std::optional(Vec3(place.x, floor_of(*found).y, place.z)) : std::nullopt;
 }
 
 float Floors::coarsest_cell_m() const {
@@ -101,7 +132,9 @@ float Floors::distance_to_floor(const Vec3& eye, const StepOptions& options) con
 }
 
 Vec3 Floors::walk(const Vec3& from, const Vec3& to, float dt_s, float& fall_m_s, const StepOptions& options) const {
-  const auto standing = eye_level(on_map(from), from.y, options);
+  auto standing = eye_level(on_map(from), from.y, options);
+  // A camera near the floor, or one of somebody smaller: it rises as it walks.
+  if (const auto floor = standing ? std::nullopt : below(from)) standing = floor->eye.y;
   if (!standing) {
     // Beside a floor, as a camera at a wall: on to the floor, or nearer to it.
     const float distance = distance_to_floor(from, options);
@@ -137,6 +170,7 @@ Vec3 Floors::walk(const Vec3& from, const Vec3& to, float dt_s, float& fall_m_s,
   } else {
     fall_m_s = 0;
     y += (level - y) * (1 - std::exp(-dt / options.settle_s));
+    if (std::fabs(level - y) < kSettled * options.step_m) y = level;  // it stands still
   }
   return {at.x, y, at.y};
 }

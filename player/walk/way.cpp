@@ -19,22 +19,30 @@ Vec2 on_map(const Vec3& p) {
 // A* over the places where Floors::stand finds a floor, from cell to cell and across corners where both sides are free.
 class Search {
  public:
-  Search(const Floors& floors, const StepOptions& options, const Stand& goal)
-      : floors_(floors), options_(options), goal_(goal) {}
+  Search(const Floors& floors, const StepOptions& options, const Vec3& towards)
+      : floors_(floors), options_(options), towards_(towards) {}
 
   // Stands from the start to the goal, or none.
-  std::vector<Stand> find(const Stand& start) {
-    open(start, 0, kNone);
-    while (!queue_.empty()) {
-      const auto [cost, at] = queue_.top();
-      queue_.pop();
-      if (nodes_[at].done) continue;
-      nodes_[at].done = true;
-      if (key(nodes_[at].stand) == key(goal_)) return back_from(at);
-      if (nodes_.size() > kMostCells) return {};
-      expand(at);
-    }
-    return {};
+  std::vector<Stand> find(const Stand& start, const Stand& goal) {
+    std::vector<Stand> found;
+    visit(start, [&](std::size_t at) {
+      if (key(nodes_[at].stand) != key(goal)) return false;
+      found = back_from(at);
+      return true;
+    });
+    return found;
+  }
+
+  // To the stand whose feet are nearest to a point, of all that are reached.
+  std::vector<Stand> find_nearest(const Stand& start, const Vec3& point) {
+    std::size_t best = 0;
+    float nearest = std::numeric_limits<float>::infinity();
+    visit(start, [&](std::size_t at) {
+      const float distance = glm::distance(floors_.floor_of(nodes_[at].stand), point);
+      if (distance < nearest) nearest = distance, best = at;
+      return false;
+    });
+    return back_from(best);
   }
 
  private:
@@ -45,6 +53,20 @@ class Search {
     std::size_t from = kNone;
     bool done = false;
   };
+
+  // Stands in the order of what they cost until `ends` says so of one, all are done, or too many.
+  template <class Ends>
+  void visit(const Stand& start, const Ends& ends) {
+    open(start, 0, kNone);
+    while (!queue_.empty()) {
+      const auto [cost, at] = queue_.top();
+      queue_.pop();
+      if (nodes_[at].done) continue;
+      nodes_[at].done = true;
+      if (ends(at) || nodes_.size() > kMostCells) return;
+      expand(at);
+    }
+  }
   static std::uint64_t key(const Stand& s) { return std::uint64_t{s.grid} << 40 | s.cell; }
 
   void open(const Stand& stand, float cost, std::size_t from) {
@@ -57,7 +79,7 @@ class Search {
       node.cost = cost;
       node.from = from;
     }
-    queue_.push({cost + glm::distance(stand.eye, goal_.eye), known->second});
+    queue_.push({cost + glm::distance(stand.eye, towards_), known->second});
   }
 
   std::optional<Stand> beside(const Stand& from, const Vec2& by) const {
@@ -89,7 +111,7 @@ class Search {
 
   const Floors& floors_;
   const StepOptions& options_;
-  const Stand goal_;
+  const Vec3 towards_;  // an eye: places on the way to it are looked at first
   std::vector<Node> nodes_;
   std::unordered_map<std::uint64_t, std::size_t> by_key_;
   using Entry = std::pair<float, std::size_t>;
@@ -118,20 +140,12 @@ bool is_straight(const Floors& floors, const Vec3& from, const Vec3& to, const S
   return std::fabs(level - to.y) <= options.step_m;
 }
 
-}  // namespace
-
-std::vector<Vec3> find_way(const Floors& floors, const Vec3& eye, const Vec3& goal, const WayOptions& options) {
-  StepOptions step = options.step;
-  step.step_m = std::max(step.step_m, floors.coarsest_cell_m());  // as Floors::walk
-  const auto start = floors.nearest_stand(eye, options.reach_m, step);
-  const auto end = floors.nearest_stand_on(goal, options.reach_m, step);
-  if (!start || !end) return {};
-  const std::vector<Stand> stands = Search(floors, step, *end).find(*start);
-  if (stands.empty()) return {};
-  // The last stand that is straight ahead is the next corner.
+// The corners of a way over stands: the last stand that is straight ahead is the next one.
+std::vector<Vec3> corners_of(const Floors& floors, const Vec3& eye, const std::vector<Stand>& stands,
+                             const StepOptions& step) {
   std::vector<Vec3> way;
   std::size_t at = 0;
-  if (on_map(start->eye) != on_map(eye)) way.push_back(start->eye);
+  if (on_map(stands.front().eye) != on_map(eye)) way.push_back(stands.front().eye);
   while (at + 1 < stands.size()) {
     std::size_t next = at + 1;
     // Doubling steps first: long ways across halls are looked at a few times, not at each of their cells.
@@ -145,15 +159,46 @@ std::vector<Vec3> find_way(const Floors& floors, const Vec3& eye, const Vec3& go
     way.push_back(stands[next].eye);
     at = next;
   }
-  if (way.empty()) way.push_back(end->eye);
+  if (way.empty()) way.push_back(stands.back().eye);
   return way;
+}
+
+// As Floors::walk: coarse columns take a stair's several steps at once.
+StepOptions steps_on(const Floors& floors, const WayOptions& options) {
+  StepOptions step = options.step;
+  step.step_m = std::max(step.step_m, floors.coarsest_cell_m());
+  return step;
+}
+
+}  // namespace
+
+std::vector<Vec3> find_way(const Floors& floors, const Vec3& eye, const Vec3& goal, const WayOptions& options) {
+  const StepOptions step = steps_on(floors, options);
+  const auto start = floors.nearest_stand(eye, options.reach_m, step);
+  const auto end = floors.nearest_stand_on(goal, options.reach_m, step);
+  if (!start || !end) return {};
+  const std::vector<Stand> stands = Search(floors, step, end->eye).find(*start, *end);
+  return stands.empty() ? std::vector<Vec3>() : corners_of(floors, eye, stands, step);
+}
+
+std::optional<NearestWay> find_nearest_way(const Floors& floors, const Vec3& eye, const Vec3& goal,
+                                           const WayOptions& options) {
+  const StepOptions step = steps_on(floors, options);
+  const auto short_of = [&](const Stand& stand) { return glm::distance(floors.floor_of(stand), goal); };
+  if (const auto start = floors.nearest_stand(eye, options.reach_m, step)) {
+    const std::vector<Stand> stands = Search(floors, step, goal).find_nearest(*start, goal);
+    return NearestWay{corners_of(floors, eye, stands, step), short_of(stands.back()), false};
+  }
+  const auto end = floors.nearest_to(goal);
+  if (!end) return std::nullopt;
+  return NearestWay{{end->eye}, short_of(*end), true};
 }
 
 Walker start_walking(const Vec3& eye, std::vector<Vec3> way, float speed_m_s) {
   float length = 0;
   Vec3 last = eye;
   for (const Vec3& corner : way) {
-    length += glm::distance(on_map(last), on_map(corner));
+    length += glm::distance(last, corner);
     last = corner;
   }
   Walker walker;
@@ -162,9 +207,25 @@ Walker start_walking(const Vec3& eye, std::vector<Vec3> way, float speed_m_s) {
   return walker;
 }
 
+namespace {
+
+// Straight through the air, as fast as the way's length asks for.
+Vec3 glide_on(Walker& walker, const Vec3& eye, float dt) {
+  if (!walker.on()) return eye;
+  const Vec3 way = walker.way.front() - eye;
+  const float distance = glm::length(way), by = walker.speed_m_s * dt;
+  if (by < distance) return eye + way * (by / distance);
+  const Vec3 there = walker.way.front();
+  walker.way.erase(walker.way.begin());
+  return there;
+}
+
+}  // namespace
+
 Vec3 walk_on(Walker& walker, const Vec3& eye, float dt_s) {
   constexpr float kThere_m = 1e-3f;
   const float dt = std::clamp(dt_s, 0.0f, 0.1f);
+  if (walker.glides) return glide_on(walker, eye, dt);
   while (walker.on() && glm::distance(on_map(walker.way.front()), on_map(eye)) < kThere_m) {
     walker.way.erase(walker.way.begin());
     walker.nearest_m = std::numeric_limits<float>::infinity();

@@ -66,6 +66,7 @@ std::string announce(const Command& command, const Pack& pack, const Session& se
       return announce_camera(session.shown_camera, pack);
     case Action::kRecord:
       return session.recording ? "recording" : "";
+    case Action::kPresent:
     case Action::kHeld:
     case Action::kGo:
     case Action::kScreenshot:

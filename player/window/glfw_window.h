@@ -18,11 +18,14 @@ class GlfwWindow {
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
   GLFWwindow* get() const { return window_; }
+  // All of the monitor that most of it is on, or as it was before.
+  void fill_screen(bool on);
 
  private:
   GlfwWindow() = default;
   bool initialized_ = false;
   GLFWwindow* window_ = nullptr;
+  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;  // before it filled the screen
 };
 
 }  // namespace oriel

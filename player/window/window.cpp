@@ -13,10 +13,12 @@
 #include "player/panel/panel.h"
 #include "player/paths/path_file.h"
 #include "player/poses/poses.h"
+#include "player/session/scene_name.h"
 #include "player/walk/zone.h"
 #include "player/window/announce.h"
 #include "player/window/beside_view.h"
 #include "player/window/glfw_window.h"
+#include "player/window/paced_frame.h"
 #include "player/window/window_input.h"
 
 namespace oriel {
@@ -35,8 +37,8 @@ std::string next_name(const char* ending) {
   }
 }
 
-constexpr IVec2 kRefusalSize{640, 200};
-constexpr double kMessage_s = 6;
+constexpr double kMessage_s = 6, kHint_s = 9, kFade_s = 2;
+constexpr double kStandingFrame_s = 1 / 20.0;  // where nothing moves
 constexpr float kDividerReach_px = 6;
 constexpr double kAim_s = 0.2;  // what images matter is asked that often
 // For images to come to the device: of each frame, and before the first one of a pack.
@@ -69,7 +71,10 @@ class Loop {
     session_.comparison.first = arguments.pack;
     session_.comparison.second = arguments.other;
     if (other) beside_.emplace(std::move(other));
+    session_.quality = arguments.quality;
+    session_.move.speed_m_s *= floors_.size();
     meter_.device = device.renderer;
+    glfwSetWindowTitle(window.get(), (scene_name(scene_->pack(), arguments.pack) + " – Oriel").c_str());
   }
 
   Status run(const std::function<bool()>& stopped) {
@@ -80,8 +85,10 @@ class Loop {
       last = Clock::now();
       InputFrame input = input_.poll(dt_s);
       if (stopped()) return fail(ErrorCode::kStopped, "", "stopped by the user");
+      if (input.escape && !std::exchange(session_.presenting, false)) return {};
       if (input.quit) return {};
       act(input, dt_s);
+      present(session_.presenting);
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_.get(), &width, &height);
       if (width < 1 || height < 1 || is_hidden()) {  // nothing to draw, and nothing to hurry for
@@ -92,7 +99,8 @@ class Loop {
       ORIEL_TRY_VOID(draw(std::min(width, device_.texture_size), std::min(height, device_.texture_size), dt_s));
       watch_.frame(Clock::now(), meter_.loading.busy);
       if (const auto news = watch_.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
-      meter_.add(static_cast<float>(1000 * seconds_since(last)));
+      if (drawn_ != Pace::Draw::kKeep) meter_.add(static_cast<float>(1000 * seconds_since(last)));
+      rest(last);
       if (meter_.loading.busy) std::this_thread::sleep_until(last + kLoadingFrame);
       if (++frames == arguments_.frames) return {};
     }
@@ -118,7 +126,9 @@ class Loop {
     if (const auto place = std::exchange(session_.go_to, std::nullopt))
       if (const std::string why = go(*place, scene_->pack(), view_, floors_, session_); !why.empty()) say(why);
     if (std::exchange(session_.reload, false)) reload();
+    const Camera before = session_.camera;
     move_on(input.move, floors_, dt_s, session_);
+    stay_in_sight(before, scene_->pack(), session_);
     if (const auto walk = std::exchange(session_.recorded, std::nullopt)) keep(*walk);
     drag(input);
     meter_.gamepad = input.gamepad;
@@ -144,10 +154,16 @@ class Loop {
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
     view_ = view_of(width, height);
     load_images();
-    ORIEL_TRY(const FrameStats stats, renderer_.render(*scene_, view_, session_.frame));
+    const IVec2 window(width, height);
+    drawn_ = paced_.choose({session_, window, scene_->images().state().used, meter_.loading.busy, needs_white(*scene_),
+                            beside_.has_value()});
+    if (drawn_ != Pace::Draw::kKeep) {
+      const View view = view_of(paced_.size().x, paced_.size().y);
+      ORIEL_TRY(meter_.stats, renderer_.render(*scene_, view, paced_.options()));
+      ORIEL_TRY(metered_, renderer_.meter());
+    }
     meter_.loading = scene_->images().state();  // with what the frame wanted
-    ORIEL_TRY(const std::optional<float> metered, renderer_.meter());
-    adapt_exposure(metered, dt_s, session_);
+    adapt_exposure(metered_, dt_s, session_);
     if (beside_)
       ORIEL_TRY_VOID(
           beside_->draw(renderer_, meter_.loading.used, seen(width, height), session_, seconds_since(start_)));
@@ -157,14 +173,16 @@ class Loop {
     if (beside_) {
       beside_->display(renderer_, session_);
     } else {
-      renderer_.display(session_.shown_ev100, session_.curve);
+      ORIEL_TRY_VOID(renderer_.display_in_window(session_.shown_ev100, session_.curve, window));
     }
-    note(stats);
+    note();
     gui_.begin(!input_.grabbed());
     if (seconds_since(said_) > kMessage_s) meter_.message.clear();
+    meter_.hint = static_cast<float>(std::clamp((kHint_s - seconds_since(start_)) / kFade_s, 0.0, 1.0));
     draw_overlay(scene_->pack(), meter_, picked_, session_);
     gui_.end();
     glfwSwapBuffers(window_.get());
+    paced_.shown();
     return {};
   }
 
@@ -198,6 +216,7 @@ class Loop {
   Status write_screenshot(const std::string& name, int width, int height) {
     const bool flip = beside_ && session_.comparison.beside == Beside::kDifference;
     const int n = flip ? 1 : arguments_.supersample;
+    if (n == 1 && !paced_.is_whole()) ORIEL_TRY_VOID(redraw(width, height));
     const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
                              session_.curve};
     const auto times = static_cast<std::uint32_t>(n);
@@ -261,7 +280,8 @@ class Loop {
     take_path(scene_->pack(), session_);
     session_.grip.reset();
     picked_.reset();
-    floors_ = Floors(scene_->pack().walk_grids);
+    floors_ = Floors(scene_->pack().walk_grids, arguments_.eye_height_m);
+    paced_.redraw();
     zone_ = planned_zone(scene_->pack());
     say(arguments_.pack + ": loaded again");
   }
@@ -283,22 +303,25 @@ class Loop {
 
   bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
 
-  // The panel's and the title's numbers, twice a second.
-  void note(const FrameStats& stats) {
-    const PassTimes ms = session_.frame.timed ? stats.ms : meter_.stats.ms;
-    meter_.stats = stats;
-    meter_.stats.ms = ms;
+  // The panel's numbers, twice a second.
+  void note() {
     meter_.in_zone = zone_.holds(session_.camera.eye);
-    ++frames_;
+    meter_.pace = paced_.text();
     if (!session_.frame.timed) return;
     if (session_.panel && !input_.grabbed()) pick();
-    const std::string title =
-        fmt::format("{} – {}{:.1f} fps, EV {:.1f}, {} – Oriel", arguments_.pack,
-                    meter_.loading.busy ? fmt::format("loading {:.0f} %, ", 100 * meter_.loading.share()) : "",
-                    frames_ / seconds_since(numbers_start_), session_.shown_ev100, describe(stats, meter_.in_zone));
-    glfwSetWindowTitle(window_.get(), title.c_str());
     numbers_start_ = Clock::now();
-    frames_ = 0;
+  }
+
+  // Where nothing was drawn there is nothing to hurry for: events wake it.
+  void rest(Clock::time_point begun) const {
+    const double left = kStandingFrame_s - seconds_since(begun);
+    if (drawn_ == Pace::Draw::kKeep && left > 0) glfwWaitEventsTimeout(left);
+  }
+
+  void present(bool on) {
+    input_.set_presenting(on);
+    window_.fill_screen(on);
+    if (on) session_.panel = session_.key_sheet = false;
   }
 
   LoadingWatch watch_;
@@ -315,34 +338,18 @@ class Loop {
   FrameMeter meter_;
   std::optional<PickedSurface> picked_;
   std::optional<BesideView> beside_;
-  Floors floors_{scene_->pack().walk_grids};
+  Floors floors_{scene_->pack().walk_grids, arguments_.eye_height_m};
   Zone zone_ = planned_zone(scene_->pack());
   View view_;        // of the last frame
   Vec2 pointer_{0};  // then
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point numbers_start_ = Clock::now(), said_ = start_;
-  int frames_ = 0;  // since
+  Clock::time_point numbers_start_ = start_, said_ = start_;
+  PacedFrame paced_{device_};
+  Pace::Draw drawn_ = Pace::Draw::kKeep;
+  std::optional<float> metered_;  // of the last frame that was drawn
 };
 
 }  // namespace
-
-void show_refusal(const std::string& reason, const std::function<bool()>& stopped) {
-  const auto window = GlfwWindow::open(kRefusalSize.x, kRefusalSize.y);
-  if (!window) return;
-  GLFWwindow* shown = (*window)->get();
-  glfwSetKeyCallback(shown, [](GLFWwindow* w, int, int, int action, int) {
-    if (action == GLFW_PRESS) glfwSetWindowShouldClose(w, GLFW_TRUE);
-  });
-  Gui gui(shown);
-  while (!stopped() && !glfwWindowShouldClose(shown)) {
-    glClear(GL_COLOR_BUFFER_BIT);
-    gui.begin(true);
-    if (draw_refusal(reason)) glfwSetWindowShouldClose(shown, GLFW_TRUE);
-    gui.end();
-    glfwSwapBuffers(shown);
-    glfwWaitEventsTimeout(0.1);
-  }
-}
 
 Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const std::function<bool()>& stopped,
                       Clock::time_point started) {

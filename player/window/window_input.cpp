@@ -22,6 +22,7 @@ int code_of(std::string_view name) {
   if (name == "F1") return GLFW_KEY_F1;
   if (name == "F5") return GLFW_KEY_F5;
   if (name == "F9") return GLFW_KEY_F9;
+  if (name == "F11") return GLFW_KEY_F11;
   if (name == "F12") return GLFW_KEY_F12;
   if (name == "+") return GLFW_KEY_EQUAL;
   return name.size() == 1 ? name[0] : GLFW_KEY_UNKNOWN;
@@ -134,11 +135,8 @@ void WindowInput::add_pad(float dt_s, InputFrame& to) {
 void WindowInput::key(int code, int action, int mods) {
   if (action == GLFW_RELEASE) return;
   if (code == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
-    if (grabbed_) {
-      grab(false);
-    } else {
-      quit_ = true;
-    }
+    escape_ = !grabbed_ || presenting_;
+    grab(false);
     return;
   }
   if (code == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0) quit_ = true;
@@ -173,6 +171,7 @@ InputFrame WindowInput::poll(float dt_s) {
   out.clicked = std::exchange(clicked_, false);
   out.holding = !grabbed_ && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   out.turning = down(GLFW_KEY_R);
+  out.escape = std::exchange(escape_, false);
   out.quit = std::exchange(quit_, false) || glfwWindowShouldClose(window_);
   return out;
 }

@@ -16,6 +16,7 @@ struct InputFrame {
   MoveInput move;
   std::vector<Command> commands;  // in order
   bool quit = false;
+  bool escape = false;   // Esc, but where it released the mouse
   bool gamepad = false;  // there is one
   // The pointer in the window, [0,1]² from the top left corner, while it is free; the left button: pressed since the
   // last poll, still down.
@@ -33,11 +34,13 @@ class WindowInput {
   WindowInput(const WindowInput&) = delete;
   WindowInput& operator=(const WindowInput&) = delete;
 
-  // Handles events and returns them. dt_s: of the last frame, for keys that turn. Esc releases the mouse, or quits.
+  // Handles events and returns them. dt_s: of the last frame, for keys that turn. Esc releases the mouse.
   InputFrame poll(float dt_s);
   // Looking around with the mouse; another button than the left one grabs it too.
   void grab(bool on);
   bool grabbed() const { return grabbed_; }
+  // Esc ends a presentation even where it releases the mouse.
+  void set_presenting(bool on) { presenting_ = on; }
 
  private:
   void key(int code, int action, int mods);
@@ -48,7 +51,7 @@ class WindowInput {
 
   GLFWwindow* window_;
   std::vector<Command> commands_;
-  bool quit_ = false, grabbed_ = false, clicked_ = false;
+  bool quit_ = false, escape_ = false, presenting_ = false, grabbed_ = false, clicked_ = false;
   double last_x_ = 0, last_y_ = 0, moved_x_ = 0, moved_y_ = 0, wheel_ = 0;
   bool has_last_ = false;
   double pressed_s_ = -1;  // the left button, the last time

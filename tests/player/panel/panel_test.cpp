@@ -19,6 +19,7 @@ constexpr float kWidth = 360, kHeight = 1300;
 std::map<std::string, std::string> state_of(const Session& s) {
   return {{"panel", s.panel ? "open" : "closed"},
           {"exposure", s.manual_ev100 ? "manual" : "auto"},
+          {"quality", name_of(kQualities, s.quality)},
           {"curve", name_of(kToneCurves, s.curve)},
           {"stage", name_of(kStages, s.frame.show)},
           {"reflections", name_of(kReflections, s.frame.reflections)},
@@ -46,7 +47,7 @@ class Panel {
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = ImVec2(kWidth, kHeight);
     ImGui::GetIO().DeltaTime = 1.0f;  // no double clicks
-    session_.panel = true;
+    session_.panel = session_.advanced = true;
     session_.home.eye = {7, 7, 7};
     session_.path = pack.paths.at(0);
     session_.moves.resize(1);
@@ -132,6 +133,7 @@ TEST(Panels, EveryPlaceIsClicked) {
     for (const auto& [value, each] : names)
       if (value != initial) expected.insert(name + ": " + value);
   };
+  add("quality", kQualities, "auto");
   add("curve", kToneCurves, "aces");
   add("stage", kStages, "all");
   add("reflections", kReflections, "march");

@@ -1,6 +1,8 @@
 // A click on the floor, and on what stands on it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "formats/camera/camera.h"
 #include "player/session/session.h"
 
@@ -80,12 +82,70 @@ TEST_F(GoTest, AnyMotionEndsIt) {
   EXPECT_TRUE(session_.walker.on());
 }
 
-TEST_F(GoTest, SaysWhyNobodyCan) {
-  EXPECT_EQ(go({0.5f, 0.01f}, pack_, view(), floors(), session_), "there is nothing to walk to");
-  EXPECT_EQ(go({0.5f, 0.5f}, pack_, view(), Floors({}), session_), "the pack knows no floor to walk on");
-  session_.camera = look_at({50, 1.6f, 3}, {0, 0, 0}, 1);
-  EXPECT_EQ(go({0.5f, 0.5f}, pack_, view(), floors(), session_), "nobody can walk there from here");
+TEST_F(GoTest, WhereNobodyCanGoItGoesNear) {
+  EXPECT_EQ(go({0.5f, 0.5f}, pack_, view(), Floors({}), session_), "the pack knows no floor to walk on; F flies");
   EXPECT_FALSE(session_.walker.on());
+  // A floor that ends: the far half of what is seen cannot be stood on.
+  WalkGrid near = pack_.walk_grids[0];
+  for (std::size_t cell = 0; cell < near.floor_y.size(); ++cell)
+    if (cell / near.width < 16) near.floor_y[cell] = std::nanf("");
+  const Floors half({near});
+  const std::string said = go(place_of({1, 0, -2}), pack_, view(), half, session_);
+  EXPECT_NE(said.find("walking to the nearest place, 2."), std::string::npos) << said;
+  for (int i = 0; i < 360; ++i) move_on({}, half, 1 / 60.0f, session_);
+  EXPECT_LT(glm::distance(session_.camera.eye, Vec3(1, 1.6f, 0.125f)), 0.3f) << "the edge before it";
+  // Where nothing is seen: ahead.
+  session_.camera = look_at({0, 1.6f, 3}, {0, 1.1f, 0}, 1);
+  go({0.5f, 0.01f}, pack_, view(), floors(), session_);
+  wait(6);
+  EXPECT_LT(session_.camera.eye.z, 0);
+}
+
+TEST_F(GoTest, FromWhereNobodyStandsItFlies) {
+  session_.camera = look_at({50, 9, 3}, {0, 0, 0}, 1);
+  EXPECT_EQ(go({0.5f, 0.5f}, pack_, view(), floors(), session_),
+            "nobody can walk from here: flying to the nearest floor");
+  wait(7);
+  EXPECT_LT(glm::distance(session_.camera.eye, Vec3(0, 1.6f, 0)), 0.5f);
+  MoveInput ahead;
+  ahead.forward = true;
+  wait(0.5f, ahead);
+  EXPECT_NEAR(session_.camera.eye.y, 1.6f, 0.01f) << "there it walks";
+}
+
+TEST_F(GoTest, TallPeopleWalkAsTall) {
+  const Floors tall(pack_.walk_grids, 4);
+  EXPECT_FLOAT_EQ(tall.size(), 2.5f);
+  MoveInput ahead;
+  ahead.forward = true;
+  for (int i = 0; i < 60; ++i) move_on(ahead, tall, 1 / 60.0f, session_);
+  EXPECT_NEAR(session_.camera.eye.y, 4, 0.01f) << "it rises from the camera's height";
+}
+
+TEST_F(GoTest, OrbitsStayOnThisSideOfWalls) {
+  add_quad(pack_, {4, 0, 4}, {-8, 0, 0}, {0, 3, 0});  // a wall behind the eye, z = 4
+  session_.camera = look_at({0, 1.5f, 1}, {0, 1.5f, 0}, 1);
+  add_quad(pack_, {-0.2f, 1, 0}, {0.4f, 0, 0}, {0, 1, 0});  // what it turns around
+  perform({Action::kOrbit, 0}, pack_, session_);
+  ASSERT_TRUE(session_.move.orbit);
+  MoveInput away;
+  away.back = true;
+  const auto orbit = [&](const MoveInput& input, float seconds) {
+    for (float t = 0; t < seconds; t += 1 / 60.0f) {
+      const Camera before = session_.camera;
+      move_on(input, floors(), 1 / 60.0f, session_);
+      stay_in_sight(before, pack_, session_);
+    }
+  };
+  orbit(away, 3);
+  EXPECT_LT(session_.camera.eye.z, 4);
+  EXPECT_GT(session_.camera.eye.z, 3);
+  // Around the thing, behind which nothing stands in the way.
+  MoveInput around;
+  around.left = true;
+  session_.move.orbit_m = 1;
+  orbit(around, 3.2f);
+  EXPECT_LT(session_.camera.eye.z, 0) << "behind it";
 }
 
 TEST_F(GoTest, OrbitsTurnAroundWhatIsSeen) {

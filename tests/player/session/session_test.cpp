@@ -100,11 +100,12 @@ TEST_F(SessionTest, ARecordedWalkPlays) {
   EXPECT_LT(glm::length(session_.camera.eye - 0.5f * (Vec3(0, 1, 0) + end)), 1e-3f);
 }
 
-// At once on the first frame, then e-fold in 0.3 s; steps of a third from where it stands; X gives it back.
+// At once on the first frame, then e-fold in 0.3 s, and in 0.7 s where it gets dark; a slow frame counts 0.1 s. Steps
+// of a third from where it stands; X gives it back.
 TEST_F(SessionTest, ExposureAdaptsUntilItIsSet) {
   adapt_exposure(6.0f, 0.1f, session_);
   EXPECT_EQ(session_.shown_ev100, 6);
-  adapt_exposure(8.0f, 0.3f, session_);
+  for (int i = 0; i < 3; ++i) adapt_exposure(8.0f, 0.1f, session_);
   EXPECT_NEAR(session_.shown_ev100, 8 - 2 * std::exp(-1.0f), 1e-5f);
   adapt_exposure(std::nullopt, 0.3f, session_);
   EXPECT_NEAR(session_.shown_ev100, 8 - 2 * std::exp(-1.0f), 1e-5f);
@@ -115,6 +116,11 @@ TEST_F(SessionTest, ExposureAdaptsUntilItIsSet) {
   press(Action::kAutoExposure);
   adapt_exposure(12.0f, 0.1f, session_);
   EXPECT_EQ(session_.shown_ev100, 12);
+  for (int i = 0; i < 7; ++i) adapt_exposure(9.0f, 1, session_);
+  EXPECT_NEAR(session_.shown_ev100, 9 + 3 * std::exp(-1.0f), 1e-4f);
+  session_.metered = false;
+  adapt_exposure(-12.0f, 0.1f, session_);
+  EXPECT_EQ(session_.shown_ev100, -4) << "the night stays dark";
 }
 
 }  // namespace

@@ -96,6 +96,8 @@ const std::map<std::string, Try> kTries{
     {"V", {"key v; key v", "oriel-play: dark.oriel"}},
     {"N", {"key n; key b", "FLIP between tiny.oriel and dark.oriel"}},
     {"Tab", {"key Tab; key Tab", "panel closed"}},
+    // Its Escape ends the presentation and not the player.
+    {"F11", {"key F11; sleep 0.5; shot presenting; key Escape; sleep 0.5; shot presented"}},
     {"F1", {"key F1; key F1", "keys closed"}},
     {"F12", {"shot picture", "picture"}},
     {"Shift-F12", {"key shift+F12; pause", "oriel-000.exr"}},
@@ -174,6 +176,8 @@ TEST_F(Keys, DoWhatTheirSheetSays) {
   EXPECT_EQ(camera_of("next").eye, camera_of("camera").eye);
   EXPECT_EQ(camera_of("home").eye, camera_of("start").eye);
   EXPECT_LT(moved("home", "path").z, -0.05f);
+  EXPECT_EQ(read_png(folder() / "presenting.png")->width, 640u) << "the screen's";
+  EXPECT_EQ(read_png(folder() / "presented.png")->width, 160u) << "the window's";
 }
 
 // Taken off the screen and put back: it waits and goes on. A window of one pixel, and one larger than the screen.

@@ -1,0 +1,67 @@
+#include "player/session/pace.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+constexpr float kAim = 0.85f;     // of the slowest frame: views along a walk differ
+constexpr float kRoom = 0.6f;     // of it, below which frames become finer again
+constexpr int kSteady = 12;       // frames before they do
+constexpr float kLessWork = 0.7f; // a coarse frame of the whole one's size, beside that
+constexpr int kSlowLevel = 4;
+
+}  // namespace
+
+Pace::Pace(bool slow_device, const PaceOptions& options) : options_(options), level_(slow_device ? kSlowLevel : 0) {}
+
+Pace::Draw Pace::next(bool moved, bool altered, Quality quality, double now_s) {
+  if (moved) moved_s_ = now_s;
+  const bool coarse_only = quality == Quality::kFast;
+  const bool may_coarsen = coarse_only || (quality == Quality::kAutomatic && level_ > 0);
+  const bool stands = now_s - moved_s_ >= options_.still_s;
+  Draw draw = Draw::kKeep;
+  if (!may_coarsen) {
+    if (moved || altered || !shows_whole_) draw = Draw::kWhole;
+  } else if (moved || !drawn_ || (altered && (coarse_only || !stands))) {
+    draw = Draw::kCoarse;
+  } else if (!coarse_only && stands && (altered || !shows_whole_)) {
+    draw = Draw::kWhole;
+  }
+  if (coarse_only && level_ == 0) level_ = 1;
+  if (draw != Draw::kKeep) shows_whole_ = draw == Draw::kWhole, drawn_ = true;
+  return draw;
+}
+
+// The finest level that the time of a frame at this one leaves room for: it goes with the pixels.
+void Pace::fit(float ms) {
+  const float aim = kAim * options_.slowest_ms;
+  const float here = scale();
+  int level = std::max(level_, 1);
+  const float work = level_ > 0 ? ms / (here * here) : kLessWork * ms;
+  while (level < kLevels && work * kScales[static_cast<std::size_t>(level - 1)] * kScales[static_cast<std::size_t>(level - 1)] > aim)
+    ++level;
+  level_ = std::max(level, level_);
+  frames_ = 0;
+  mean_ms_ = 0;
+}
+
+void Pace::took(Draw drawn, float ms) {
+  if (drawn == Draw::kKeep || !(ms >= 0)) return;
+  if (drawn == Draw::kWhole) {
+    const bool first = whole_ms_ == 0;  // which made its textures too
+    whole_ms_ = ms;
+    if (level_ == 0 && !first && ms > options_.slowest_ms) fit(ms);
+    if (level_ > 0 && ms < kRoom * options_.slowest_ms) level_ = 0;
+    return;
+  }
+  ++frames_;
+  mean_ms_ = mean_ms_ == 0 ? ms : mean_ms_ + (ms - mean_ms_) / 4;
+  if (frames_ > 2 && mean_ms_ > options_.slowest_ms * 0.95f) return fit(mean_ms_);
+  if (frames_ < kSteady || mean_ms_ > kRoom * options_.slowest_ms || level_ <= 1) return;
+  --level_;
+  frames_ = 0;
+  mean_ms_ = 0;
+}
+
+}  // namespace oriel

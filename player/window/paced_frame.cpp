@@ -1,0 +1,77 @@
+#include "player/window/paced_frame.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+constexpr int kLeastSide = 16;  // pixels of a coarse frame
+
+bool is_software(const std::string& renderer) {
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos ||
+         renderer.find("SwiftShader") != std::string::npos;
+}
+
+bool same_view(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.forward == b.forward && a.up == b.up && a.vertical_fov_rad == b.vertical_fov_rad &&
+         a.half_height == b.half_height;
+}
+
+// What is the same of frames that look the same.
+FrameOptions looks_of(const Session& session, bool white_matters) {
+  FrameOptions out = session.frame;
+  out.timed = false;
+  if (!white_matters) out.white = 0;
+  return out;
+}
+
+FrameOptions coarse_options(FrameOptions options) {
+  options.coarse = true;
+  options.samples = 1;
+  options.maps_per_element = std::min(options.maps_per_element, 1);
+  return options;
+}
+
+}  // namespace
+
+PacedFrame::PacedFrame(const gpu::Device& device) : pace_(is_software(device.renderer)) {}
+
+Pace::Draw PacedFrame::choose(const Seen& seen) {
+  begun_ = Clock::now();
+  const Session& session = seen.session;
+  FrameOptions asked = looks_of(session, seen.white_matters);
+  const bool loaded = images_ != seen.images;
+  const bool moved = !same_view(session.camera, camera_) || asked.poses != asked_.poses || window_ != seen.window ||
+                     (loaded && seen.loading);
+  const bool altered = asked != asked_ || loaded;
+  quality_ = seen.whole ? Quality::kFull : session.quality;
+  const double now_s = std::chrono::duration<double>(begun_ - start_).count();
+  choice_ = pace_.next(moved, altered, quality_, now_s);
+  if (choice_ == Pace::Draw::kKeep) return choice_;
+  camera_ = session.camera;
+  asked_ = std::move(asked);
+  window_ = seen.window;
+  images_ = seen.images;
+  const bool coarse = choice_ == Pace::Draw::kCoarse;
+  options_ = coarse ? coarse_options(session.frame) : session.frame;
+  size_ = coarse ? glm::min(glm::max(IVec2(glm::round(Vec2(window_) * pace_.scale())), IVec2(kLeastSide)), window_) : window_;
+  drawn_ = choice_;
+  return choice_;
+}
+
+void PacedFrame::shown() {
+  const float ms = std::chrono::duration<float, std::milli>(Clock::now() - begun_).count();
+  pace_.took(choice_, ms);
+  if (choice_ == Pace::Draw::kCoarse) coarse_ms_ = coarse_ms_ == 0 ? ms : coarse_ms_ + (ms - coarse_ms_) / 4;
+  choice_ = Pace::Draw::kKeep;
+}
+
+std::string PacedFrame::text() const {
+  if (quality_ == Quality::kFull || (quality_ == Quality::kAutomatic && !pace_.coarsens())) return "full quality";
+  std::string line = fmt::format("{:.0f} % of the pixels' width{}", 100 * pace_.scale(),
+                                 quality_ == Quality::kFast ? "" : " while moving");
+  if (coarse_ms_ > 0) line += fmt::format(", {:.0f} frames/s", 1000 / coarse_ms_);
+  return quality_ == Quality::kFast ? line : line + (is_whole() ? "; now full quality" : "; full once it stands still");
+}
+
+}  // namespace oriel
