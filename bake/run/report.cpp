@@ -189,6 +189,26 @@ Json reuse_json(const MapReuse& r) {
           {"relative_error", r.error}};
 }
 
+// Where light comes from beside emitting surfaces: what oriel-inspect why asks for. World metres.
+Json punctual_json(const Scene& scene) {
+  Json out = Json::array();
+  for (const Light& light : scene.lights) {
+    const DVec3 at = scene.origin + DVec3(light.position);
+    Json json = {{"name", light.name}};
+    if (light.type == LightType::kDirectional) {
+      json["towards"] = rgb(light.direction);
+    } else {
+      json["at"] = rgb(at);
+      if (light.type == LightType::kSpot) {
+        json["towards"] = rgb(light.direction);
+        json["outer_cone_rad"] = light.outer_cone_rad;
+      }
+    }
+    out.push_back(std::move(json));
+  }
+  return out;
+}
+
 Json lumens_json(const Lumens& lumens) {
   return {{"lm", lumens.value}, {"standard_error", lumens.error}};
 }
@@ -251,6 +271,7 @@ std::string plan_json(const BakeFacts& f) {
         {"materials", f.scene.materials.size()},
         {"punctual_lights", f.scene.lights.size()},
         {"emitted_lm", rgb(f.emitted_lm)}}},
+      {"lights", punctual_json(f.scene)},
       {"sides", {{"turned_parts", f.sides.turned}, {"doubled_parts", f.sides.doubled}, {"rays", f.sides.rays}}},
       {"atlas", atlas_json(f.atlas)},
       {"radiosity",

@@ -10,7 +10,7 @@ namespace oriel {
 namespace {
 
 constexpr float kUsual_m = 1.6f, kUsualRoom_m = 2.7f;
-constexpr float kLeast = 0.6f, kMost = 1.5f;         // of the usual: sitting people, and those on a landing
+constexpr float kLeast = 0.6f, kMost = 1.5f;             // of the usual: sitting people, and those on a landing
 constexpr float kLowInRoom = 0.35f, kHighInRoom = 0.8f;  // where eyes are between floor and ceiling
 constexpr float kFarthest = 10;                          // of the usual, down to a floor that is the camera's
 

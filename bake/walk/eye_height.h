@@ -10,8 +10,8 @@ namespace oriel {
 
 struct EyeHeight {
   float eye_height_m = 1.6f;
-  float room_height_m = 0;    // typical of the scene's rooms; 0: not looked at
-  std::size_t cameras = 0;    // that tell it; 0: the rooms do
+  float room_height_m = 0;  // typical of the scene's rooms; 0: not looked at
+  std::size_t cameras = 0;  // that tell it; 0: the rooms do
 };
 
 // The scene's cameras over the floors under them, where these tell of people of another size: their median is well over

@@ -50,6 +50,14 @@ struct DiffOptions {
 // changed by more than the tolerance, was added or has gone.
 int diff(const std::filesystem::path& before, const std::filesystem::path& after, const DiffOptions& options);
 
+struct WhyRequest {
+  std::string at, from;  // "x,y,z" in world metres; from: the eye, empty where nobody in particular asks
+  bool json = false;
+};
+
+// Why the surface at a place is lit as it is (formats/why). Error kInvalid where there is none.
+int why(const std::filesystem::path& path, const WhyRequest& request);
+
 // The pack as one HTML page to look at (formats/report).
 int page(const std::filesystem::path& path, const std::filesystem::path& output);
 

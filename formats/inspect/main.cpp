@@ -26,6 +26,8 @@ Examples:
                                                which rooms changed, as Markdown; exit code 5 beyond 2 %
   oriel-inspect extract house.oriel --kind lightmap -o maps
                                                maps/lightmap_000.exr holds irradiance in lux
+  oriel-inspect why house.oriel --at 1.2,0,3.5
+                                               why it is dark there, and what to do
   oriel-inspect report house.oriel -o house.html
                                                maps, surfaces, errors and sizes as one page
   oriel-inspect export house.oriel -o house.glb
@@ -37,6 +39,7 @@ struct Arguments {
   std::string pack, after, scene, texture = "auto";
   std::filesystem::path output;
   bool json = false;
+  WhyRequest why;
   ExtractOptions extract;
   DiffOptions diff;
   ExportOptions exported;
@@ -69,6 +72,18 @@ void add_checks(CLI::App& app, Arguments& a) {
   validate_command->add_flag("--json", a.json, "Print the issues as JSON");
   validate_command->add_option("--scene", a.scene,
                                "The scene file: tell which files changed since it was baked; then exit code 5");
+}
+
+void add_why(CLI::App& app, Arguments& a) {
+  auto* command = add_command(app, "why", "Tell why a place is lit, or dark, as it is: hidden by what, lit by what", a,
+                              [&a] { return why(a.pack, a.why); });
+  command->add_option("PACK", a.pack, "The .oriel file")->required();
+  command->add_option("--at", a.why.at, "The place, world metres: the nearest surface within half a metre is asked")
+      ->required()
+      ->type_name("X,Y,Z");
+  command->add_option("--from", a.why.from, "Where it is seen from: of two sides in one place the one that faces this")
+      ->type_name("X,Y,Z");
+  command->add_flag("--json", a.why.json, "Print JSON");
 }
 
 void add_diff(CLI::App& app, Arguments& a) {
@@ -124,6 +139,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments arguments;
   add_checks(app, arguments);
+  add_why(app, arguments);
   add_diff(app, arguments);
   add_writers(app, arguments);
   try {

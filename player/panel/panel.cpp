@@ -144,6 +144,17 @@ const char* word_for(TexelState state) {
   return "empty";
 }
 
+// What makes it so; the first of its lights.
+void draw_why(const Why& why) {
+  for (const Reason& reason : why.reasons) {
+    ImGui::TextWrapped("%s: %s", name_of(reason.cause), reason.text.c_str());
+    ImGui::TextWrapped("to do: %s", reason.fix.c_str());
+  }
+  constexpr std::size_t kShown = 3;
+  for (std::size_t i = 0; i < std::min(kShown, why.lights.size()); ++i)
+    ImGui::TextWrapped("%s", verdict_text(why.lights[i]).c_str());
+}
+
 void draw_picked(const std::optional<PickedSurface>& picked) {
   if (!picked) {
     ImGui::TextUnformatted("nothing");
@@ -164,6 +175,7 @@ void draw_picked(const std::optional<PickedSurface>& picked) {
   text(fmt::format("{:.4g} ± {:.2g} lux", picked->lux, picked->lux_error));
   text(fmt::format("texel {}, {} of page {}: {}", picked->texel.x, picked->texel.y, picked->page,
                    word_for(picked->state)));
+  if (picked->why) draw_why(*picked->why);
 }
 
 void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<PickedSurface>& picked,

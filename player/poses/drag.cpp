@@ -15,21 +15,6 @@ float first_hit(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
 
 }  // namespace
 
-// Moeller and Trumbore 1997.
-std::optional<TriangleHit> first_triangle(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
-  TriangleHit first{0, kNever, 0, 0};
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Vec3 a = mesh.positions[mesh.indices[i]];
-    const Vec3 ab = mesh.positions[mesh.indices[i + 1]] - a, ac = mesh.positions[mesh.indices[i + 2]] - a;
-    const Vec3 p = glm::cross(direction, ac), to = from - a, q = glm::cross(to, ab);
-    const float scale = 1 / glm::dot(ab, p), u = glm::dot(to, p) * scale, v = glm::dot(direction, q) * scale;
-    const float t = glm::dot(ac, q) * scale;
-    if (u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < first.distance) first = {i, t, u, v};
-  }
-  if (first.distance == kNever) return std::nullopt;
-  return first;
-}
-
 PickRay ray_through(const View& view, const Vec2& place) {
   const Mat4 pack_from_clip = glm::inverse(view.clip_from_pack);
   const Vec2 at(2 * place.x - 1, 1 - 2 * place.y);

@@ -5,6 +5,7 @@
 
 #include "formats/motion/mover_pose.h"
 #include "formats/pack/pack.h"
+#include "formats/rays/triangle_hit.h"
 #include "player/view/view.h"
 
 namespace oriel {
@@ -14,14 +15,6 @@ struct PickRay {
 };
 // place: of a pixel in the picture, [0,1]², (0, 0) the top left corner.
 PickRay ray_through(const View& view, const Vec2& place);
-
-// The first triangle that a ray meets, from either side: its place among the mesh's indices, how far along `direction`
-// (any length), and the shares of its second and third corner there.
-struct TriangleHit {
-  std::size_t first_index = 0;
-  float distance = 0, u = 0, v = 0;
-};
-std::optional<TriangleHit> first_triangle(const Mesh& mesh, const Vec3& from, const Vec3& direction);
 
 struct Grip {
   std::size_t mover = 0;  // into Pack::movers

@@ -5,10 +5,10 @@
 namespace oriel {
 namespace {
 
-constexpr float kAim = 0.85f;     // of the slowest frame: views along a walk differ
-constexpr float kRoom = 0.6f;     // of it, below which frames become finer again
-constexpr int kSteady = 12;       // frames before they do
-constexpr float kLessWork = 0.7f; // a coarse frame of the whole one's size, beside that
+constexpr float kAim = 0.85f;      // of the slowest frame: views along a walk differ
+constexpr float kRoom = 0.6f;      // of it, below which frames become finer again
+constexpr int kSteady = 12;        // frames before they do
+constexpr float kLessWork = 0.7f;  // a coarse frame of the whole one's size, beside that
 constexpr int kSlowLevel = 4;
 
 }  // namespace
@@ -39,7 +39,8 @@ void Pace::fit(float ms) {
   const float here = scale();
   int level = std::max(level_, 1);
   const float work = level_ > 0 ? ms / (here * here) : kLessWork * ms;
-  while (level < kLevels && work * kScales[static_cast<std::size_t>(level - 1)] * kScales[static_cast<std::size_t>(level - 1)] > aim)
+  while (level < kLevels &&
+         work * kScales[static_cast<std::size_t>(level - 1)] * kScales[static_cast<std::size_t>(level - 1)] > aim)
     ++level;
   level_ = std::max(level, level_);
   frames_ = 0;

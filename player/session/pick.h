@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/why/why.h"
 #include "player/poses/drag.h"
 
 namespace oriel {
@@ -21,6 +22,7 @@ struct PickedSurface {
   IVec2 texel{0};
   TexelState state = TexelState::kEmpty;
   float lux = 0, lux_error = 0;  // illuminance, and one standard deviation of the bake's noise in it
+  std::optional<Why> why{};      // once the pointer rests there
 };
 
 // A page of the lightmap; null: not there.

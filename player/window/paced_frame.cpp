@@ -54,7 +54,8 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
   images_ = seen.images;
   const bool coarse = choice_ == Pace::Draw::kCoarse;
   options_ = coarse ? coarse_options(session.frame) : session.frame;
-  size_ = coarse ? glm::min(glm::max(IVec2(glm::round(Vec2(window_) * pace_.scale())), IVec2(kLeastSide)), window_) : window_;
+  size_ = coarse ? glm::min(glm::max(IVec2(glm::round(Vec2(window_) * pace_.scale())), IVec2(kLeastSide)), window_)
+                 : window_;
   drawn_ = choice_;
   return choice_;
 }

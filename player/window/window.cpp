@@ -280,6 +280,7 @@ class Loop {
     take_path(scene_->pack(), session_);
     session_.grip.reset();
     picked_.reset();
+    rays_.reset();
     floors_ = Floors(scene_->pack().walk_grids, arguments_.eye_height_m);
     paced_.redraw();
     zone_ = planned_zone(scene_->pack());
@@ -298,7 +299,14 @@ class Loop {
       const auto found = scene_->page(page);
       return found ? *found : nullptr;
     };
-    picked_ = pick_surface(scene_->pack(), ray_through(view_, pointer_), page_of);
+    const auto before = std::exchange(picked_, pick_surface(scene_->pack(), ray_through(view_, pointer_), page_of));
+    const bool rests = before && picked_ && before->page == picked_->page && before->texel == picked_->texel &&
+                       before->part == picked_->part;
+    if (!rests || !picked_->known) return;
+    picked_->why = before->why;
+    if (picked_->why) return;
+    if (!rays_) rays_.emplace(scene_->pack().mesh);
+    picked_->why = why_at(scene_->pack(), *rays_, picked_->at, {.reach_m = 0.5f, .eye = session_.camera.eye}, page_of);
   }
 
   bool numbers_are_due() const { return seconds_since(numbers_start_) >= 0.5; }
@@ -337,6 +345,7 @@ class Loop {
   Session session_;
   FrameMeter meter_;
   std::optional<PickedSurface> picked_;
+  std::optional<MeshRays> rays_;  // of the scene, once somebody asks why
   std::optional<BesideView> beside_;
   Floors floors_{scene_->pack().walk_grids, arguments_.eye_height_m};
   Zone zone_ = planned_zone(scene_->pack());

@@ -275,5 +275,22 @@ TEST_F(Inspect, FullDiskIsAnIoError) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
 }
 
+// The tiny pack's floor is 4 m square about its origin, which is far from the world's.
+TEST_F(Inspect, WhySaysWhatLightsAPlace) {
+  const DVec3 o = testing::tiny_mapped_pack().mesh.origin;
+  const std::string at = fmt::format("--at {:.3f},{:.3f},{:.3f}", o.x + 0.5, o.y + 0.1, o.z + 1.7);
+  const Outcome text = run("why " + pack_.string() + " " + at);
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("on 'floor', material 'polished'"), std::string::npos) << text.out;
+  const Outcome json = run("why " + pack_.string() + " --json " + at);
+  const auto parsed = nlohmann::json::parse(json.out, nullptr, false);
+  ASSERT_TRUE(parsed.is_object()) << json.out;
+  EXPECT_EQ(parsed["surface"], "floor");
+  EXPECT_EQ(parsed["texel"], nlohmann::json({2, 0}));
+  EXPECT_EQ(run("why " + pack_.string() + " --at 0,900,0").code, 3);
+  EXPECT_EQ(run("why " + pack_.string() + " --at here").code, 1);
+  EXPECT_EQ(run("why " + pack_.string()).code, 1);
+}
+
 }  // namespace
 }  // namespace oriel

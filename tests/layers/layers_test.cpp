@@ -36,6 +36,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["formats/camera"] = m["formats/lobes"] = assets;
   m["formats/motion"] = assets;       // where movers stand
   m["formats/light"] = assets;        // baked light at a point, for baker and player
+  m["formats/rays"] = assets;         // a mesh met by rays
   m["formats/visibility"] = assets;   // what is seen from where
   m["formats/pack/encoding"] = core;  // bytes and numbers apart from what they mean
   m["formats/pack/rules"] = plus(assets, {"formats/pack", "formats/visibility"});  // the parts of validate()
@@ -45,11 +46,13 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
       plus(assets, {"formats/pack/encoding", "formats/pack/rules", "formats/pack/sections", "formats/visibility"});
   m["formats/diff"] =
       plus(assets, {"formats/pack", "formats/image", "formats/metrics"});  // two packs beside each other
-  m["formats/report"] = plus(assets, {"formats/diff", "formats/pack", "formats/image", "formats/metrics"});
+  m["formats/why"] = plus(assets, {"formats/pack", "formats/rays"});       // why a place is lit as it is
+  m["formats/report"] =
+      plus(assets, {"formats/rays", "formats/why", "formats/diff", "formats/pack", "formats/image", "formats/metrics"});
   m["formats/export"] =
       plus(assets, {"formats/camera", "formats/pack", "formats/image", "formats/image/bc6h", "formats/metrics"});
   m["formats/inspect"] = plus(assets, {"formats/diff", "formats/export", "formats/pack", "formats/image",
-                                       "formats/report", "formats/visibility"});
+                                       "formats/rays", "formats/report", "formats/visibility", "formats/why"});
   m["bake/jobs"] = core;
   m["bake/cache"] = plus(core, {"bake/jobs"});  // finished units of work: it knows no stage
   m["bake/scene"] = plus(assets, {"bake/jobs"});
@@ -117,7 +120,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["player/scene"] =
       plus(m["player/loading"], {"formats/light", "formats/lobes", "formats/visibility", "player/loading"});
   m["player/paths"] = plus(assets, {"formats/camera"});  // walks: files, recorded, smoothed
-  m["player/poses"] = plus(assets, {"formats/motion", "formats/pack", "player/view"});  // by clock and user
+  m["player/poses"] =
+      plus(assets, {"formats/motion", "formats/pack", "formats/rays", "player/view"});  // by clock and user
   m["player/movers"] = plus(m["player/scene"], {"formats/light", "formats/motion", "player/scene"});  // what moves
   m["player/reflections"] = plus(m["player/scene"], {"player/scene"});
   m["player/survey"] = plus(m["player/scene"], {"formats/camera", "formats/image", "player/scene", "player/walk"});
@@ -125,8 +129,8 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
       plus(m["player/reflections"], {"player/survey", "formats/image", "formats/motion", "player/movers",
                                      "player/reflections", "player/walk", "formats/camera"});
   // What the user does, without a window; its values by name; what is written of frames; what is drawn over them.
-  m["player/session"] =
-      plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk", "formats/camera"});
+  m["player/session"] = plus(m["player/passes"], {"player/passes", "player/paths", "player/poses", "player/walk",
+                                                  "formats/camera", "formats/rays", "formats/why"});
   m["player/options"] = plus(m["player/session"], {"formats/cli", "player/session"});
   m["player/output"] =
       plus(m["player/options"], {"player/options", "formats/image", "formats/metrics", "formats/camera"});

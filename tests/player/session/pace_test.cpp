@@ -16,7 +16,9 @@ struct Walk {
 
   Draw step(bool moves, Quality quality = Quality::kAutomatic, bool altered = false) {
     const Draw draw = pace.next(moves, altered, quality, now_s);
-    const float ms = draw == Draw::kKeep ? 5 : draw == Draw::kWhole ? whole_ms : 0.6f * whole_ms * pace.scale() * pace.scale();
+    const float ms = draw == Draw::kKeep    ? 5
+                     : draw == Draw::kWhole ? whole_ms
+                                            : 0.6f * whole_ms * pace.scale() * pace.scale();
     last_ms = ms;
     pace.took(draw, ms);
     now_s += 1e-3 * ms;
