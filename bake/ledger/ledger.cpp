@@ -133,8 +133,12 @@ std::vector<std::string> ledger_findings(const Ledger& ledger) {
         percent(ledger.closure(), ledger.closure_error()), ledger.emitted_lm(), 100 * kLedgerTolerance));
   if (ledger.disagreement() > kLedgerTolerance + kCertain * ledger.disagreement_error())
     findings.push_back(fmt::format(
-        "surfaces keep {:.4g} lm by the lightmap and {:.4g} lm by particles from the lights: {} apart",
-        ledger.lightmap_lm, ledger.on_texels.value, percent(ledger.disagreement(), ledger.disagreement_error())));
+        "the lightmap has {:.4g} lm on its surfaces, light followed from its sources brings {:.4g} lm: {} apart, "
+        "expected at most {} %: it is too {} somewhere, mostly where light changes within texels; a finer --texel "
+        "mends "
+        "that, --verify names the worst places",
+        ledger.lightmap_lm, ledger.on_texels.value, percent(ledger.disagreement(), ledger.disagreement_error()),
+        100 * kLedgerTolerance, ledger.lightmap_lm > ledger.on_texels.value ? "bright" : "dark"));
   return findings;
 }
 

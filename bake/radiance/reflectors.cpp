@@ -21,13 +21,15 @@ using Groups = std::map<std::pair<std::uint32_t, std::string>, std::vector<std::
 
 // Why a material shows no image; empty where it may.
 std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r, const ReflectorOptions& options) {
-  if (m.unlit) return "is unlit";
+  if (m.unlit) return "it is unlit";
   const float reflectance = reflectance_at_60_deg(r);
   if (!(reflectance >= options.min_reflectance))
-    return fmt::format("reflects {:.3g} at 60°, less than {:.3g}", reflectance, options.min_reflectance);
+    return fmt::format("it reflects {:.2g} % at 60°, less than {:.2g} %", 100 * reflectance,
+                       100 * options.min_reflectance);
   if (!(r.roughness <= options.max_roughness))
-    return fmt::format("has roughness {:.3g}, more than {:.3g}", r.roughness, options.max_roughness);
-  if (max_component(m.emission) > 0) return "emits light, which outshines its reflections";
+    return fmt::format("its roughness {:.3g} is above {:.3g}, where they are a glow without an outline", r.roughness,
+                       options.max_roughness);
+  if (max_component(m.emission) > 0) return "it emits light, which outshines them";
   return {};
 }
 
@@ -48,7 +50,8 @@ Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> ma
   for (std::size_t m = 0; m < reason.size(); ++m)
     // A material without any specular lobe leaves nothing out.
     if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0))
-      omitted.push_back(fmt::format("material '{}': {}", scene.materials[m].name, reason[m]));
+      omitted.push_back(fmt::format("material '{}': baked and shown, but its reflections without an image: {}",
+                                    scene.materials[m].name, reason[m]));
   return groups;
 }
 

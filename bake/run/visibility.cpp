@@ -49,7 +49,10 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
     return options.with_radiance ? "there is no floor to walk on: all is drawn from everywhere"
                                  : "left out by --only, which finds no floors";
   if (options.visible_sets == VisibleSetsWanted::kAuto && triangles < kLeastTriangles)
-    return fmt::format("{} triangles, fewer than {}, are drawn about as fast without", triangles, kLeastTriangles);
+    return fmt::format(
+        "{} triangles are few enough to draw all of them; from {} on, or with --pvs on, it is found which "
+        "can be seen from where",
+        triangles, kLeastTriangles);
   return {};
 }
 

@@ -27,11 +27,12 @@ int why(const std::filesystem::path& path, const WhyRequest& request) {
   if (!request.from.empty()) options.eye = Vec3(*from - pack->mesh.origin);
   const auto found = why_at(*pack, Vec3(*at - pack->mesh.origin), options);
   if (!found)
-    return report({ErrorCode::kInvalid,
-                   fmt::format("no surface is within {} m of {:.3f}, {:.3f}, {:.3f}: the panel of oriel-play (Tab) shows "
-                               "places of surfaces under the pointer",
-                               options.reach_m, at->x, at->y, at->z),
-                   path.string()});
+    return report(
+        {ErrorCode::kInvalid,
+         fmt::format("no surface is within {} m of {:.3f}, {:.3f}, {:.3f}: the panel of oriel-play (Tab) shows "
+                     "places of surfaces under the pointer",
+                     options.reach_m, at->x, at->y, at->z),
+         path.string()});
   fmt::print("{}", request.json ? why_json(*found) : why_text(*found));
   return 0;
 }

@@ -29,9 +29,9 @@ MeshRays::MeshRays(const Mesh& mesh) : mesh_(&mesh), part_of_(mesh.indices.size(
   std::iota(triangles_.begin(), triangles_.end(), 0u);
   std::vector<Vec3> centres;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    centres.push_back((mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] +
-                       mesh.positions[mesh.indices[i + 2]]) /
-                      3.0f);
+    centres.push_back(
+        (mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] + mesh.positions[mesh.indices[i + 2]]) /
+        3.0f);
   nodes_.emplace_back();
   build(0, 0, static_cast<std::uint32_t>(triangles_.size()), centres);
 }

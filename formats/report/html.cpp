@@ -8,11 +8,23 @@
 
 namespace oriel::report {
 
-std::string shown_text(const std::string& text) {
-  if (text.size() <= kLongestText) return escaped(text);
-  std::size_t end = kLongestText;
+namespace {
+
+std::string shortened(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return escaped(text);
+  std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return escaped(text.substr(0, end)) + "…";
+}
+
+}  // namespace
+
+std::string shown_text(const std::string& text) {
+  return shortened(text, kLongestText);
+}
+
+std::string shown_line(const std::string& text) {
+  return shortened(text, kLongestLine);
 }
 
 std::string number_text(double value) {
@@ -46,6 +58,19 @@ std::string bars_html(const std::vector<Bar>& bars) {
   return html + "</div>\n";
 }
 
+namespace {
+
+// The next of 1, 2, 5, 10, … times the decade, which it keeps up.
+double next_step(double value, double& decade) {
+  const double share = value / decade;
+  if (share < 1.5) return 2 * decade;
+  if (share < 3) return 5 * decade;
+  decade *= 10;
+  return decade;
+}
+
+}  // namespace
+
 std::string legend_svg(const HeatScale& scale) {
   constexpr int kWidth = 360, kSteps = 60, kLeft = 20;
   std::string svg = fmt::format("<svg class=\"legend\" viewBox=\"0 0 {} 34\" width=\"{}\" height=\"34\">\n",
@@ -55,9 +80,14 @@ std::string legend_svg(const HeatScale& scale) {
     svg += fmt::format("<rect x=\"{}\" y=\"0\" width=\"{}\" height=\"14\" fill=\"rgb({:.0f},{:.0f},{:.0f})\"/>",
                        kLeft + i * kWidth / kSteps, kWidth / kSteps + 1, c.r, c.g, c.b);
   }
-  for (double value = scale.lowest; value < 1.001 * double{scale.highest}; value *= 10)
+  // 1, 2 and 5 of each decade where these are few.
+  const bool fine = scale.highest < 150 * scale.lowest;
+  for (double decade = std::pow(10, std::floor(std::log10(double{scale.lowest}) + 1e-6)), value = decade;
+       value < 1.001 * double{scale.highest}; value = fine ? next_step(value, decade) : value * 10) {
+    if (value < 0.999 * double{scale.lowest}) continue;
     svg += fmt::format("\n<text x=\"{:.1f}\" y=\"29\" text-anchor=\"middle\">{}</text>",
                        kLeft + kWidth * double{share_of(scale, static_cast<float>(value))}, number_text(value));
+  }
   return svg + fmt::format("\n<text x=\"{}\" y=\"12\">{}</text></svg>\n", kLeft + kWidth + 8, escaped(scale.unit));
 }
 

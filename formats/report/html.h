@@ -15,6 +15,10 @@ namespace oriel::report {
 inline constexpr std::size_t kLongestText = 120;
 std::string shown_text(const std::string& text);
 
+// A sentence, which is not cut: up to kLongestLine bytes.
+inline constexpr std::size_t kLongestLine = 1000;
+std::string shown_line(const std::string& text);
+
 // Four digits, without an exponent where that is shorter.
 std::string number_text(double value);
 

@@ -12,6 +12,9 @@
 namespace oriel::report {
 namespace {
 
+constexpr std::size_t kFewPages = 3;
+constexpr double kSeenFloor = 0.1;  // of the mean light, that dark surfaces are judged by
+
 std::string figure(const std::string& img, const std::string& caption) {
   return "<figure>" + img + "<figcaption>" + shown_text(caption) + "</figcaption></figure>\n";
 }
@@ -20,6 +23,34 @@ Raster light_raster(const LightmapPage& page, std::uint32_t longest) {
   return reduced(
       page.width, page.height, longest, [&](std::size_t i) { return page.irradiance[i]; },
       [&](std::size_t i) { return page.state[i] != TexelState::kEmpty; });
+}
+
+// From the darkest hundredth of the baked texels to the brightest, out to 1, 2 or 5 of a decade.
+HeatScale lux_scale(const Pack& pack, std::size_t pages) {
+  std::vector<float> lux;
+  for (std::size_t p = 0; p < pages; ++p) {
+    const LightmapPage& page = pack.lightmaps[p];
+    const std::size_t step = std::max<std::size_t>(1, page.state.size() / 65536);
+    for (std::size_t i = 0; i < page.state.size(); i += step)
+      if (page.state[i] == TexelState::kValid && luminance(page.irradiance[i]) > 0)
+        lux.push_back(luminance(page.irradiance[i]));
+  }
+  if (lux.empty()) return kLuxScale;
+  std::sort(lux.begin(), lux.end());
+  const auto rounded = [](float value, bool up) {
+    const double decade = std::pow(10, std::floor(std::log10(double{value})));
+    const double share = value / decade;
+    if (up) return static_cast<float>(decade * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1));
+    return static_cast<float>(decade * (share >= 5 ? 5 : share >= 2 ? 2 : 1));
+  };
+  const float low = rounded(std::max(lux[lux.size() / 100], 1e-4f * lux.back()), false);
+  return {low, std::max(rounded(lux[lux.size() - 1 - lux.size() / 200], true), 10 * low), "lux"};
+}
+
+// A picture that a click shows three times as large, and its scale below it.
+std::string zoomed(const std::string& img, const std::string& caption, const std::string& legend = "") {
+  return "<figure><label class=\"zoom\"><input type=\"checkbox\"><span>" + img + "</span></label>" + legend +
+         "<figcaption>" + shown_text(caption) + "</figcaption></figure>\n";
 }
 
 // Standard error over illuminance, of the baked texels.
@@ -88,14 +119,18 @@ std::string surround_maps_html(const Pack& pack, const Limits& limits) {
 std::string lightmaps_html(const Pack& pack, const Limits& limits) {
   const std::size_t shown = std::min(limits.pages, pack.lightmaps.size());
   if (shown == 0) return {};
+  // Few pages may be seen finer.
+  const std::uint32_t side = shown <= kFewPages ? 2 * limits.page_side : limits.page_side;
   std::vector<Raster> rasters;
-  for (std::size_t i = 0; i < shown; ++i) rasters.push_back(light_raster(pack.lightmaps[i], limits.page_side));
+  for (std::size_t i = 0; i < shown; ++i) rasters.push_back(light_raster(pack.lightmaps[i], side));
   const float white = white_of(rasters);
+  const HeatScale scale = lux_scale(pack, shown);
   std::string html = fmt::format(
       "<h2>Lightmaps</h2>\n<p class=\"quiet\">Irradiance with {:.4g} lux as white, illuminance in false colour, and "
-      "standard error over illuminance. Grey: no surface; in the last picture also what was filled from "
-      "neighbours.</p>\n{}{}",
-      white, legend_svg(kLuxScale), legend_svg(kErrorScale));
+      "each "
+      "texel's standard error over its illuminance. Grey: no surface; in the last picture also what was filled from "
+      "neighbours. A click shows a picture three times as large, and back.</p>\n",
+      white);
   for (std::size_t i = 0; i < shown; ++i) {
     const LightmapPage& page = pack.lightmaps[i];
     const LightmapSummary s = summarise(page);
@@ -104,10 +139,10 @@ std::string lightmaps_html(const Pack& pack, const Limits& limits) {
         "error {:.2g} %{}.</p>\n<div class=\"figures pages\">\n",
         i, page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
         page.direction.empty() ? "" : ", directional");
-    html += figure(toned_img(rasters[i], white, "irradiance"), "irradiance");
-    html += figure(heat_img(rasters[i], kLuxScale, "illuminance in false colour"), "illuminance");
-    html += figure(heat_img(error_raster(page, limits.page_side), kErrorScale, "standard error in false colour"),
-                   "standard error") +
+    html += zoomed(toned_img(rasters[i], white, "irradiance"), "irradiance");
+    html += zoomed(heat_img(rasters[i], scale, "illuminance in false colour"), "illuminance", legend_svg(scale));
+    html += zoomed(heat_img(error_raster(page, side), kErrorScale, "standard error in false colour"), "standard error",
+                   legend_svg(kErrorScale)) +
             "</div>\n";
   }
   return html + left_out(pack.lightmaps.size(), shown, "pages");
@@ -119,19 +154,30 @@ std::string surfaces_html(const Pack& pack, const Limits& limits) {
     if (part.lightmap_page >= 0 && part.index_count > 0)
       surfaces.emplace_back(&part, light_of(PartSampler(pack, part), limits.surface_points));
   if (surfaces.empty()) return {};
-  std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) {
-    return a.second.mean * a.second.area_m2 > b.second.mean * b.second.area_m2;
+  double light = 0, area = 0;
+  for (const auto& [part, of] : surfaces) light += of.mean * of.area_m2, area += of.area_m2;
+  const double floor = area > 0 ? kSeenFloor * light / area : 0;
+  // As frames' errors are: of dark surfaces to a tenth of the mean.
+  const auto error_of = [&](const PartLight& of) {
+    const double beside = std::sqrt(of.mean * of.mean + floor * floor);
+    return beside > 0 ? std::sqrt(of.variance) / beside : 0;
+  };
+  std::stable_sort(surfaces.begin(), surfaces.end(), [&](const auto& a, const auto& b) {
+    return error_of(a.second) * std::sqrt(a.second.area_m2) > error_of(b.second) * std::sqrt(b.second.area_m2);
   });
-  Table table({"surface", "material", "m²", "least lux", "mean lux", "greatest lux", "standard error, lux", "lm"});
+  Table table({"surface", "material", "m²", "least lux", "mean lux", "greatest lux", "standard error, lux",
+               "standard error as seen", "lm"});
   const std::size_t shown = std::min(limits.surfaces, surfaces.size());
   for (std::size_t i = 0; i < shown; ++i) {
-    const auto& [part, light] = surfaces[i];
-    table.row({part->name, pack.materials[part->material].name, number_text(light.area_m2), number_text(light.lowest),
-               number_text(light.mean), number_text(light.highest), number_text(std::sqrt(light.variance)),
-               number_text(light.mean * light.area_m2)});
+    const auto& [part, of] = surfaces[i];
+    table.row({part->name, pack.materials[part->material].name, number_text(of.area_m2), number_text(of.lowest),
+               number_text(of.mean), number_text(of.highest), number_text(std::sqrt(of.variance)),
+               fmt::format("{:.2g} %", 100 * error_of(of)), number_text(of.mean * of.area_m2)});
   }
-  return "<h2>Surfaces</h2>\n<p class=\"quiet\">Those first that receive most light.</p>\n" + table.html() +
-         left_out(surfaces.size(), shown, "surfaces");
+  return "<h2>Surfaces</h2>\n<p class=\"quiet\">By node. Those first whose error shows most: relative to their light "
+         "and "
+         "a tenth of the mean, over more area.</p>\n" +
+         table.html() + left_out(surfaces.size(), shown, "surfaces");
 }
 
 std::string reflections_html(const Pack& pack, const Limits& limits) {

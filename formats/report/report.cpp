@@ -26,6 +26,9 @@ align-items: center }} .bars i {{ background: #3f7cac; height: .8em; min-width: 
 .pages figure {{ flex: 1 1 30%; max-width: 32% }}
 img {{ max-width: 100%; height: auto; image-rendering: pixelated; border: 1px solid #e3e3e3 }}
 svg text {{ font: 11px system-ui, sans-serif; fill: #444 }} svg .frame {{ fill: none; stroke: #ccc }} svg {{ max-width: 100% }}
+.zoom {{ display: block; overflow: auto; max-height: 80vh; cursor: zoom-in }} .zoom input {{ display: none }}
+.zoom input:checked + span img {{ width: 300%; max-width: none; cursor: zoom-out }} .zoom img {{ width: 100% }}
+.finding {{ border-left: 4px solid #c0392b; padding: .1rem .8rem; margin: .8rem 0 }} .finding img {{ image-rendering: auto }}
 details {{ margin: .6rem 0 }} summary {{ cursor: pointer }}
 </style></head><body>
 )";
@@ -65,7 +68,8 @@ std::string sizes_html(const PackIndex& index) {
 std::string page_html(const Pack& pack, const PackIndex& index, const std::string& name, const Limits& limits) {
   std::string html = fmt::format(fmt::runtime(kHead), shown_text(name));
   html += "<h1>" + shown_text(name) + "</h1>\n" + facts_html(pack, index);
-  html += errors_html(pack, limits) + lightmaps_html(pack, limits) + surfaces_html(pack, limits);
+  html += findings_html(pack, limits) + errors_html(pack, limits) + lightmaps_html(pack, limits) +
+          surfaces_html(pack, limits);
   html += reflections_html(pack, limits) + materials_html(pack, limits);
   return html + sizes_html(index) + records_html(pack, limits) + "</body></html>\n";
 }

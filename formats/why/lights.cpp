@@ -97,8 +97,8 @@ std::vector<LightSource> punctual_lights(const Pack& pack) {
 using Hiders = std::map<std::string, std::size_t>;
 
 std::string most_of(const Hiders& hiders) {
-  const auto most = std::max_element(hiders.begin(), hiders.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(hiders.begin(), hiders.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == hiders.end() ? std::string() : most->first;
 }
 
@@ -163,7 +163,8 @@ LightVerdict judge_from_afar(const Pack& pack, const MeshRays& rays, const SeenP
 
 }  // namespace
 
-std::optional<Blocker> first_blocker(const Pack& pack, const MeshRays& rays, const Vec3& from, const Vec3& direction, float farthest) {
+std::optional<Blocker> first_blocker(const Pack& pack, const MeshRays& rays, const Vec3& from, const Vec3& direction,
+                                     float farthest) {
   Vec3 start = from;
   float gone = 0;
   constexpr int kMostPanes = 8;
@@ -183,8 +184,8 @@ std::optional<Blocker> first_blocker(const Pack& pack, const MeshRays& rays, con
 }
 
 std::vector<Vec3> cosine_directions(const Vec3& normal, int count) {
-  const Vec3 side = normalize_or(glm::cross(normal, std::fabs(normal.y) < 0.9f ? Vec3(0, 1, 0) : Vec3(1, 0, 0)),
-                                 Vec3(1, 0, 0));
+  const Vec3 side =
+      normalize_or(glm::cross(normal, std::fabs(normal.y) < 0.9f ? Vec3(0, 1, 0) : Vec3(1, 0, 0)), Vec3(1, 0, 0));
   const Vec3 other = glm::cross(normal, side);
   std::vector<Vec3> out;
   for (int i = 0; i < count; ++i) {
@@ -197,7 +198,8 @@ std::vector<Vec3> cosine_directions(const Vec3& normal, int count) {
   return out;
 }
 
-std::vector<LightVerdict> judge_lights(const Pack& pack, const MeshRays& rays, const SeenPoint& point, std::size_t& left_out) {
+std::vector<LightVerdict> judge_lights(const Pack& pack, const MeshRays& rays, const SeenPoint& point,
+                                       std::size_t& left_out) {
   std::vector<LightSource> lights = emitting_parts(pack);
   for (LightSource& light : punctual_lights(pack)) lights.push_back(std::move(light));
   left_out = lights.size() - std::min(lights.size(), kMostLights);

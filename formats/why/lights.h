@@ -20,11 +20,13 @@ struct Blocker {
   float distance = 0;
   bool front = true;
 };
-std::optional<Blocker> first_blocker(const Pack& pack, const MeshRays& rays, const Vec3& from, const Vec3& direction, float farthest);
+std::optional<Blocker> first_blocker(const Pack& pack, const MeshRays& rays, const Vec3& from, const Vec3& direction,
+                                     float farthest);
 
 // Emitting surfaces, punctual lights (those that the pack's plan names) and the sky. left_out: how many are not looked
 // at.
-std::vector<LightVerdict> judge_lights(const Pack& pack, const MeshRays& rays, const SeenPoint& point, std::size_t& left_out);
+std::vector<LightVerdict> judge_lights(const Pack& pack, const MeshRays& rays, const SeenPoint& point,
+                                       std::size_t& left_out);
 
 // Unit vectors around a normal, as light counts: by the cosine. The same each time.
 std::vector<Vec3> cosine_directions(const Vec3& normal, int count);

@@ -13,13 +13,13 @@
 namespace oriel {
 namespace {
 
-constexpr float kSamePlace_m = 2e-4f;   // surfaces no farther apart coincide: eyes and depth buffers do not part them
-constexpr float kParallel = 0.999f;     // of their normals
-constexpr float kCovers_m = 0.02f;      // what is no farther before a surface lies on it
-constexpr int kLooks = 48;              // directions that are looked along
-constexpr float kAll = 0.9f;            // of them, for "all of it"
-constexpr double kDark = 1e-3;          // of the page's mean
-constexpr int kFilledReach = 24;        // texels from which light is filled in
+constexpr float kSamePlace_m = 2e-4f;  // surfaces no farther apart coincide: eyes and depth buffers do not part them
+constexpr float kParallel = 0.999f;    // of their normals
+constexpr float kCovers_m = 0.02f;     // what is no farther before a surface lies on it
+constexpr int kLooks = 48;             // directions that are looked along
+constexpr float kAll = 0.9f;           // of them, for "all of it"
+constexpr double kDark = 1e-3;         // of the page's mean
+constexpr int kFilledReach = 24;       // texels from which light is filled in
 
 struct Nearest {
   std::size_t first_index = 0;
@@ -105,7 +105,8 @@ std::optional<IVec2> source_of(const LightmapPage& page, const IVec2& texel) {
   for (int dy = -kFilledReach; dy <= kFilledReach; ++dy)
     for (int dx = -kFilledReach; dx <= kFilledReach; ++dx) {
       const IVec2 at = texel + IVec2(dx, dy);
-      if (at.x < 0 || at.y < 0 || at.x >= static_cast<int>(page.width) || at.y >= static_cast<int>(page.height)) continue;
+      if (at.x < 0 || at.y < 0 || at.x >= static_cast<int>(page.width) || at.y >= static_cast<int>(page.height))
+        continue;
       const auto i = static_cast<std::size_t>(at.y) * page.width + static_cast<std::size_t>(at.x);
       if (page.state[i] != TexelState::kValid || dx * dx + dy * dy >= nearest) continue;
       nearest = dx * dx + dy * dy;
@@ -124,11 +125,12 @@ void add_coincident(const Pack& pack, const Nearest& n, std::uint32_t own, Why& 
     const std::string& name = pack.mesh.parts[*part].name;
     // The two sides of a double-sided surface lie there on purpose.
     if (std::fabs(along) < kParallel || apart_mm > 1000 * kSamePlace_m || along < 0) continue;
-    why.reasons.push_back({Cause::kCoincident, name,
-                           fmt::format("'{}' lies in the same place ({:.2g} mm apart): each hides the other from light, "
-                                       "and frames show now one, now the other",
-                                       name, apart_mm),
-                           "delete one of the two, or move one out by 1 mm or more"});
+    why.reasons.push_back(
+        {Cause::kCoincident, name,
+         fmt::format("'{}' lies in the same place ({:.2g} mm apart): each hides the other from light, "
+                     "and frames show now one, now the other",
+                     name, apart_mm),
+         "delete one of the two, or move one out by 1 mm or more"});
     return;
   }
 }
@@ -161,8 +163,8 @@ LookAround look_around(const Pack& pack, const MeshRays& rays, const SeenPoint& 
 }
 
 std::string most_of(const std::map<std::string, int>& counts) {
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == counts.end() ? std::string() : most->first;
 }
 
@@ -177,25 +179,27 @@ void add_surroundings(const Pack& pack, const MeshRays& rays, const SeenPoint& p
   if (why.state == TexelState::kBuried || enclosed) {
     const std::string& object = seen.first_back.empty() ? why.near_by : inside_of;
     why.reasons.push_back({Cause::kInside, object,
-                           object.empty() ? "it lies inside other geometry, where nobody sees it and no light comes"
-                                          : fmt::format("it lies inside '{}' ({:.1f} cm to its wall): no light comes there",
-                                                        object, 100 * std::min(seen.first_back_m, 1e3f)),
+                           object.empty()
+                               ? "it lies inside other geometry, where nobody sees it and no light comes"
+                               : fmt::format("it lies inside '{}' ({:.1f} cm to its wall): no light comes there",
+                                             object, 100 * std::min(seen.first_back_m, 1e3f)),
                            "nothing where nobody sees it; else move one of the two apart"});
     return;
   }
   const auto cover = first_blocker(pack, rays, point.at, point.normal, std::max(kCovers_m, 0.25f * why.side_m));
   if (cover && cover->front && why.near_share >= kAll) {
-    why.reasons.push_back({Cause::kCovered, cover->name,
-                           fmt::format("'{}' lies on it, {:.2g} mm before it: next to no light comes between",
-                                       cover->name, 1000 * cover->distance),
-                           "nothing: what is under things is dark. If it should be seen, raise it above what covers it"});
+    why.reasons.push_back(
+        {Cause::kCovered, cover->name,
+         fmt::format("'{}' lies on it, {:.2g} mm before it: next to no light comes between", cover->name,
+                     1000 * cover->distance),
+         "nothing: what is under things is dark. If it should be seen, raise it above what covers it"});
     return;
   }
   if (why.dark && seen.back >= kAll * kLooks)
-    why.reasons.push_back({Cause::kSeesBacks, inside_of,
-                           fmt::format("it sees backs of one-sided surfaces alone, most of '{}': those reflect nothing",
-                                       inside_of),
-                           "turn their faces over, or bake with --double-sided"});
+    why.reasons.push_back(
+        {Cause::kSeesBacks, inside_of,
+         fmt::format("it sees backs of one-sided surfaces alone, most of '{}': those reflect nothing", inside_of),
+         "turn their faces over, or bake with --double-sided"});
 }
 
 // Why nothing shines there, of one that is dark.
@@ -280,15 +284,15 @@ std::optional<Why> why_at(const Pack& pack, const MeshRays& rays, const Vec3& pl
   why.normal = triangle_normal(pack.mesh, nearest->first_index);
   why.page = part.lightmap_page;
   if (options.eye && !material.double_sided && glm::dot(*options.eye - nearest->at, why.normal) < 0)
-    why.reasons.push_back({Cause::kSeenBehind, material.name,
-                           fmt::format("this is the back of '{}', which is one-sided: light is baked for its front",
-                                       material.name),
-                           "turn its faces over, or make the material double-sided and bake again"});
+    why.reasons.push_back(
+        {Cause::kSeenBehind, material.name,
+         fmt::format("this is the back of '{}', which is one-sided: light is baked for its front", material.name),
+         "turn its faces over, or make the material double-sided and bake again"});
   if (why.page < 0) {
-    why.reasons.push_back({Cause::kUnlit, material.name,
-                           fmt::format("'{}' has no lightmap: its material is unlit and shows its colour as it is",
-                                       part.name),
-                           "take KHR_materials_unlit from the material, and bake again"});
+    why.reasons.push_back(
+        {Cause::kUnlit, material.name,
+         fmt::format("'{}' has no lightmap: its material is unlit and shows its colour as it is", part.name),
+         "take KHR_materials_unlit from the material, and bake again"});
     return why;
   }
   const LightmapPage* page = page_of(static_cast<std::uint32_t>(why.page));

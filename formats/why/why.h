@@ -1,4 +1,5 @@
-// Why a place of a scene is lit as it is: what hides it, what it coincides with, which lights reach it and which do not.
+// Why a place of a scene is lit as it is: what hides it, what it coincides with, which lights reach it and which do
+// not.
 #pragma once
 
 #include <functional>
@@ -45,15 +46,15 @@ struct LightVerdict {
 
 struct Why {
   std::string surface, material;
-  DVec3 at{0};            // on the surface, world metres
-  float off_m = 0;        // from what was asked for
-  Vec3 normal{0, 1, 0};   // of the front
+  DVec3 at{0};             // on the surface, world metres
+  float off_m = 0;         // from what was asked for
+  Vec3 normal{0, 1, 0};    // of the front
   std::int32_t page = -1;  // of its texel; -1: none
   IVec2 texel{0};
   TexelState state = TexelState::kEmpty;
-  float side_m = 0;       // of the texel, on the surface
+  float side_m = 0;  // of the texel, on the surface
   double lux = 0, lux_error = 0;
-  bool dark = false;  // less than a thousandth of its page's mean
+  bool dark = false;            // less than a thousandth of its page's mean
   std::vector<Reason> reasons;  // those that weigh most first; never empty where it is dark
   std::vector<LightVerdict> lights;
   std::size_t lights_left_out = 0;  // beyond the first ones
@@ -63,7 +64,7 @@ struct Why {
 };
 
 struct WhyOptions {
-  float reach_m = 0.5f;      // from the place to the nearest surface
+  float reach_m = 0.5f;       // from the place to the nearest surface
   std::optional<Vec3> eye{};  // pack space: who asks, seeing its side of the surface
 };
 

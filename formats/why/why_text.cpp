@@ -42,9 +42,10 @@ const char* name_of(LightVerdict::Kind kind) {
 std::string verdict_text(const LightVerdict& light) {
   switch (light.kind) {
     case LightVerdict::Kind::kLights:
-      return light.distance_m > 0 ? fmt::format("'{}' lights it: {:.0f} % of it are in sight, from {:.2f} m",
-                                                light.light, 100 * light.share, light.distance_m)
-                                  : fmt::format("'{}' lights it: {:.0f} % are in sight", light.light, 100 * light.share);
+      return light.distance_m > 0
+                 ? fmt::format("'{}' lights it: {:.0f} % of it are in sight, from {:.2f} m", light.light,
+                               100 * light.share, light.distance_m)
+                 : fmt::format("'{}' lights it: {:.0f} % are in sight", light.light, 100 * light.share);
     case LightVerdict::Kind::kFacesAway:
       return fmt::format("'{}' is behind this surface", light.light);
     case LightVerdict::Kind::kTurnedAway:

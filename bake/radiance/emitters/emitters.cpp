@@ -290,8 +290,10 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     if (!chosen.empty()) ORIEL_TRY_VOID(bake_visibility(accel, found, chosen, options, context, r));
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
-          "'{}': {} lamps stay in its radiance maps and are blurred with them: {} of more than {} triangles, {} beyond "
-          "the {} that light it most, {} hidden in part and not small beside its lobe, {} beyond {} polygons in all",
+          "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
+          "their light is the same): {} have more than {} triangles, {} are fainter than the {} brightest, {} are "
+          "hidden "
+          "in part and large, {} came after its {} polygons",
           r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
           left_in.parted, left_in.too_many, kMaxReflectorEmitters));
   }

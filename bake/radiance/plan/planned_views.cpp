@@ -249,8 +249,10 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
     if (angle > 0)
       seen.emplace_back(-angle * all[r].reflectance, r);
     else
-      found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): from nowhere in the eye region is anything seen in it",
-                                          all[r].reflector.name, all[r].reflector.area_m2));
+      found.omitted.push_back(
+          fmt::format("'{}' ({:.3g} m²): no radiance maps, from nowhere where people walk is anything "
+                      "seen in it; --eyes tells of other places",
+                      all[r].reflector.name, all[r].reflector.area_m2));
   }
   std::sort(seen.begin(), seen.end());
   found.reflectors.clear();

@@ -76,6 +76,32 @@ TEST(Report, ShowsAllThatAPackHolds) {
   EXPECT_EQ(count(html, "<img "), count(html, "src=\"data:image/png;base64,iVBOR"));
 }
 
+// Findings and the worst places come first, with what makes them so and a picture of each.
+TEST(Report, FindingsHavePicturesOfTheirPlace) {
+  Pack pack = full_pack();
+  const DVec3 o = pack.mesh.origin;
+  pack.plan = fmt::format(
+      R"({{"findings": ["the lightmap is too dark on 'wall'; a finer --texel mends that"], "warnings": ["'nobody' is odd"],
+           "radiosity": {{"certificate": {{"worst": [{{"surface": "floor", "at": [{}, {}, {}], "baked_cd_m2": 1.5,
+             "measured_cd_m2": 2.5, "share": 0.4}}, 7, {{"at": ["x", 1, 2]}}]}}}}}})",
+      o.x + 0.5, o.y, o.z + 1.7);
+  const std::string html = page_of(pack);
+  for (const char* text : {"<h2>Findings</h2>", "finding:</b> the lightmap is too dark on", "warning:</b>",
+                           "baked 1.5 cd/m², unbiased paths find 2.5; 40 % of all squared error"})
+    EXPECT_THAT(html, HasSubstr(text));
+  EXPECT_EQ(count(html, "the place, ringed"), 2u) << "of the wall and of the floor";
+  EXPECT_LT(html.find("<h2>Findings"), html.find("<h2>Lightmaps"));
+  EXPECT_THAT(html, HasSubstr("standard error as seen"));
+}
+
+// Sentences are whole, names are cut.
+TEST(Report, OmissionsAreNotCut) {
+  Pack pack = full_pack();
+  const std::string line = "'mirror': " + std::string(180, 'x') + " the end";
+  pack.plan = R"({"omitted": [")" + line + R"("]})";
+  EXPECT_THAT(page_of(pack), HasSubstr("x the end"));
+}
+
 TEST(Report, NeedsNothingFromOutside) {
   const std::string html = page_of(full_pack());
   for (const char* outside : {"http:", "https:", "<script", "@import", "url(", " src=\"/"})

@@ -41,12 +41,12 @@ class WhyTest : public ::testing::Test {
   void add_lamp(const Vec3& corner = {-0.5f, 2.5f, -0.5f}) { add("lamp", corner, {1, 0, 0}, {0, 0, 1}, 100, 1); }
   void add_box(const std::string& name, const Vec3& low, const Vec3& high) {
     const Vec3 d = high - low;
-    add(name, low, {d.x, 0, 0}, {0, 0, d.z});                          // bottom, seen from below
-    add(name, {low.x, high.y, high.z}, {d.x, 0, 0}, {0, 0, -d.z});     // top
-    add(name, {low.x, low.y, high.z}, {d.x, 0, 0}, {0, d.y, 0});       // +z
-    add(name, {high.x, low.y, low.z}, {-d.x, 0, 0}, {0, d.y, 0});      // -z
-    add(name, {high.x, low.y, high.z}, {0, 0, -d.z}, {0, d.y, 0});     // +x
-    add(name, {low.x, low.y, low.z}, {0, 0, d.z}, {0, d.y, 0});        // -x
+    add(name, low, {d.x, 0, 0}, {0, 0, d.z});                       // bottom, seen from below
+    add(name, {low.x, high.y, high.z}, {d.x, 0, 0}, {0, 0, -d.z});  // top
+    add(name, {low.x, low.y, high.z}, {d.x, 0, 0}, {0, d.y, 0});    // +z
+    add(name, {high.x, low.y, low.z}, {-d.x, 0, 0}, {0, d.y, 0});   // -z
+    add(name, {high.x, low.y, high.z}, {0, 0, -d.z}, {0, d.y, 0});  // +x
+    add(name, {low.x, low.y, low.z}, {0, 0, d.z}, {0, d.y, 0});     // -x
   }
   // The first texel of the floor is at its corner -2, 0, 2.
   static constexpr Vec3 kCorner{-1.8f, 0, 1.8f};
@@ -164,8 +164,7 @@ TEST_F(WhyTest, NoLightAtAll) {
   EXPECT_EQ(why_->lights[0].kind, LightVerdict::Kind::kFacesAway) << "a sun from below";
   EXPECT_EQ(why_->lights[1].kind, LightVerdict::Kind::kLights);
   // A spot that shines down beside it.
-  pack_.plan =
-      R"({"lights": [{"name": "spot", "at": [0, 2, 0], "towards": [0, -1, 0], "outer_cone_rad": 0.5}]})";
+  pack_.plan = R"({"lights": [{"name": "spot", "at": [0, 2, 0], "towards": [0, -1, 0], "outer_cone_rad": 0.5}]})";
   why_ = why_at(pack_, kCorner);
   EXPECT_EQ(why_->lights.at(0).kind, LightVerdict::Kind::kTurnedAway);
   EXPECT_EQ(why_at(pack_, {0.1f, 0, 0.1f})->lights.at(0).kind, LightVerdict::Kind::kLights);
