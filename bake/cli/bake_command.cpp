@@ -1,5 +1,10 @@
+#include <cmath>
+#include <new>
+#include <optional>
+
 #include "bake/cli/cache_options.h"
 #include "bake/cli/commands.h"
+#include "bake/cli/outcome.h"
 #include "bake/run/option_table.h"
 #include "formats/core/file.h"
 #include "formats/pack/writer.h"
@@ -20,10 +25,14 @@ constexpr const char* kFooter = R"(Examples:
   oriel-bake house.glb -o house.oriel --only radiosity     no radiance maps: a small pack without mirror images
   oriel-bake plan house.glb                                what that would do and cost, and what looks wrong
 
-Exit codes: 0 done (after one interrupt with what was there), 1 usage, 2 a file cannot be read or written, 3 invalid input,
-4 failed at run time, 5 findings with --strict or other bytes with verify, 6 the pack was written without a part that failed its checks,
-130 stopped by the user before there was a first estimate, or by a
-second interrupt (nothing half-written is left).)";
+Exit codes: 0 done, 1 usage, 2 a file cannot be read or written, 3 invalid input, 4 failed at run time, 5 findings with --strict
+or other bytes with verify, 6 the pack was written, but is less than what was asked for: the bake ended early, missed an --error
+or a --time that was named, left out a stage for want of time (0 with --accept-partial), or a part that failed its checks;
+130 stopped by the user before there was a first estimate, or by a second interrupt (nothing half-written is left).)";
+
+Status write_text(const std::filesystem::path& file, const std::string& text) {
+  return write_file_atomically(file, std::as_bytes(std::span(text)));
+}
 
 struct BakeArguments {
   BakeOptions bake = command_line_defaults();
@@ -31,14 +40,22 @@ struct BakeArguments {
   bool no_cache = false;
   std::filesystem::path report;  // empty: none
   bool strict = false;           // findings are an exit code
+  bool accept_partial = false;   // what is less than asked for is none
 };
+
+// Of the lightmap beside unbiased paths.
+std::string brightness_text(const Certificate& c) {
+  if (std::fabs(c.bias) <= c.bias_interval)
+    return fmt::format("as bright on the mean as unbiased paths, to {:.2g} %", 100 * c.bias_interval);
+  return fmt::format("on the mean {:.2g} ± {:.2g} % {} than unbiased paths", 100 * std::fabs(c.bias),
+                     100 * c.bias_interval, c.bias > 0 ? "brighter" : "darker");
+}
 
 std::string light_line(const RadiosityReport& r) {
   std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
   if (const Certificate& c = r.certificate; c.pixels > 0)
-    line += fmt::format(
-        "; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out pixels, which are {:+.2g} % ± {:.2g} % brighter",
-        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, c.pixels, 100 * c.bias, 100 * c.bias_interval);
+    line += fmt::format("; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out pixels, {}", 100 * c.relative_error,
+                        100 * c.error_low, 100 * c.error_high, c.pixels, brightness_text(c));
   if (r.reuse.asked > 0)
     line += fmt::format("; {} of {} tiles keep the light of the bake before, with {:.2g} % of error in all of it",
                         r.reuse.kept, r.reuse.tiles, 100 * r.reuse.error);
@@ -64,8 +81,6 @@ void print_omissions(const std::vector<std::string>& omissions, BakeSession& ses
 }
 
 void print_result(const BakeResult& result, BakeSession& session) {
-  if (result.radiosity.ended_early || session.context.finish)
-    session.note("ended early: the pack holds what was there, with the error that is stated");
   print_omissions(result.omissions, session);
   session.note(light_line(result.radiosity));
   if (const MapReuse& reuse = result.map_reuse; reuse.kept > 0)
@@ -78,37 +93,82 @@ void print_result(const BakeResult& result, BakeSession& session) {
 Status write_result(const BakeArguments& args, const BakeResult& result, BakeSession& session) {
   const std::filesystem::path& output = args.bake.output;
   ORIEL_TRY_VOID(write_pack(output, result.pack));
-  if (!args.report.empty()) {
-    const std::string report = report_json(result);
-    ORIEL_TRY_VOID(write_file_atomically(args.report, std::as_bytes(std::span(report))));
-  }
   double seconds = 0;
   for (const StageTime& time : result.times) seconds += time.seconds;
   std::error_code ec;
   const auto size = std::filesystem::file_size(output, ec);
   session.note(fmt::format("wrote {}: {:.1f} MB, baked in {:.1f} s", output.string(),
                            ec ? 0.0 : static_cast<double>(size) * 1e-6, seconds));
-  if (!result.left_out.empty()) return fail(kIncomplete, output.string(), "was written without {}", result.left_out[0]);
-  if (args.strict && !result.findings.empty())
-    return fail(ErrorCode::kDifferent, output.string(), "was written; --strict: {}", result.findings[0]);
   return {};
+}
+
+// What the pack that was written is an error for, if anything.
+Status judge_result(const BakeArguments& args, const BakeResult& result) {
+  const std::string output = args.bake.output.string();
+  if (!result.left_out.empty()) return fail(kIncomplete, output, "was written without {}", result.left_out[0]);
+  if (!args.accept_partial && !result.shortfalls.empty())
+    return fail(kIncomplete, output, "was written, but is less than what was asked for: {} (--accept-partial takes it)",
+                result.shortfalls[0]);
+  if (args.strict && !result.findings.empty())
+    return fail(ErrorCode::kDifferent, output, "was written; --strict: {}", result.findings[0]);
+  return {};
+}
+
+// Before anything else: that it will be there is the point of a report.
+Status begin_report(const BakeArguments& args) {
+  if (args.report.empty()) return {};
+  ORIEL_TRY_VOID(check_output(args.report, inputs_of(args.bake.scene, args.bake.import)));
+  if (args.report.lexically_normal() == args.bake.output.lexically_normal())
+    return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
+  return write_text(args.report, outcome_json({}, args.bake.scene, args.bake.output));
+}
+
+Status make_pack(const BakeArguments& args, BakeSession& session, std::optional<BakeResult>& made) {
+  ORIEL_TRY_VOID(check_output(args.bake.output, inputs_of(args.bake.scene, args.bake.import)));
+  const auto cache = args.no_cache ? nullptr : open_cache(args.cache, args.bake, session.context);
+  session.context.units = cache.get();
+  ORIEL_TRY(BakeResult result, bake(args.bake, session.context));
+  if (cache) print_share(result.units, cache->folder(), session);
+  print_result(result, session);
+  const Status written = write_result(args, result, session);
+  if (written) made = std::move(result);
+  return written;
+}
+
+Outcome::Kind kind_of(const Status& status, bool written, const BakeResult* result) {
+  if (!written) return status.error().code == ErrorCode::kStopped ? Outcome::Kind::kStopped : Outcome::Kind::kFailed;
+  if (!result->shortfalls.empty() || !result->left_out.empty()) return Outcome::Kind::kPartial;
+  return status ? Outcome::Kind::kComplete : Outcome::Kind::kFindings;
 }
 
 Status run_bake(const BakeArguments& args, BakeSession& session) {
   stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
-  const auto inputs = inputs_of(args.bake.scene, args.bake.import);
-  ORIEL_TRY_VOID(check_output(args.bake.output, inputs));
-  if (!args.report.empty()) {
-    ORIEL_TRY_VOID(check_output(args.report, inputs));
-    if (args.report.lexically_normal() == args.bake.output.lexically_normal())
-      return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
+  ORIEL_TRY_VOID(begin_report(args));
+  session.printer->set_end(args.bake.time_s);
+  Outcome outcome;
+  const auto listener = session.context.warn;
+  session.context.warn = [&](const std::string& text) {
+    outcome.warnings.push_back(text);
+    listener(text);
+  };
+  std::optional<BakeResult> made;
+  Status status;
+  try {
+    status = make_pack(args, session, made);
+  } catch (const std::bad_alloc&) {
+    status = fail(ErrorCode::kRuntime, "", "not enough memory: try {}", session.less_memory);
+  } catch (const std::exception& error) {
+    status = fail(ErrorCode::kRuntime, "", "{}", error.what());
   }
-  const auto cache = args.no_cache ? nullptr : open_cache(args.cache, args.bake, session.context);
-  session.context.units = cache.get();
-  ORIEL_TRY(const BakeResult result, bake(args.bake, session.context));
-  if (cache) print_share(result.units, cache->folder(), session);
-  print_result(result, session);
-  return write_result(args, result, session);
+  session.context.warn = listener;
+  if (status) status = judge_result(args, *made);
+  if (args.report.empty()) return status;
+  outcome.kind = kind_of(status, made.has_value(), made ? &*made : nullptr);
+  outcome.exit_code = status ? 0 : static_cast<int>(status.error().code);
+  if (!status) outcome.error = status.error();
+  if (made) outcome.warnings = made->warnings, outcome.result = &*made;
+  ORIEL_TRY_VOID(write_text(args.report, outcome_json(outcome, args.bake.scene, args.bake.output)));
+  return status;
 }
 
 }  // namespace
@@ -138,12 +198,18 @@ ToolCommand bake_command(BakeSession& session) {
         {},
         {},
         {"--cache"}},
-       {"--report", "Run", "Write what was done, omitted, measured and how long it took, as JSON",
+       {"--report", "Run",
+        "Write how it ended, what was done, omitted and measured, and how long it took, as JSON "
+        "(docs/report.schema.json). It is there on failure too",
         path(args->report, "FILE"), Use::kEveryday},
        {"--strict", "Run",
         "Exit code 5 where something is found to be likely wrong with the light, such as an energy ledger that does "
         "not close. The pack is written all the same",
         flag(args->strict)}});
+  append(out.options, {{"--accept-partial", "Run",
+                        "Exit code 0 where the pack is less than what was asked for: the bake ended early, missed an "
+                        "--error or a --time that was named, or left out a stage for want of time",
+                        flag(args->accept_partial)}});
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };
   out.run = [args, &session] { return run_bake(*args, session); };

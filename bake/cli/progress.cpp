@@ -8,6 +8,8 @@
 namespace oriel {
 namespace {
 
+constexpr const char* kTool = "oriel-bake";  // logs of several programs lie in one file
+
 std::string duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
   return fmt::format("{:.0f} min {:02d} s", std::floor(seconds / 60), static_cast<int>(seconds) % 60);
@@ -96,21 +98,25 @@ void ProgressPrinter::operator()(const Progress& progress) {
 
 void ProgressPrinter::draw(const Progress& progress, double seconds) {
   const double rays_per_s = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
-  const double left = progress.fraction > 0 ? seconds * (1 - progress.fraction) / progress.fraction : 0;
+  const double whole = seconds_between(begun_, Clock::now());
+  const double left = std::max(0.0, end_s_ - whole);
   if (style_ == Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", "progress"},           {"stage", std::string(progress.stage)},
-                                         {"fraction", progress.fraction}, {"seconds", seconds},
-                                         {"rays", progress.rays},         {"rays_per_s", rays_per_s},
-                                         {"seconds_left", left}};
+    const nlohmann::ordered_json json = {{"event", "progress"},
+                                         {"tool", kTool},
+                                         {"stage", std::string(progress.stage)},
+                                         {"fraction", progress.fraction},
+                                         {"seconds", seconds},
+                                         {"rays", progress.rays},
+                                         {"rays_per_s", rays_per_s},
+                                         {"seconds_since_start", whole},
+                                         {"seconds_left", end_s_ > 0 ? nlohmann::ordered_json(left) : nullptr}};
     std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
   }
   std::string text = fmt::format("{:<10} {:3.0f} %", progress.stage, 100 * progress.fraction);
   if (progress.rays > 0) text += fmt::format("  {:5.2f} Mray/s", rays_per_s * 1e-6);
-  if (progress.fraction <= 0)
-    text += fmt::format("  {} so far", duration(seconds));
-  else
-    text += progress.fraction < 1 ? fmt::format("  {} left", duration(left)) : fmt::format("  {:.1f} s", seconds);
+  text += progress.fraction < 1 ? fmt::format("  {} so far", duration(seconds)) : fmt::format("  {:.1f} s", seconds);
+  if (end_s_ > 0) text += fmt::format(", {} left of all", duration(left));
   if (style_ == Style::kPlain) {
     std::fprintf(stderr, "%s\n", text.c_str());
     return;
@@ -124,7 +130,7 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
 
 void ProgressPrinter::line(const char* event, const std::string& message) {
   if (style_ == Style::kJson) {
-    const nlohmann::ordered_json json = {{"event", event}, {"message", message}};
+    const nlohmann::ordered_json json = {{"event", event}, {"tool", kTool}, {"message", message}};
     std::fprintf(stderr, "%s\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
   }
@@ -141,6 +147,11 @@ void ProgressPrinter::warning(const std::string& message) {
 void ProgressPrinter::note(const std::string& message) {
   const std::lock_guard lock(mutex_);
   if (style_ != Style::kQuiet) line("note", message);
+}
+
+void ProgressPrinter::set_end(double seconds) {
+  const std::lock_guard lock(mutex_);
+  end_s_ = seconds;
 }
 
 void ProgressPrinter::finish() {

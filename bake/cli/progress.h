@@ -27,6 +27,9 @@ class ProgressPrinter {
   void note(const std::string& message);
   // Ends a bar's line.
   void finish();
+  // The whole work is to end then (--time): that is what time is left. Without it none is told: how many rounds the
+  // light needs is known when they are over, and an estimate that jumps is worse than none.
+  void set_end(double seconds);
 
   static constexpr double kSilence = 1.5;
 
@@ -45,6 +48,7 @@ class ProgressPrinter {
   std::string told_;  // the stage that ended last
   Clock::time_point begun_ = Clock::now(), started_ = begun_, drawn_ = begun_;
   double fraction_ = 0;
+  double end_s_ = 0;  // since begun_; 0: not known
   bool open_line_ = false;
   std::mutex mutex_;  // of all above
   std::condition_variable ended_;

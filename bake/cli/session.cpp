@@ -16,20 +16,34 @@ namespace {
 Context* g_context = nullptr;
 OnStop g_on_stop = OnStop::kStop;
 char g_temporary[4096] = "";
+bool g_json = false;                      // lines on stderr are JSON
+constexpr unsigned kMostAfterTerm_s = 9;  // for finishing after SIGTERM
+
+// As a signal handler may.
+template <std::size_t N>
+void tell(const char (&text)[N]) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, N - 1);
+}
 
 // Stages look at the flag many times a second, but libraries' long calls do not: after a second the process ends
 // itself. That loses nothing: a pack exists only once it is renamed into place.
 void on_alarm(int) {
   ::unlink(g_temporary);
-  static constexpr char kText[] = "\noriel-bake: stopped; nothing was written\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+  if (g_json)
+    tell("{\"event\":\"error\",\"tool\":\"oriel-bake\",\"code\":130,\"message\":\"stopped; nothing was written\"}\n");
+  else
+    tell("\noriel-bake: stopped; nothing was written\n");
   ::_exit(static_cast<int>(ErrorCode::kStopped));
 }
 
-void on_stop(int) {
+void on_stop(int signal) {
   if (g_on_stop == OnStop::kFinish && g_context->finishable && !g_context->finish.exchange(true)) {
-    static constexpr char kText[] = "\noriel-bake: finishing with what is there; again to stop at once\n";
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+    if (g_json)
+      tell("{\"event\":\"note\",\"tool\":\"oriel-bake\",\"message\":\"finishing with what is there\"}\n");
+    else
+      tell("\noriel-bake: finishing with what is there; again to stop at once\n");
+    // Who sends this waits for an end: schedulers kill after some seconds.
+    if (signal == SIGTERM) ::alarm(kMostAfterTerm_s);
     return;
   }
   g_context->stop.store(true);
@@ -49,6 +63,7 @@ void BakeSession::begin() {
   context.threads = threads;
   context.seed = seed;
   printer.emplace(style());
+  g_json = json_log;
   context.progress = [this](const Progress& progress) { (*printer)(progress); };
   context.warn = [this](const std::string& message) { printer->warning(message); };
 }
@@ -63,7 +78,7 @@ std::vector<Option> run_options(BakeSession& session) {
       {"--quiet", kRun, "No progress; warnings and errors only", flag(session.quiet), Use::kEveryday},
       {"--json-log",
        kRun,
-       "Progress, warnings and errors as JSON lines on stderr",
+       "Every line on stderr is a JSON object: progress, notes, warnings and errors, those of usage and of signals too",
        flag(session.json_log),
        Use::kRare,
        {},

@@ -28,6 +28,19 @@ struct Finding {
 };
 
 const char* name_of(FindingKind kind);  // "one-sided wall", …
+// error: the light will be wrong where people look; warning: some of it may be; note: nothing of it is.
+enum class FindingSeverity { kError, kWarning, kNote };
+FindingSeverity severity_of(FindingKind kind);
+const char* name_of(FindingSeverity severity);
+
+// Findings that are known and taken: a kind by its name or number (D3), or one with its object, "one-sided
+// wall:Curtain*", where * stands for any text and ? for any one character.
+struct AllowedFinding {
+  std::string kind, object = "*";
+};
+// A list of them, comma-separated, or @FILE with one a line (# begins a comment). Errors kUsage, kIo.
+Result<std::vector<AllowedFinding>> parse_allowed(const std::string& text);
+bool is_allowed(const Finding& finding, std::span<const AllowedFinding> allowed);
 
 // What the importer's warnings mean.
 std::vector<Finding> findings_of_import(std::span<const std::string> warnings);

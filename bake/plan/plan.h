@@ -12,6 +12,7 @@ struct ScenePlan {
   std::string scene;  // the file
   Census census;
   std::vector<Finding> findings;         // by kind
+  std::vector<AllowedFinding> allowed;   // of them, by the user
   std::optional<Prediction> prediction;  // where a pilot was asked for
 };
 

@@ -65,11 +65,13 @@ Json stages_json(const std::vector<StageCensus>& stages) {
   return out;
 }
 
-Json findings_json(const std::vector<Finding>& findings) {
+Json findings_json(const std::vector<Finding>& findings, std::span<const AllowedFinding> allowed) {
   Json out = Json::array();
   for (const Finding& f : findings)
     out.push_back({{"kind", static_cast<int>(f.kind)},
                    {"name", name_of(f.kind)},
+                   {"severity", name_of(severity_of(f.kind))},
+                   {"allowed", is_allowed(f, allowed)},
                    {"object", f.object},
                    {"found", f.found},
                    {"expected", f.expected},
@@ -113,7 +115,7 @@ std::string plan_as_json(const ScenePlan& plan) {
                      {"reflectors", reflectors_json(c.reflectors)},
                      {"stages", stages_json(c.stages)},
                      {"omitted", c.omissions},
-                     {"findings", findings_json(plan.findings)},
+                     {"findings", findings_json(plan.findings, plan.allowed)},
                      {"prediction", plan.prediction ? prediction_json(*plan.prediction) : Json()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -58,11 +58,12 @@ std::string reflectors_text(const std::vector<ReflectorCensus>& reflectors) {
   return text;
 }
 
-std::string findings_text(const std::vector<Finding>& findings) {
+std::string findings_text(const std::vector<Finding>& findings, std::span<const AllowedFinding> allowed) {
   std::string text = fmt::format("findings   {}\n", findings.empty() ? "none" : std::to_string(findings.size()));
   for (const Finding& f : findings)
-    text += fmt::format("  D{} {}: {}\n      found     {}\n      expected  {}\n      fix       {}\n",
-                        static_cast<int>(f.kind), name_of(f.kind), f.object, f.found, f.expected, f.fix);
+    text += fmt::format("  D{} {}, {}{}: {}\n      found     {}\n      expected  {}\n      fix       {}\n",
+                        static_cast<int>(f.kind), name_of(f.kind), name_of(severity_of(f.kind)),
+                        is_allowed(f, allowed) ? ", allowed" : "", f.object, f.found, f.expected, f.fix);
   return text;
 }
 
@@ -97,7 +98,7 @@ std::string plan_text(const ScenePlan& plan) {
     }
   }
   for (const std::string& omission : c.omissions) text += "  - " + omission + "\n";
-  text += findings_text(plan.findings);
+  text += findings_text(plan.findings, plan.allowed);
   if (plan.prediction) text += prediction_text(*plan.prediction);
   return text;
 }

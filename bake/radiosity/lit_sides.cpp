@@ -1,7 +1,9 @@
 #include "bake/radiosity/lit_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <map>
 #include <numeric>
 
 #include "bake/direct/onlookers.h"
@@ -17,7 +19,9 @@ constexpr double kLit = 0.01;  // of the other side's mean
 // where there are so many parts that all of them together would exceed kAllPoints; never less than kFewPoints.
 constexpr std::size_t kRaysAPoint = 10;  // on both sides, about
 constexpr std::size_t kPoints = 256, kFewPoints = 8, kFirstPoints = 2, kAllPoints = std::size_t{1} << 17;
-constexpr int kMostBounces = 6;  // light that needs more is dim beside what the other side gets
+constexpr std::size_t kMostPatches = 4096;
+constexpr double kFinestCells = 256;  // of patches, across the scene
+constexpr int kMostBounces = 6;       // light that needs more is dim beside what the other side gets
 
 // The double-sided triangles, part by part.
 struct Parts {
@@ -58,6 +62,74 @@ Parts find_parts(const Scene& scene) {
     if (material.double_sided && !material.unlit) add_parts(scene, surface, parts);
   }
   return parts;
+}
+
+struct PartShape {
+  double area = 0;
+  DVec3 centre{0}, normal{0};  // sums over the area
+};
+
+PartShape shape_of(const Scene& scene, std::span<const std::uint32_t> part) {
+  PartShape shape;
+  for (const std::uint32_t t : part) {
+    const UVec3& corner = scene.triangles[t];
+    const double area = triangle_area(scene, t);
+    shape.area += area;
+    shape.centre +=
+        area / 3 * DVec3(scene.positions[corner[0]] + scene.positions[corner[1]] + scene.positions[corner[2]]);
+    shape.normal += area * DVec3(geometric_normal(scene, t));
+  }
+  return shape;
+}
+
+// One of six: the axis that it faces along most.
+std::uint32_t facing(const DVec3& n) {
+  const DVec3 a = glm::abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  return static_cast<std::uint32_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+}
+
+// Leaves, fibres and triangles that share no vertices are parts by the hundred thousand. Beyond kMostPatches parts the
+// largest are looked at by themselves, and the others in patches: those of one surface that face alike within one cell
+// of a grid, which is as fine as their number allows. What is lit on both sides somewhere in a patch has texels on both
+// sides everywhere in it, which costs texels and no light.
+Parts in_patches(const Scene& scene, Parts parts) {
+  if (parts.count() <= kMostPatches) return parts;
+  std::vector<PartShape> shapes(parts.count());
+  for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i] = shape_of(scene, parts.of(i));
+  std::vector<std::uint32_t> order(parts.count());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return shapes[a].area > shapes[b].area; });
+  constexpr std::size_t kAlone = kMostPatches / 2;
+  using Key = std::array<std::int64_t, 5>;
+  std::map<Key, std::vector<std::uint32_t>> patches;
+  const double extent = std::max(1e-6, double{glm::length(scene.upper - scene.lower)});
+  for (double cell = extent / kFinestCells; patches.empty() || patches.size() > kMostPatches - kAlone; cell *= 1.5) {
+    patches.clear();
+    for (std::size_t k = kAlone; k < order.size(); ++k) {
+      const PartShape& shape = shapes[order[k]];
+      const DVec3 at = glm::floor(shape.centre / std::max(shape.area, 1e-30) / cell);
+      const std::uint32_t surface = scene.triangle_surface[parts.of(order[k]).front()];
+      const auto key = [&](double v) { return static_cast<std::int64_t>(std::clamp(v, -1e9, 1e9)); };
+      patches[{surface, facing(shape.normal), key(at.x), key(at.y), key(at.z)}].push_back(order[k]);
+    }
+    if (cell > extent) break;  // a patch a surface and facing
+  }
+  Parts out;
+  const auto add = [&](std::uint32_t part) {
+    const auto triangles = parts.of(part);
+    out.triangles.insert(out.triangles.end(), triangles.begin(), triangles.end());
+  };
+  for (std::size_t k = 0; k < kAlone; ++k) {
+    add(order[k]);
+    out.first.push_back(out.triangles.size());
+  }
+  for (const auto& [key, members] : patches) {
+    for (const std::uint32_t part : members) add(part);
+    out.first.push_back(out.triangles.size());
+  }
+  return out;
 }
 
 // The light on one side of a part, and whether eyes see it.
@@ -112,7 +184,7 @@ LitSides lit_sides(const Transport& t, const Onlookers& onlookers, std::span<con
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
   const Onlookers onlookers(transport.accel, eyes);
   const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
-  const Parts parts = find_parts(transport.accel.scene());
+  const Parts parts = in_patches(transport.accel.scene(), find_parts(transport.accel.scene()));
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);
   Transport short_paths = transport;
   short_paths.options.max_bounces = std::min(transport.options.max_bounces, kMostBounces);

@@ -20,10 +20,11 @@ struct FoundSides {
 };
 
 // Follows paths from points on both sides of every connected part (by vertex indices) of the double-sided surfaces,
-// unlit ones excepted. A side counts where one of its points gets more than 1 % of the other side's mean, or has a line
-// of sight to one of the eyes (scene space) nearest to it: few paths may miss the light of small parts that people see.
-// A part without either is kFront, so is a closed body whose inside is dark. Where an Interruptible ends it, parts that
-// nobody looked at are kBoth. Stage name "sides"; error kStopped.
+// unlit ones excepted; of thousands of parts the small ones are looked at in patches, which count as one. A side counts
+// where one of its points gets more than 1 % of the other side's mean, or has a line of sight to one of the eyes (scene
+// space) nearest to it: few paths may miss the light of small parts that people see. A part without either is kFront,
+// so is a closed body whose inside is dark. Where an Interruptible ends it, parts that nobody looked at are kBoth.
+// Stage name "sides"; error kStopped.
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context);
 
 }  // namespace oriel

@@ -17,51 +17,98 @@
 namespace oriel {
 namespace {
 
+constexpr const char* kOverTime = "--time was over";
+
 constexpr double kWorse = 1.3;         // times the error that was stated, which is worth a warning
 constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
 constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
 
-void warn_about_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget,
-                      Context& context) {
+// Keeps what the context is warned of, while it lives, and tells it on.
+class WarningLog {
+ public:
+  WarningLog(Context& context, std::vector<std::string>& warnings) : context_(context), listener_(context.warn) {
+    context_.warn = [this, &warnings](const std::string& text) {
+      warnings.push_back(text);
+      if (listener_) listener_(text);
+    };
+  }
+  ~WarningLog() { context_.warn = std::move(listener_); }
+  WarningLog(const WarningLog&) = delete;
+  WarningLog& operator=(const WarningLog&) = delete;
+
+ private:
+  Context& context_;
+  std::function<void(const std::string&)> listener_;
+};
+
+void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
+  shortfalls.push_back(why);
+  context.warning(why);
+}
+
+// An error that was named, alone or with a time, is missed; the default one is a wish.
+void judge_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget, Context& context,
+                 std::vector<std::string>& shortfalls) {
   const double asked = options.radiosity.error, stated = report.relative_error;
   const Certificate& c = report.certificate;
   if (asked <= 0 || context.finish) return;
+  const bool named = asked > kBestError && options.radiosity.most_rays == 0;
+  const auto tell = [&](const std::string& text) {
+    if (named) {
+      fall_short(text, context, shortfalls);
+    } else {
+      context.warning(text);
+    }
+  };
   if (c.error_low > kWorse * std::max(asked, stated))
-    context.warning(
-        fmt::format("held-out pixels are {:.3g} % off ({:.3g} to {:.3g} %), where {:.3g} % was asked for and {:.3g} % "
-                    "is stated: light "
-                    "varies more within texels than they tell; --texel makes those finer",
-                    100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
+    tell(fmt::format(
+        "the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), asked for was {:.3g} % and stated is "
+        "{:.3g} %: light varies more within texels than they tell; --texel makes those finer",
+        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
   if (stated <= 1.25 * asked) return;
-  if (report.ended_early && budget.limited() && asked > kBestError)
-    context.warning(
-        fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is "
-                    "{:.3g} %, {:.2g} times too much",
-                    100 * asked, options.time_s, 100 * stated, stated / asked));
-  if (report.ended_early) return;
-  if (report.out_of_rays) {
-    context.warning(fmt::format(
-        "the lightmap's stated error is {:.3g} %: the default of {:.3g} % takes more than a bake's first minutes; "
-        "--error {:.3g}% goes on until it is there",
-        100 * stated, 100 * asked, 100 * asked));
+  if (report.ended_early) {
+    if (budget.limited() && asked > kBestError)
+      tell(
+          fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is {:.3g} "
+                      "%, {:.2g} times too much; give it more time, or a larger --texel",
+                      100 * asked, options.time_s, 100 * stated, stated / asked));
     return;
   }
-  context.warning(fmt::format(
-      "the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays each, or lie "
-      "where light changes within a texel; --texel makes those finer",
-      100 * stated, 100 * asked, options.radiosity.samples));
+  if (report.out_of_rays)
+    return tell(
+        fmt::format("the lightmap's stated error is {:.3g} %: the default of {:.3g} % takes more than a bake's first "
+                    "minutes; --error {:.3g}% goes on until it is there",
+                    100 * stated, 100 * asked, 100 * asked));
+  tell(
+      fmt::format("the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays "
+                  "each, or lie where light changes within a texel; --texel makes those finer",
+                  100 * stated, 100 * asked, options.radiosity.samples));
 }
 
-void warn_about_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
-                     Context& context) {
+void judge_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
+                Context& context, std::vector<std::string>& shortfalls) {
   if (!budget.missed()) return;
   const auto longest = std::max_element(times.begin(), times.end(),
                                         [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
-  context.warning(
-      fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
-                  "end earlier; a larger --texel takes less",
-                  options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds));
+  fall_short(fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
+                         "end earlier; a larger --texel takes less",
+                         options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds),
+             context, shortfalls);
+}
+
+// Stages that are not there for want of time, or since the user had enough: omissions and warnings name --time then.
+void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls) {
+  if (context.finish)
+    fall_short(
+        "the bake ended early, as asked: the pack holds what was there, with the error that is stated; the same "
+        "command again goes on from the cache",
+        context, shortfalls);
+  for (const auto* texts : {&result.omissions, &result.warnings})
+    for (const std::string& text : *texts)
+      if (text.find(kOverTime) != std::string::npos || text.find("for --time") != std::string::npos ||
+          text.find("of --time") != std::string::npos)
+        shortfalls.push_back(text);
 }
 
 double bytes_of(const Pack& pack, const PlannedReflections& planned) {
@@ -127,8 +174,9 @@ Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections 
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
   ReflectionReport none;
-  none.omissions.push_back(fmt::format("radiance maps: left out, {}",
-                                       context.finish ? "the user asked the bake to finish" : "--time was over"));
+  none.omissions.push_back(fmt::format("radiance maps: left out, {}", context.finish
+                                                                          ? "the user asked the bake to finish"
+                                                                          : "--time was over; a longer one has them"));
   return none;
 }
 
@@ -260,7 +308,7 @@ class Bake {
     result_.radiosity = radiosity_.report;
     planned_.light_reused = radiosity_.report.reuse.kept > 0;
     context_.finishable = true;
-    warn_about_error(options_, radiosity_.report, budget_, context_);
+    judge_error(options_, radiosity_.report, budget_, context_, result_.shortfalls);
     return {};
   }
 
@@ -274,7 +322,7 @@ class Bake {
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
-    if (!ledger) result_.omissions.emplace_back("energy ledger: left out, --time was over");
+    if (!ledger) result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it");
     result_.ledger = ledger.value_or(Ledger());
     result_.findings = ledger_findings(result_.ledger);
     pack().lightmaps = std::move(radiosity_.pages);
@@ -336,13 +384,16 @@ class Bake {
   // What the pack says of itself.
   void describe() {
     tell_dropped(accel(), result_.findings);
-    for (const std::string& finding : result_.findings) context_.warning(finding);
+    judge_stages(result_, context_, result_.shortfalls);
     pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
                              result_.omissions, lights_->power(), reflections_, movers_, visibility_,
                              options_.radiosity.estimator == Estimator::kCached, options_.radiosity.error, start_,
-                             result_.findings});
+                             result_.findings, result_.warnings});
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
-    warn_about_time(options_, budget_, result_.times, context_);
+    judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
+    const std::size_t warned = result_.warnings.size();
+    for (const std::string& finding : result_.findings) context_.warning(finding);
+    result_.warnings.resize(warned);  // findings have a list of their own
     if (context_.units) result_.units = context_.units->share();
   }
 
@@ -359,6 +410,7 @@ class Bake {
   Context& context_;
   TimeBudget budget_;
   BakeResult result_;
+  WarningLog log_{context_, result_.warnings};
   Stopwatch timed_{result_.times};
   PreparedScene prepared_;
   std::optional<LightSet> lights_;  // of the prepared scene

@@ -10,7 +10,7 @@
 
 namespace oriel {
 
-inline constexpr ErrorCode kIncomplete{6};  // the exit code of a pack that was written without a part
+inline constexpr ErrorCode kIncomplete{6};  // the exit code of a pack that is less than what was asked for
 
 struct BakeResult {
   Pack pack;
@@ -21,7 +21,11 @@ struct BakeResult {
   UnitShare units;                     // not in the pack either: empty without a store of units
   std::vector<std::string> omissions;  // what was not modelled, and why
   std::vector<std::string> findings;   // what is likely wrong with the light, each with its size; warned of
-  std::vector<std::string> left_out;   // what failed the pack's own checks and is not in it; among the omissions too
+  std::vector<std::string> warnings;   // all others that were told meanwhile
+  // Why it is less than what was asked for: it ended early, missed an error or a time that was named, or left a stage
+  // out for want of time. A bake that ends by its default share of rays has none.
+  std::vector<std::string> shortfalls;
+  std::vector<std::string> left_out;  // what failed the pack's own checks and is not in it; among the omissions too
 };
 
 // Scene file → pack in memory. Errors as the stages give them; kStopped when context.stop was set.

@@ -322,6 +322,7 @@ std::string plan_json(const BakeFacts& f) {
       {"start", text_of(f.start)},
       {"omitted", f.omissions},
       {"findings", f.findings},
+      {"warnings", f.warnings},
   };
   return text_of(json);
 }

@@ -27,6 +27,7 @@ struct BakeFacts {
   double asked = 0;    // error of the lightmap; 0: none
   Start start = Start::kOfScene;
   const std::vector<std::string>& findings;
+  const std::vector<std::string>& warnings;
 };
 
 std::string plan_json(const BakeFacts& facts);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "formats/cli/help.h"
 #include "formats/core/text.h"
@@ -186,6 +187,23 @@ std::vector<std::string> Given::words(const std::vector<Option>& options) const 
   return words;
 }
 
+namespace {
+
+// As a line of JSON where the words ask for that: logs are read by programs.
+void complain(const CommandLine& program, const std::vector<std::string>& words, const std::string& message, int code,
+              const char* after) {
+  const bool json = std::find(words.begin(), words.end(), "--json-log") != words.end();
+  if (json) {
+    const nlohmann::ordered_json line = {
+        {"event", "error"}, {"tool", program.command.name}, {"code", code}, {"message", message}};
+    std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::fprintf(stderr, "%s: %s%s\n", program.command.name.c_str(), message.c_str(), after);
+  }
+}
+
+}  // namespace
+
 std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc, const char* const* argv) {
   const ToolCommand& command = program.command;
   const std::vector<std::string> words(argv + 1, argv + argc);
@@ -207,7 +225,8 @@ std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "%s: %s\nRun with --help for more information.\n", command.name.c_str(), error.what());
+    complain(program, words, error.what(), static_cast<int>(ErrorCode::kUsage),
+             "\nRun with --help for more information.");
     return static_cast<int>(ErrorCode::kUsage);
   }
   if (page || shell == "bash") {
@@ -217,7 +236,7 @@ std::variant<const ToolCommand*, int> parse(const CommandLine& program, int argc
   auto done = finish(mounted);
   if (done && !shell.empty()) done = fail(ErrorCode::kUsage, "--completion", "found '{}', expected bash", shell);
   if (done) return *done;
-  std::fprintf(stderr, "%s: %s\n", command.name.c_str(), done.error().text().c_str());
+  complain(program, words, done.error().text(), static_cast<int>(done.error().code), "");
   return static_cast<int>(done.error().code);
 }
 

@@ -1,6 +1,7 @@
 #include "formats/diff/pack_diff.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -10,7 +11,9 @@
 namespace oriel {
 namespace {
 
-constexpr double kDark = 0.01;  // of the scene's mean: darker surfaces are measured by it
+constexpr float kOtherTexels = 1.1f;  // times as large: another size
+constexpr float kBlockTexels = 4;     // of the larger ones, a block's side
+constexpr double kDark = 0.01;        // of the scene's mean: darker surfaces are measured by it
 using PartKey = std::tuple<std::string, std::string, std::size_t>;  // name, material, how many of these came before
 
 bool same_shape(const PartSampler& a, const PartSampler& b, const DVec3& offset) {
@@ -33,6 +36,51 @@ std::map<PartKey, const MeshPart*> parts_of(const Pack& pack) {
   return parts;
 }
 
+// Root of the area that a texel of the part has, metres; 0 where that is nothing.
+float texel_side(const Pack& pack, const MeshPart& part) {
+  const LightmapPage& page = pack.lightmaps[static_cast<std::size_t>(part.lightmap_page)];
+  double area = 0, texels = 0;
+  for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
+    const std::uint32_t* c = &pack.mesh.indices[i];
+    const Vec3 a = pack.mesh.positions[c[0]];
+    area += glm::length(glm::cross(pack.mesh.positions[c[1]] - a, pack.mesh.positions[c[2]] - a));
+    const Vec2 uv = pack.mesh.lightmap_uvs[c[0]], u = pack.mesh.lightmap_uvs[c[1]] - uv,
+               v = pack.mesh.lightmap_uvs[c[2]] - uv;
+    texels += std::fabs(double{u.x} * v.y - double{u.y} * v.x) * page.width * page.height;
+  }
+  return texels > 0 ? static_cast<float>(std::sqrt(area / texels)) : 0;
+}
+
+// Over what blocks two parts are compared, metres; 0: point by point. Of other texel sizes what differs within a texel
+// is no change of light: neither shows it right.
+float block_of(float before, float after) {
+  const float larger = std::max(before, after), smaller = std::min(before, after);
+  return smaller > 0 && larger > kOtherTexels * smaller ? kBlockTexels * larger : 0;
+}
+
+// Means over blocks of a lattice.
+class Blocks {
+ public:
+  explicit Blocks(float side) : side_(side) {}
+  void add(const Vec3& at, double difference, double weight) {
+    const Vec3 cell = glm::floor(at / side_);
+    auto& [sum, of] = sums_[{static_cast<std::int64_t>(cell.x), static_cast<std::int64_t>(cell.y),
+                             static_cast<std::int64_t>(cell.z)}];
+    sum += weight * difference;
+    of += weight;
+  }
+  double mean_square() const {
+    double squares = 0;
+    for (const auto& [cell, sums] : sums_)
+      if (sums.second > 0) squares += sums.first * sums.first / sums.second;
+    return squares;
+  }
+
+ private:
+  float side_;
+  std::map<std::array<std::int64_t, 3>, std::pair<double, double>> sums_;
+};
+
 SurfaceChange compare(const Pack& before, const MeshPart& a, const Pack& after, const MeshPart& b, std::size_t points) {
   const PartSampler first(before, a), second(after, b);
   const PartLight was = light_of(first, points), is = light_of(second, points);
@@ -47,13 +95,18 @@ SurfaceChange compare(const Pack& before, const MeshPart& a, const Pack& after, 
     change.rms_lux = std::abs(is.mean - was.mean);
     return change;
   }
+  change.block_m = block_of(texel_side(before, a), texel_side(after, b));
+  Blocks blocks(std::max(change.block_m, 1e-6f));
   double squares = 0, noise = 0;
   for_points(first, points, [&](std::size_t t, const Vec3& at, double weight) {
     const SampledLight x = first.at(t, at), y = second.at(t, at);
-    squares += weight * (x.lux - y.lux) * (x.lux - y.lux);
+    const double difference = x.lux - y.lux;
+    if (change.block_m > 0)
+      blocks.add(at.x * first.corner(t, 0) + at.y * first.corner(t, 1) + at.z * first.corner(t, 2), difference, weight);
+    squares += weight * difference * difference;
     noise += weight * (x.variance + y.variance);
   });
-  change.rms_lux = std::sqrt(squares);
+  change.rms_lux = std::sqrt(change.block_m > 0 ? blocks.mean_square() : squares);
   change.noise_lux = std::sqrt(noise);
   return change;
 }

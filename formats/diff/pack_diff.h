@@ -19,6 +19,7 @@ struct SurfaceChange {
   double area_m2 = 0;                    // in the first pack that has it
   double before_lux = 0, after_lux = 0;  // mean illuminance
   double rms_lux = 0;                    // root mean square of the difference; of the means where the shape changed
+  float block_m = 0;                     // texels are of another size: of means over blocks of this side; 0: of points
   double noise_lux = 0;                  // what the two standard errors alone make of it
   double before_error_lux = 0, after_error_lux = 0;  // root mean square of the standard error
 

@@ -121,8 +121,40 @@ nlohmann::ordered_json bands_json(const BandErrors& e) {
   return {{"texels", e.texels}, {"bands", e.band}, {"wider", e.wider}, {"visible", e.visible}};
 }
 
+// Files that were baked and options, apart: the provenance has both.
+bool is_input(const OptionChange& o) {
+  return o.name.starts_with("inputs");
+}
+
+// First of all: whether what was baked differs, or how.
+std::string what_differs(const PackDiff& diff) {
+  std::string settings;
+  std::size_t inputs = 0, versions = 0;
+  for (const OptionChange& o : diff.options) {
+    if (is_input(o)) {
+      ++inputs;
+    } else if (o.name.starts_with("options.")) {
+      settings += fmt::format("{}{} ({} → {})", settings.empty() ? "" : ", ", o.name.substr(8), shortened(o.before),
+                              shortened(o.after));
+    } else {
+      ++versions;
+    }
+  }
+  return fmt::format("Scene: {}. Settings: {}. {}\n", inputs > 0 ? "other files" : "the same files",
+                     settings.empty() ? "the same" : settings,
+                     versions > 0 ? "Tool: another version." : "Tool: the same version.");
+}
+
+bool in_blocks(const PackDiff& diff) {
+  return std::any_of(diff.surfaces.begin(), diff.surfaces.end(), [](const SurfaceChange& s) { return s.block_m > 0; });
+}
+
 void print_markdown(const PackDiff& diff, const OfTexels& texels, const std::map<std::string, Kind>& kinds,
                     const DiffOptions& options) {
+  fmt::print("{}\n", what_differs(diff));
+  if (in_blocks(diff))
+    fmt::print(
+        "Texels are of other sizes: light is compared over blocks of four of the larger ones, not within them.\n\n");
   fmt::print("## Light\n\nMean of the first pack: {:.4g} lux. Largest change of a surface: {:.2f} %.\n\n",
              diff.mean_lux, 100 * diff.largest());
   fmt::print("| surface | material | m² | before, lux | after, lux | change, lux | % | standard error, lux | |\n");
@@ -154,6 +186,13 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
   nlohmann::ordered_json out;
   out["schema"] = kJsonSchema;
   out["within_tolerance"] = good;
+  const auto any = [&](bool input) {
+    return std::any_of(diff.options.begin(), diff.options.end(), [&](const OptionChange& o) {
+      return is_input(o) == input && (input || o.name.starts_with("options."));
+    });
+  };
+  out["scene_differs"] = any(true);
+  out["settings_differ"] = any(false);
   out["mean_lux"] = diff.mean_lux;
   out["largest_change"] = diff.largest();
   out["surfaces"] = nlohmann::ordered_json::array();
@@ -167,6 +206,7 @@ void print_json(const PackDiff& diff, const OfTexels& texels, const std::map<std
                                {"after_lux", s.after_lux},
                                {"rms_lux", s.rms_lux},
                                {"noise_lux", s.noise_lux},
+                               {"block_m", s.block_m},
                                {"change_lux", s.change_lux()},
                                {"change", diff.share(s)},
                                {"before_error_lux", s.before_error_lux},

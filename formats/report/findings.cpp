@@ -105,17 +105,18 @@ void add_worst(const Pack& pack, const Json& plan, Findings& out) {
                             [&](std::uint32_t page) { return &pack.lightmaps[page]; });
     std::string more;
     for (std::size_t i = 0; why && i < why->reasons.size(); ++i)
-      more += "<p class=\"quiet\">" + shown_line(std::string(name_of(why->reasons[i].cause)) + ": " +
-                                                 why->reasons[i].text + "; to do: " + why->reasons[i].fix) +
+      more += "<p class=\"quiet\">" +
+              shown_line(std::string(name_of(why->reasons[i].cause)) + ": " + why->reasons[i].text +
+                         "; to do: " + why->reasons[i].fix) +
               "</p>\n";
     const std::string surface =
         w.contains("surface") && w["surface"].is_string() ? w["surface"].get<std::string>() : "a surface";
-    out.add("worst as seen",
-            fmt::format("'{}' at {:.2f}, {:.2f}, {:.2f} m: baked {:.4g} cd/m², unbiased paths find {:.4g}; {:.0f} % of all "
-                        "squared error",
-                        surface, at.x, at.y, at.z, number("baked_cd_m2"), number("measured_cd_m2"),
-                        100 * number("share")),
-            why ? std::optional(Place{Vec3(why->at - pack.mesh.origin), why->normal}) : std::nullopt, more);
+    out.add(
+        "worst as seen",
+        fmt::format("'{}' at {:.2f}, {:.2f}, {:.2f} m: baked {:.4g} cd/m², unbiased paths find {:.4g}; {:.0f} % of all "
+                    "squared error",
+                    surface, at.x, at.y, at.z, number("baked_cd_m2"), number("measured_cd_m2"), 100 * number("share")),
+        why ? std::optional(Place{Vec3(why->at - pack.mesh.origin), why->normal}) : std::nullopt, more);
   }
 }
 

@@ -277,7 +277,8 @@ std::vector<Option> window_options(PlayArguments& out) {
       {"--panel", kWindow, "Open the panel at once: brightness, quality, times, what is under the pointer",
        flag(out.panel), Use::kEveryday},
       {"--quality", kWindow,
-       "auto keeps 15 frames a second while something moves, with coarser frames where the device needs that, and draws "
+       "auto keeps 15 frames a second while something moves, with coarser frames where the device needs that, and "
+       "draws "
        "the whole frame once it stands still; full draws each frame whole; fast none",
        choice(out.quality, kQualities), Use::kEveryday},
       {"--eye-height", kWindow,

@@ -191,5 +191,22 @@ TEST(Doctor, LightmapCoordinatesThatOverlapOrAreMissing) {
   EXPECT_NE(at->found.find("overlaps"), std::string::npos) << at->found;
 }
 
+TEST(Allowed, ByKindNumberAndObject) {
+  const Finding curtain{FindingKind::kOneSidedWall, "Curtain 12", "", "", ""},
+      wall{FindingKind::kOneSidedWall, "Wall", "", "", ""}, snow{FindingKind::kAlbedo, "snow", "", "", ""};
+  const auto allowed = parse_allowed(" albedo, one-sided wall:Curtain*");
+  ASSERT_TRUE(allowed) << allowed.error().text();
+  EXPECT_TRUE(is_allowed(curtain, *allowed));
+  EXPECT_FALSE(is_allowed(wall, *allowed));
+  EXPECT_TRUE(is_allowed(snow, *allowed));
+  EXPECT_TRUE(is_allowed(wall, *parse_allowed("D1:W?ll")));
+  EXPECT_FALSE(is_allowed(wall, *parse_allowed("D1:W?l")));
+  EXPECT_TRUE(parse_allowed("")->empty());
+  const auto unknown = parse_allowed("one-sided wal");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("one-sided wall"), std::string::npos) << unknown.error().message;
+  EXPECT_FALSE(parse_allowed("@/nowhere"));
+}
+
 }  // namespace
 }  // namespace oriel

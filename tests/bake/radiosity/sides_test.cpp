@@ -51,6 +51,41 @@ TEST(LitSides, AreToldByTheLight) {
   }
 }
 
+// Thousands of triangles that share no vertex are looked at in patches, with what each would be told alone; in few
+// rays.
+TEST(LitSides, ThousandsOfPartsAreToldInPatches) {
+  SceneParts parts;
+  const std::uint32_t material = sheet_material(parts);
+  constexpr int kSide = 80;
+  for (const float z : {0.0f, 5.0f}) {  // two sheets: the sun is before the first and behind the second
+    std::vector<Vec3> positions, normals;
+    std::vector<UVec3> triangles;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const Vec3 at(static_cast<float>(i % kSide), static_cast<float>(i / kSide), z);
+      const auto first = static_cast<std::uint32_t>(positions.size());
+      for (const Vec3& p : {at, at + Vec3(0.9f, 0, 0), at + Vec3(0, 0.9f, 0)}) positions.push_back(p);
+      normals.insert(normals.end(), 3, Vec3(0, 0, 1));
+      triangles.push_back(z > 0 ? UVec3(first, first + 2, first + 1) : UVec3(first, first + 1, first + 2));
+    }
+    parts.mesh(z > 0 ? "second" : "first", material, positions, normals, triangles);
+  }
+  parts.quad("wall", parts.diffuse(Vec3(0)), {-5, -5, 2}, {0, 90, 0}, {90, 0, 0});
+  add_sun(parts, {0, 0, -1});
+  add_sun(parts, {0, 0, 1});
+  const Scene scene = parts.finish();
+  const FoundSides found = find(scene);
+  std::size_t wrong = 0;
+  for (std::uint32_t t = 0; t < 2 * kSide * kSide; ++t)
+    wrong +=
+        found.sides[t] != LitSides::kBoth && found.sides[t] != LitSides::kFront && found.sides[t] != LitSides::kBack;
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_LT(found.report.turned + found.report.doubled, 4097u);
+  // The wall keeps one sun from each: the same answer for every triangle of a sheet.
+  for (std::uint32_t t = 1; t < kSide * kSide; ++t) ASSERT_EQ(found.sides[t], found.sides[0]) << t;
+  EXPECT_EQ(found.sides[0], LitSides::kBack) << "the sun that shines to +z lights its back";
+  EXPECT_LT(found.report.rays, 12000000u);
+}
+
 // The sun lights the front. Its back is dark, and counts where eyes see it.
 TEST(LitSides, AreThoseThatEyesSeeToo) {
   SceneParts parts;

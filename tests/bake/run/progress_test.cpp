@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace oriel {
 namespace {
@@ -46,6 +48,33 @@ TEST(ProgressPrinter, WhatEndsSoonHasOneLine) {
   }
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+// One number for the whole work, which only falls; none where nobody knows.
+TEST(ProgressPrinter, TimeLeftIsThatOfTheWhole) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressPrinter printer(Style::kJson);
+    printer({"charts", 1, 0});
+    printer.set_end(100);
+    for (const char* stage : {"paths", "gather", "gather"}) {
+      printer({stage, 0, 0});
+      printer({stage, 1, 0});
+    }
+  }
+  std::istringstream in(testing::internal::GetCapturedStderr());
+  std::string line;
+  ASSERT_TRUE(std::getline(in, line));
+  EXPECT_TRUE(nlohmann::json::parse(line)["seconds_left"].is_null()) << line;
+  double left = 100;
+  int lines = 0;
+  for (; std::getline(in, line); ++lines) {
+    const double now = nlohmann::json::parse(line)["seconds_left"];
+    EXPECT_LE(now, left) << line;
+    left = now;
+  }
+  EXPECT_GE(lines, 3);
+  EXPECT_GT(left, 90);
 }
 
 TEST(ProgressPrinter, QuietIsQuiet) {

@@ -48,6 +48,25 @@ TEST(PackDiff, TheRoomWhoseLampChangedComesFirst) {
   EXPECT_NEAR(diff.share(diff.surfaces[1]), 1.0 / 101, 1e-5);
 }
 
+// An edge of light within a texel: what either shows of it is another value, and no change of light.
+TEST(PackDiff, OtherTexelSizesAreNoChange) {
+  const auto lit_to = [](Pack pack, float edge) {
+    for (LightmapPage& page : pack.lightmaps)
+      for (std::size_t i = 0; i < page.irradiance.size(); ++i) {
+        const float left = static_cast<float>(i % page.width) / static_cast<float>(page.width);
+        const float share = std::clamp((edge - left) * static_cast<float>(page.width), 0.0f, 1.0f);
+        page.irradiance[i] = Vec3(100 * share);
+      }
+    return pack;
+  };
+  const Pack fine = lit_to(two_rooms(64, 0, 0, 0), 0.53f), coarse = lit_to(two_rooms(16, 0, 0, 0), 0.53f);
+  const PackDiff same = diff_packs(fine, coarse);
+  EXPECT_GT(same.surfaces[0].block_m, 0);
+  EXPECT_LT(same.largest(), 0.03) << "the mean of four texels";
+  EXPECT_GT(diff_packs(fine, lit_to(two_rooms(16, 0, 0, 0), 0.7f)).largest(), 0.3) << "the light has moved";
+  EXPECT_EQ(diff_packs(fine, fine).surfaces[0].block_m, 0);
+}
+
 TEST(PackDiff, NoiseIsNoChange) {
   Pack before = two_rooms(64, 100, 50, 0), after = before;
   // Errors of +-5 lux that the standard errors tell of.

@@ -1,0 +1,90 @@
+#include "bake/cli/outcome.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bake/plan/doctor.h"
+#include "bake/run/version.h"
+
+namespace oriel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;  // grows when a field changes its meaning or goes; new fields leave it as it is
+
+// What stands between the first quotes: messages name their surface, material or light so.
+std::string object_of(const std::string& text) {
+  const std::size_t open = text.find_first_of("'\"");
+  if (open == std::string::npos) return {};
+  const std::size_t close = text.find(text[open], open + 1);
+  return close == std::string::npos ? std::string() : text.substr(open + 1, close - open - 1);
+}
+
+// Our messages end with what to do, behind a semicolon.
+std::string fix_of(const std::string& text) {
+  const std::size_t at = text.rfind("; ");
+  return at == std::string::npos ? std::string() : text.substr(at + 2);
+}
+
+Json records(const std::vector<std::string>& texts, const char* kind, const char* severity) {
+  Json out = Json::array();
+  for (const std::string& text : texts) {
+    // The importer's have their own fixes.
+    const Finding known = findings_of_import(std::span(&text, 1)).front();
+    const bool of_import = known.kind != FindingKind::kImport;
+    out.push_back({{"kind", of_import ? name_of(known.kind) : kind},
+                   {"severity", severity},
+                   {"object", object_of(text)},
+                   {"text", text},
+                   {"fix", of_import ? known.fix : fix_of(text)}});
+  }
+  return out;
+}
+
+Json error_json(const Outcome& o) {
+  if (o.kind != Outcome::Kind::kFailed && o.kind != Outcome::Kind::kStopped) return Json();
+  return {{"code", static_cast<int>(o.error.code)}, {"where", o.error.where}, {"text", o.error.message}};
+}
+
+}  // namespace
+
+const char* name_of(Outcome::Kind kind) {
+  switch (kind) {
+    case Outcome::Kind::kRunning:
+      return "running";
+    case Outcome::Kind::kComplete:
+      return "complete";
+    case Outcome::Kind::kPartial:
+      return "partial";
+    case Outcome::Kind::kFindings:
+      return "findings";
+    case Outcome::Kind::kFailed:
+      return "failed";
+    case Outcome::Kind::kStopped:
+      break;
+  }
+  return "stopped";
+}
+
+std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, const std::filesystem::path& pack) {
+  Json json = {{"schema", kSchema},
+               {"tool", std::string("oriel-bake ") + kVersion},
+               {"status", name_of(o.kind)},
+               {"exit_code", o.exit_code < 0 ? Json() : Json(o.exit_code)},
+               {"error", error_json(o)},
+               {"scene", scene.string()},
+               {"pack", pack.string()},
+               {"warnings", records(o.warnings, "warning", "warning")},
+               {"findings", Json::array()},
+               {"shortfalls", Json::array()}};
+  if (o.result != nullptr) {
+    std::vector<std::string> missing = o.result->shortfalls;
+    missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());
+    json["findings"] = records(o.result->findings, "light", "error");
+    json["shortfalls"] = records(missing, "shortfall", "error");
+    json.update(Json::parse(report_json(*o.result)));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace oriel
