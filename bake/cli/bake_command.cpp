@@ -72,12 +72,26 @@ std::string ledger_line(const Ledger& l) {
       100 * l.closure_error());
 }
 
-// The first few; the pack's plan and the report hold them all.
+// The first few, and matte materials as a number: nothing of them is missing but mirror images that they have not. The
+// pack's plan and the report hold them all.
 void print_omissions(const std::vector<std::string>& omissions, BakeSession& session) {
   constexpr std::size_t kShown = 8;
-  for (std::size_t i = 0; i < std::min(kShown, omissions.size()); ++i) session.note("omitted: " + omissions[i]);
-  if (omissions.size() > kShown)
-    session.note(fmt::format("omitted: {} more, see oriel-inspect info or --report", omissions.size() - kShown));
+  std::vector<std::string> lines;
+  std::size_t matte = 0;
+  for (const std::string& omission : omissions) {
+    if (omission.starts_with("material '"))
+      ++matte;
+    else
+      lines.push_back(omission);
+  }
+  if (matte > 0)
+    lines.push_back(
+        fmt::format("{} material{} baked and shown, but their reflections without an image: rough, faint or "
+                    "shining; --report names them",
+                    matte, matte == 1 ? " is" : "s are"));
+  for (std::size_t i = 0; i < std::min(kShown, lines.size()); ++i) session.note("left out: " + lines[i]);
+  if (lines.size() > kShown)
+    session.note(fmt::format("left out: {} more, see oriel-inspect info or --report", lines.size() - kShown));
 }
 
 void print_result(const BakeResult& result, BakeSession& session) {

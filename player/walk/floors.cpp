@@ -27,6 +27,18 @@ std::optional<std::size_t> cell_at(const WalkGrid& grid, const Vec2& at) {
 
 }  // namespace
 
+namespace {
+
+// Cells whose floor an eye belongs to: not under it, and not much higher than one who stands there, so that a camera
+// at a table's height is in the room all the same.
+auto is_storey_of(const Vec3& eye, const StepOptions& options) {
+  return [eye, step = options.step_m](const WalkGrid& grid, std::size_t cell) {
+    return eye.y > grid.floor_y[cell] && eye.y <= grid.eye(cell).y + 2 * step;
+  };
+}
+
+}  // namespace
+
 Floors::Floors(std::vector<WalkGrid> grids, float eye_height_m) : grids_(std::move(grids)) {
   if (eye_height_m > 0)
     for (WalkGrid& grid : grids_) grid.eye_height_m = eye_height_m;
@@ -52,8 +64,8 @@ std::optional<float> Floors::eye_level(const Vec2& at, float eye_y, const StepOp
   return found ? std::optional(found->eye.y) : std::nullopt;
 }
 
-template <class Height>
-std::optional<Stand> Floors::nearest(const Vec3& place, float reach_m, float off_m, const Height& height) const {
+template <class Suits>
+std::optional<Stand> Floors::nearest(const Vec3& place, float reach_m, const Suits& suits) const {
   std::optional<Stand> found;
   float nearest = reach_m;
   for (std::uint32_t i = 0; i < grids_.size(); ++i) {
@@ -66,7 +78,7 @@ std::optional<Stand> Floors::nearest(const Vec3& place, float reach_m, float off
     for (int y = first.y; y < end.y; ++y)
       for (int x = first.x; x < end.x; ++x) {
         const std::size_t cell = static_cast<std::size_t>(y) * grid.width + static_cast<std::size_t>(x);
-        if (!grid.walkable(cell) || std::fabs(height(grid, cell) - place.y) > off_m) continue;
+        if (!grid.walkable(cell) || !suits(grid, cell)) continue;
         const Vec3 eye = grid.eye(cell);
         const float distance = glm::distance(on_map(eye), on_map(place));
         if (distance > nearest || (found && distance == nearest)) continue;
@@ -79,13 +91,13 @@ std::optional<Stand> Floors::nearest(const Vec3& place, float reach_m, float off
 
 std::optional<Stand> Floors::nearest_stand(const Vec3& eye, float reach_m, const StepOptions& options) const {
   if (const auto here = stand(on_map(eye), eye.y, options)) return here;
-  return nearest(eye, reach_m, 2 * options.step_m,
-                 [](const WalkGrid& grid, std::size_t cell) { return grid.eye(cell).y; });
+  return nearest(eye, reach_m, is_storey_of(eye, options));
 }
 
 std::optional<Stand> Floors::nearest_stand_on(const Vec3& floor, float reach_m, const StepOptions& options) const {
-  return nearest(floor, reach_m, options.step_m,
-                 [](const WalkGrid& grid, std::size_t cell) { return grid.floor_y[cell]; });
+  return nearest(floor, reach_m, [&](const WalkGrid& grid, std::size_t cell) {
+    return std::fabs(grid.floor_y[cell] - floor.y) <= options.step_m;
+  });
 }
 
 std::optional<Stand> Floors::nearest_to(const Vec3& point) const {
@@ -126,8 +138,7 @@ float Floors::coarsest_cell_m() const {
 }
 
 float Floors::distance_to_floor(const Vec3& eye, const StepOptions& options) const {
-  const auto found = nearest(eye, options.beside_m, 2 * options.step_m,
-                             [](const WalkGrid& grid, std::size_t cell) { return grid.eye(cell).y; });
+  const auto found = nearest(eye, options.beside_m, is_storey_of(eye, options));
   return found ? glm::distance(on_map(found->eye), on_map(eye)) : kFar;
 }
 
@@ -141,6 +152,9 @@ Vec3 Floors::walk(const Vec3& from, const Vec3& to, float dt_s, float& fall_m_s,
     fall_m_s = 0;
     if (distance == kFar || eye_level(on_map(to), from.y, options) || distance_to_floor(to, options) < distance)
       return to;
+    // Along the floor's edge, as along a wall.
+    for (const Vec3& slid : {Vec3(to.x, from.y, from.z), Vec3(from.x, from.y, to.z)})
+      if (slid != from && distance_to_floor(slid, options) <= distance) return slid;
     return from;
   }
   float cell = kFar, step = options.step_m;

@@ -46,7 +46,7 @@ class Floors {
 
   // The cell of that floor.
   std::optional<Stand> stand(const Vec2& at, float eye_y, const StepOptions& options = {}) const;
-  // Where an eye stands, or the nearest cell about as high, at most `reach_m` beside it.
+  // Where an eye stands, or the nearest cell of its storey, at most `reach_m` beside it.
   std::optional<Stand> nearest_stand(const Vec3& eye, float reach_m, const StepOptions& options = {}) const;
   // The cell nearest to a point of a floor, at most a step higher or lower and `reach_m` beside it.
   std::optional<Stand> nearest_stand_on(const Vec3& floor, float reach_m, const StepOptions& options = {}) const;
@@ -65,12 +65,12 @@ class Floors {
   float coarsest_cell_m() const;  // 0 without a grid
 
  private:
-  // The nearest cell to a place, whose value of `height` is at most `off_m` from the place's y.
-  template <class Height>
-  std::optional<Stand> nearest(const Vec3& place, float reach_m, float off_m, const Height& height) const;
+  // The nearest cell to a place that suits(grid, cell).
+  template <class Suits>
+  std::optional<Stand> nearest(const Vec3& place, float reach_m, const Suits& suits) const;
   // The cell of the highest floor right below a place.
   std::optional<Stand> below(const Vec3& place) const;
-  // Along x and z to the middle of the nearest cell about as high; infinite beyond beside_m.
+  // Along x and z to the middle of the nearest cell of the eye's storey; infinite beyond beside_m.
   float distance_to_floor(const Vec3& eye, const StepOptions& options) const;
 
   std::vector<WalkGrid> grids_;

@@ -141,7 +141,7 @@ TEST_F(BakeCli, SameBytesForAnyThreadsAndTwiceInARow) {
 
 TEST_F(BakeCli, OmissionsAreSaidAndRecorded) {
   ASSERT_EQ(run("oriel-bake cornell.glb -o a.oriel --texel 10cm --samples 4 --report a.json"), 0) << log();
-  EXPECT_NE(log().find("omitted: radiance maps"), std::string::npos) << log();
+  EXPECT_NE(log().find("left out: radiance maps"), std::string::npos) << log();
   const Pack pack = *read_pack(folder_ / "a.oriel");
   EXPECT_TRUE(pack.reflectors.empty());
   const auto plan = nlohmann::json::parse(pack.plan);
@@ -182,7 +182,7 @@ TEST_F(BakeCli, SkiesAndProfilesAreInputs) {
 
 TEST_F(BakeCli, DirectionalWhereANormalMapWantsIt) {
   ASSERT_EQ(run("oriel-bake cornell.glb -o plain.oriel --texel 20cm --samples 1"), 0) << log();
-  EXPECT_NE(log().find("omitted: directional lightmaps: no material has a normal map"), std::string::npos) << log();
+  EXPECT_NE(log().find("left out: directional lightmaps: no material has a normal map"), std::string::npos) << log();
   EXPECT_TRUE(read_pack(folder_ / "plain.oriel")->lightmaps[0].direction.empty());
   ASSERT_EQ(run("oriel-bake cornell.glb -o on.oriel --texel 20cm --samples 1 --directional on"), 0) << log();
   EXPECT_FALSE(read_pack(folder_ / "on.oriel")->lightmaps[0].direction.empty());
@@ -269,7 +269,7 @@ TEST_F(BakeCli, PlanTellsAndFailsWhereFindingsAre) {
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict"), 5) << "a room of 0.55 m";
   EXPECT_NE(log().find("one unit of the file is taken to be 10 m"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --strict --texel 1mm --max-page 64"), 5) << "texels";
-  EXPECT_NE(log().find("D7 texel density: --texel"), std::string::npos) << log();
+  EXPECT_NE(log().find("D7 texel density, warning: --texel"), std::string::npos) << log();
   EXPECT_EQ(run("oriel-bake plan cornell.glb --no-pilot --texel 1mm --max-page 64"), 0) << "told, not strict";
   ASSERT_EQ(run("oriel-bake plan cornell.glb --texel 2cm --error 1% --time 0.001s"), 0) << log();
   EXPECT_NE(log().find("INFEASIBLE: --time 0.001 s"), std::string::npos) << log();

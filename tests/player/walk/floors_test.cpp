@@ -83,6 +83,20 @@ TEST(Floors, ACameraAtTheWallComesOntoTheFloorAndNothingTraps) {
   EXPECT_EQ(Floors({}).walk(outside, beside, 0.1f, fall), beside) << "a pack without floors";
 }
 
+// A camera at a table's height, beside the floor: it slides along the edge, comes onto the floor and rises, and does
+// not leave the room.
+TEST(Floors, ALowCameraInACornerStaysInTheRoom) {
+  const Floors floors({square()});
+  float fall = 0;
+  Vec3 eye(2.9f, 0.7f, 1);
+  EXPECT_EQ(floors.walk(eye, eye + Vec3(0.1f, 0, 0), 0.1f, fall), eye) << "out of the room";
+  const Vec3 slid = floors.walk(eye, eye + Vec3(0.1f, 0, -0.1f), 0.1f, fall);
+  EXPECT_LE(slid.x, 2.9f);
+  for (int i = 0; i < 60; ++i) eye = floors.walk(eye, eye - Vec3(0.02f, 0, 0), 1 / 60.0f, fall);
+  EXPECT_LT(eye.x, 2);
+  EXPECT_NEAR(eye.y, 1.6f, 0.01f);
+}
+
 TEST(Floors, OfTwoStoreysTheOneBelowTheFeet) {
   WalkGrid upper = square();
   upper.floor_y.assign(100, 3.0f);
