@@ -13,6 +13,14 @@ namespace {
 // Nearer to the plane than this share of the reflector's size, an eye sees nothing in it but its edge.
 constexpr float kEdgeOn = 1e-5f;
 
+// Of the frame, from which a reflector is large.
+constexpr float kLargeShare = 0.02f;
+
+float share_of_frame(const NdcRect& rect) {
+  const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
+  return 0.25f * size.x * size.y;
+}
+
 bool shows_reflectors(Show show) {
   return show != Show::kD;
 }
@@ -106,7 +114,7 @@ Result<std::vector<Renderer::Candidate>> Renderer::draw_masks(GpuScene& scene, c
     if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
     Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
                         kMaskQueries * candidates.size(), false};
-    if (candidate.screen.empty) continue;
+    if (candidate.screen.empty || (options.few_reflections && share_of_frame(candidate.screen) < kLargeShare)) continue;
     ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
     candidate.waits = !shows;
     const bool see_through = scene.is_transparent(reflector.material);
@@ -206,6 +214,7 @@ Result<std::vector<const GpuCurvedReflector*>> Renderer::draw_curved(GpuScene& s
                                                                      FrameStats& stats) {
   std::vector<const GpuCurvedReflector*> see_through;
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
+  if (options.few_reflections) return see_through;
   const Frustum frustum = make_frustum(view.clip_from_pack);
   for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
     if (!may_be_visible(frustum, reflector.bounds)) continue;

@@ -41,7 +41,8 @@ struct FrameOptions {
   bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   int samples = 1;           // of a pixel at edges, as many as the device has
   bool coarse = false;       // less work by pixel, for frames while something moves
-  bool timed = false;        // each pass, which costs a little itself
+  bool few_reflections = false;  // images in large plane reflectors alone, for the same
+  bool timed = false;            // each pass, which costs a little itself
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
   std::vector<MoverPose> poses{};  // by Pack::movers; empty: all at rest

@@ -6,7 +6,7 @@ namespace oriel {
 namespace {
 
 constexpr float kAim = 0.85f;      // of the slowest frame: views along a walk differ
-constexpr float kRoom = 0.6f;      // of it, below which frames become finer again
+constexpr float kRoom = 0.6f;      // of it, below which whole frames will do
 constexpr int kSteady = 12;        // frames before they do
 constexpr float kLessWork = 0.7f;  // a coarse frame of the whole one's size, beside that
 constexpr int kSlowLevel = 4;
@@ -33,16 +33,13 @@ Pace::Draw Pace::next(bool moved, bool altered, Quality quality, double now_s) {
   return draw;
 }
 
-// The finest level that the time of a frame at this one leaves room for: it goes with the pixels.
+// The finest level that the time of a frame at this one leaves room for.
 void Pace::fit(float ms) {
   const float aim = kAim * options_.slowest_ms;
-  const float here = scale();
+  const float whole = level_ > 0 ? ms / now().work() : kLessWork * ms;
   int level = std::max(level_, 1);
-  const float work = level_ > 0 ? ms / (here * here) : kLessWork * ms;
-  while (level < kLevels &&
-         work * kScales[static_cast<std::size_t>(level - 1)] * kScales[static_cast<std::size_t>(level - 1)] > aim)
-    ++level;
-  level_ = std::max(level, level_);
+  while (level < kLevels && whole * coarse(level).work() > aim) ++level;
+  level_ = level;
   frames_ = 0;
   mean_ms_ = 0;
 }
@@ -59,7 +56,8 @@ void Pace::took(Draw drawn, float ms) {
   ++frames_;
   mean_ms_ = mean_ms_ == 0 ? ms : mean_ms_ + (ms - mean_ms_) / 4;
   if (frames_ > 2 && mean_ms_ > options_.slowest_ms * 0.95f) return fit(mean_ms_);
-  if (frames_ < kSteady || mean_ms_ > kRoom * options_.slowest_ms || level_ <= 1) return;
+  if (level_ <= 1 || frames_ < kSteady) return;
+  if (mean_ms_ * coarse(level_ - 1).work() / now().work() > kAim * options_.slowest_ms) return;
   --level_;
   frames_ = 0;
   mean_ms_ = 0;

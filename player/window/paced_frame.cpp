@@ -25,8 +25,9 @@ FrameOptions looks_of(const Session& session, bool white_matters) {
   return out;
 }
 
-FrameOptions coarse_options(FrameOptions options) {
+FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.coarse = true;
+  options.few_reflections = few_reflections;
   options.samples = 1;
   options.maps_per_element = std::min(options.maps_per_element, 1);
   return options;
@@ -53,7 +54,7 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
   window_ = seen.window;
   images_ = seen.images;
   const bool coarse = choice_ == Pace::Draw::kCoarse;
-  options_ = coarse ? coarse_options(session.frame) : session.frame;
+  options_ = coarse ? coarse_options(session.frame, pace_.few_reflections()) : session.frame;
   size_ = coarse ? glm::min(glm::max(IVec2(glm::round(Vec2(window_) * pace_.scale())), IVec2(kLeastSide)), window_)
                  : window_;
   drawn_ = choice_;
