@@ -10,6 +10,7 @@ constexpr float kRoom = 0.6f;      // of it, below which whole frames will do
 constexpr int kSteady = 12;        // frames before they do
 constexpr float kLessWork = 0.7f;  // a coarse frame of the whole one's size, beside that
 constexpr int kSlowLevel = 4;
+constexpr double kPatience = 0.25, kLongestStill_s = 0.4;  // of the last whole frame's time
 
 }  // namespace
 
@@ -19,7 +20,9 @@ Pace::Draw Pace::next(bool moved, bool altered, Quality quality, double now_s) {
   if (moved) moved_s_ = now_s;
   const bool coarse_only = quality == Quality::kFast;
   const bool may_coarsen = coarse_only || (quality == Quality::kAutomatic && level_ > 0);
-  const bool stands = now_s - moved_s_ >= options_.still_s;
+  // A whole frame that takes long holds the next step up: it waits for a longer rest.
+  const double still_s = std::clamp(1e-3 * kPatience * whole_ms_, options_.still_s, kLongestStill_s);
+  const bool stands = now_s - moved_s_ >= still_s;
   Draw draw = Draw::kKeep;
   if (!may_coarsen) {
     if (moved || altered || !shows_whole_) draw = Draw::kWhole;
