@@ -67,16 +67,11 @@ const char* name_of(Outcome::Kind kind) {
 }
 
 std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, const std::filesystem::path& pack) {
-  Json json = {{"schema", kSchema},
-               {"tool", std::string("oriel-bake ") + kVersion},
-               {"status", name_of(o.kind)},
-               {"exit_code", o.exit_code < 0 ? Json() : Json(o.exit_code)},
-               {"error", error_json(o)},
-               {"scene", scene.string()},
-               {"pack", pack.string()},
-               {"warnings", records(o.warnings, "warning", "warning")},
-               {"findings", Json::array()},
-               {"shortfalls", Json::array()}};
+  Json json = {{"schema", kSchema},         {"tool", std::string("oriel-bake ") + kVersion},
+               {"status", name_of(o.kind)}, {"exit_code", o.exit_code < 0 ? Json() : Json(o.exit_code)},
+               {"error", error_json(o)},    {"scene", scene.string()},
+               {"pack", pack.string()},     {"warnings", records(o.warnings, "warning", "warning")},
+               {"findings", Json::array()}, {"shortfalls", Json::array()}};
   if (o.result != nullptr) {
     std::vector<std::string> missing = o.result->shortfalls;
     missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());

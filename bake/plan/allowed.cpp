@@ -40,8 +40,10 @@ Status add_allowed(const std::string& entry, std::vector<AllowedFinding>& out) {
     }
     names.emplace_back(name_of(static_cast<FindingKind>(k)));
   }
-  return fail(ErrorCode::kUsage, "", "found '{}', expected the kind of a finding, as D4 or \"one-sided wall:Curtain*\"; the "
-              "nearest are {}", allowed.kind, names_like(allowed.kind, names));
+  return fail(ErrorCode::kUsage, "",
+              "found '{}', expected the kind of a finding, as D4 or \"one-sided wall:Curtain*\"; the "
+              "nearest are {}",
+              allowed.kind, names_like(allowed.kind, names));
 }
 
 }  // namespace

@@ -29,15 +29,16 @@ class JsonSchema {
   }
 
   std::string check(const Json& schema, const Json& value, const std::string& at) const {
-    static const std::set<std::string> known{"$schema", "title", "description", "type",       "required", "properties",
-                                             "items",   "const", "enum",        "properties", "$ref",     "$defs",
-                                             "additionalProperties"};
+    static const std::set<std::string> known{
+        "$schema", "title", "description", "type", "required", "properties",          "items",
+        "const",   "enum",  "properties",  "$ref", "$defs",    "additionalProperties"};
     for (const auto& [key, unused] : schema.items())
       if (!known.contains(key)) return fmt::format("{}: the schema says {}, which nobody checks", at, key);
     if (schema.contains("$ref"))
       return check(schema_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))), value, at);
     if (schema.contains("const") && value != schema["const"]) return fmt::format("{}: found {}", at, value.dump());
-    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+    if (schema.contains("enum") &&
+        std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
       return fmt::format("{}: found {}, expected one of {}", at, value.dump(), schema["enum"].dump());
     if (schema.contains("type")) {
       const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});

@@ -125,7 +125,8 @@ TEST_F(BakeOutcome, SigtermEndsItWithinTenSeconds) {
             static_cast<char*>(nullptr));
     ::_exit(98);
   }
-  for (int i = 0; i < 1200 && log().find("\"stage\":\"gather\",\"fraction\":1") == std::string::npos; ++i) ::usleep(50000);
+  for (int i = 0; i < 1200 && log().find("\"stage\":\"gather\",\"fraction\":1") == std::string::npos; ++i)
+    ::usleep(50000);
   ::usleep(300000);
   EXPECT_EQ(report()["status"], "running");
   const auto asked = std::chrono::steady_clock::now();
