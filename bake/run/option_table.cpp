@@ -266,6 +266,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
+  o.error_named = given.has("--error");
   if (r.samples > 0) {
     r.error = 0;
   } else if (o.time_s > 0) {

@@ -46,6 +46,7 @@ struct BakeOptions {
   PlannedViewOptions planned;
   ViewOptions views;  // of hemispheres
   EyeOptions eyes;
+  bool error_named = false;      // by the user: else radiosity.error is a wish
   bool guess_eye_height = true;  // of people over the floor: told from the file (walk/eye_height.h), instead of
   float eye_height_m = 1.6f;
   VisibleSetsWanted visible_sets = VisibleSetsWanted::kAuto;

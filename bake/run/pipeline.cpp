@@ -9,6 +9,7 @@
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
 #include "bake/run/report.h"
+#include "bake/run/shortfalls.h"
 #include "bake/run/start.h"
 #include "bake/run/time_budget.h"
 #include "bake/run/visibility.h"
@@ -17,99 +18,9 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kOverTime = "--time was over";
-
-constexpr double kWorse = 1.3;         // times the error that was stated, which is worth a warning
 constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
 constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
-
-// Keeps what the context is warned of, while it lives, and tells it on.
-class WarningLog {
- public:
-  WarningLog(Context& context, std::vector<std::string>& warnings) : context_(context), listener_(context.warn) {
-    context_.warn = [this, &warnings](const std::string& text) {
-      warnings.push_back(text);
-      if (listener_) listener_(text);
-    };
-  }
-  ~WarningLog() { context_.warn = std::move(listener_); }
-  WarningLog(const WarningLog&) = delete;
-  WarningLog& operator=(const WarningLog&) = delete;
-
- private:
-  Context& context_;
-  std::function<void(const std::string&)> listener_;
-};
-
-void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
-  shortfalls.push_back(why);
-  context.warning(why);
-}
-
-// An error that was named, alone or with a time, is missed; the default one is a wish.
-void judge_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget, Context& context,
-                 std::vector<std::string>& shortfalls) {
-  const double asked = options.radiosity.error, stated = report.relative_error;
-  const Certificate& c = report.certificate;
-  if (asked <= 0 || context.finish) return;
-  const bool named = asked > kBestError && options.radiosity.most_rays == 0;
-  const auto tell = [&](const std::string& text) {
-    if (named) {
-      fall_short(text, context, shortfalls);
-    } else {
-      context.warning(text);
-    }
-  };
-  if (c.error_low > kWorse * std::max(asked, stated))
-    tell(fmt::format(
-        "the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), asked for was {:.3g} % and stated is "
-        "{:.3g} %: light varies more within texels than they tell; --texel makes those finer",
-        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
-  if (stated <= 1.25 * asked) return;
-  if (report.ended_early) {
-    if (budget.limited() && asked > kBestError)
-      tell(
-          fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is {:.3g} "
-                      "%, {:.2g} times too much; give it more time, or a larger --texel",
-                      100 * asked, options.time_s, 100 * stated, stated / asked));
-    return;
-  }
-  if (report.out_of_rays)
-    return tell(
-        fmt::format("the lightmap's stated error is {:.3g} %: the default of {:.3g} % takes more than a bake's first "
-                    "minutes; --error {:.3g}% goes on until it is there",
-                    100 * stated, 100 * asked, 100 * asked));
-  tell(
-      fmt::format("the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays "
-                  "each, or lie where light changes within a texel; --texel makes those finer",
-                  100 * stated, 100 * asked, options.radiosity.samples));
-}
-
-void judge_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
-                Context& context, std::vector<std::string>& shortfalls) {
-  if (!budget.missed()) return;
-  const auto longest = std::max_element(times.begin(), times.end(),
-                                        [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
-  fall_short(fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
-                         "end earlier; a larger --texel takes less",
-                         options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds),
-             context, shortfalls);
-}
-
-// Stages that are not there for want of time, or since the user had enough: omissions and warnings name --time then.
-void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls) {
-  if (context.finish)
-    fall_short(
-        "the bake ended early, as asked: the pack holds what was there, with the error that is stated; the same "
-        "command again goes on from the cache",
-        context, shortfalls);
-  for (const auto* texts : {&result.omissions, &result.warnings})
-    for (const std::string& text : *texts)
-      if (text.find(kOverTime) != std::string::npos || text.find("for --time") != std::string::npos ||
-          text.find("of --time") != std::string::npos)
-        shortfalls.push_back(text);
-}
 
 double bytes_of(const Pack& pack, const PlannedReflections& planned) {
   double bytes = 0;

@@ -1,0 +1,80 @@
+#include "bake/run/shortfalls.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+constexpr const char* kOverTime = "--time was over";
+constexpr double kWorse = 1.3;  // times the error that was stated, which is worth a warning
+
+void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
+  shortfalls.push_back(why);
+  context.warning(why);
+}
+
+}  // namespace
+
+void judge_error(const BakeOptions& options, const RadiosityReport& report, const TimeBudget& budget, Context& context,
+                 std::vector<std::string>& shortfalls) {
+  const double asked = options.radiosity.error, stated = report.relative_error;
+  const Certificate& c = report.certificate;
+  if (asked <= 0 || context.finish) return;
+  const bool named = options.error_named;
+  const auto tell = [&](const std::string& text) {
+    if (named) {
+      fall_short(text, context, shortfalls);
+    } else {
+      context.warning(text);
+    }
+  };
+  if (c.error_low > kWorse * std::max(asked, stated))
+    tell(fmt::format(
+        "the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), asked for was {:.3g} % and stated is "
+        "{:.3g} %: light varies more within texels than they tell; --texel makes those finer",
+        100 * c.relative_error, 100 * c.error_low, 100 * c.error_high, 100 * asked, 100 * stated));
+  if (stated <= 1.25 * asked) return;
+  if (report.ended_early) {
+    if (budget.limited() && (named || asked > kBestError))
+      tell(
+          fmt::format("--error {:.3g} % was not reached within --time {:.4g} s: the lightmap's stated error is {:.3g} "
+                      "%, {:.2g} times too much; give it more time, or a larger --texel",
+                      100 * asked, options.time_s, 100 * stated, stated / asked));
+    return;
+  }
+  if (report.out_of_rays)
+    return tell(
+        fmt::format("the lightmap's stated error is {:.3g} %: the default of {:.3g} % takes more than a bake's first "
+                    "minutes; --error {:.3g}% goes on until it is there",
+                    100 * stated, 100 * asked, 100 * asked));
+  tell(
+      fmt::format("the lightmap's stated error is {:.3g} %, asked for was {:.3g} %: some texels stay noisy at {} rays "
+                  "each, or lie where light changes within a texel; --texel makes those finer",
+                  100 * stated, 100 * asked, options.radiosity.samples));
+}
+
+void judge_time(const BakeOptions& options, const TimeBudget& budget, const std::vector<StageTime>& times,
+                Context& context, std::vector<std::string>& shortfalls) {
+  if (!budget.missed()) return;
+  const auto longest = std::max_element(times.begin(), times.end(),
+                                        [](const StageTime& a, const StageTime& b) { return a.seconds < b.seconds; });
+  fall_short(fmt::format("--time {:.4g} s was missed by {:.3g} s: '{}' alone took {:.3g} s, its first estimate cannot "
+                         "end earlier; a larger --texel takes less",
+                         options.time_s, budget.spent() - options.time_s, longest->stage, longest->seconds),
+             context, shortfalls);
+}
+
+void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls) {
+  if (context.finish)
+    fall_short(
+        "the bake ended early, as asked: the pack holds what was there, with the error that is stated; the same "
+        "command again goes on from the cache",
+        context, shortfalls);
+  for (const auto* texts : {&result.omissions, &result.warnings})
+    for (const std::string& text : *texts)
+      if (text.find(kOverTime) != std::string::npos || text.find("for --time") != std::string::npos ||
+          text.find("of --time") != std::string::npos)
+        shortfalls.push_back(text);
+}
+
+}  // namespace oriel
