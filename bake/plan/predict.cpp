@@ -33,6 +33,7 @@ Status weigh(const Scene& scene, LightmapPilot& pilot) {
     std::fill(page.irradiance.begin(), page.irradiance.end(), Vec3(0));
     std::fill(page.standard_error.begin(), page.standard_error.end(), Vec3(0));
     std::fill(page.direction.begin(), page.direction.end(), Vec3(0));
+    page.cell.clear(), page.detail.clear(), page.detail_width = page.detail_height = 0;
   }
   ORIEL_TRY(const Bytes without, encode_pack(pack));
   pack.lightmaps = pilot.radiosity.pages;

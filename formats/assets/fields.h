@@ -31,7 +31,8 @@ inline void fields(Archive& archive, Emitter& e) {
   archive(e.corners, e.radiance, e.two_sided);
 }
 inline void fields(Archive& archive, LightmapPage& p) {
-  archive(p.width, p.height, p.irradiance, p.standard_error, p.state, p.direction);
+  archive(p.width, p.height, p.irradiance, p.standard_error, p.state, p.direction, p.cell, p.detail_width,
+          p.detail_height, p.detail);
 }
 inline void fields(Archive& archive, LightProbe& p) {
   archive(p.position, p.valid, p.bright, p.kept, p.sh, p.depth);

@@ -58,7 +58,9 @@ inline Vec3 irradiance_at(const LightmapPage& page, const Vec2& uv) {
   };
   const float x = std::clamp(uv.x * static_cast<float>(page.width) - 0.5f, 0.0f, static_cast<float>(page.width - 1));
   const float y = std::clamp(uv.y * static_cast<float>(page.height) - 0.5f, 0.0f, static_cast<float>(page.height - 1));
-  const auto cx = static_cast<std::uint32_t>(x), cy = static_cast<std::uint32_t>(y);
+  // The last cell's end is its own: beyond it there is none.
+  const auto cx = std::min(static_cast<std::uint32_t>(x), std::max(page.width, 2u) - 2);
+  const auto cy = std::min(static_cast<std::uint32_t>(y), std::max(page.height, 2u) - 2);
   const Vec2 within(x - static_cast<float>(cx), y - static_cast<float>(cy));
   const std::size_t texel = std::size_t{cy} * page.width + cx;
   if (page.cell.empty() || page.cell[texel] == 0)

@@ -23,7 +23,9 @@ vec3 lightmap_at(vec2 uv) {
   if (!u_detailed) return light;
   vec2 at = uv * vec2(textureSize(u_lightmap, 0)) - 0.5;
   vec2 footprint = fwidth(at);
-  vec2 corner = floor(max(at, vec2(0.0)));
+  vec2 last = vec2(textureSize(u_lightmap, 0) - 1);
+  at = clamp(at, vec2(0.0), last);
+  vec2 corner = min(floor(at), max(last - 1.0, vec2(0.0)));
   DetailBlock block = detail_block(texelFetch(u_cells, ivec2(corner), 0).r);
   if (block.side < 1.5) return light;
   vec2 place = (block.first + (at - corner) * block.side + 0.5) / vec2(textureSize(u_detail, 0));

@@ -120,7 +120,7 @@ CellLevels choose(std::span<const LightmapPage> pages, const std::vector<Candida
   const auto take = [&](std::uint32_t k, std::uint8_t level) {
     levels[found[k].page][found[k].place] = level;
     open[found[k].page][found[k].place] = 0;
-    points += std::uint64_t{1} << (2u * level);
+    points += ((std::uint64_t{1} << level) + 1) * ((std::uint64_t{1} << level) + 1);
     chosen.push_back(k);
   };
   for (std::uint32_t k = 0; k < found.size(); ++k) {

@@ -26,12 +26,27 @@ double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<con
   return all > 0 ? kFrameFloor * sum / all : 0;
 }
 
+// Places of a finer page are counted with 32 bits, and a mask of them is kept: at most 2^29, 64 MiB.
+std::uint32_t most_side(const Atlas& atlas) {
+  std::uint64_t largest = 1;
+  for (const AtlasPage& page : atlas.pages)
+    largest = std::max(largest, (std::uint64_t{page.width} + 2) * (std::uint64_t{page.height} + 2));
+  std::uint32_t side = kMostDetail;
+  while (side > 1 && largest * side * side > std::uint64_t{1} << 29u) side /= 2;
+  return side;
+}
+
 }  // namespace
 
 Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<const float> shares, Radiosity& light) {
   CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
                 .floor = floor_of(task, light, shares),
-                .most_side = task.options.detail};
+                .most_side = std::min(task.options.detail, most_side(task.atlas))};
+  if (goal.most_side < 2) {
+    task.context.warning(
+        "the lightmap's pages are too large for finer cells: a smaller --max-page leaves room for them");
+    return {};
+  }
   goal.most_points = std::max(kFewPoints, known.texels.count());
   const CellLevels levels = choose_cells(task.atlas, task.map, light, shares, goal);
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points;

@@ -98,6 +98,7 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   narrow.scales = std::min(narrow.scales, 1);
   const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
+  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
