@@ -255,7 +255,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     if (!next) break;
     goal = *next;
   }
-  light.report.rays = rays + quick_rays;
+  light.report.rays = rays + quick_rays + light.report.detail.rays;
   if (options.hidden == Hidden::kBlack) darken_all_hidden(task, light);
   return light;
 }

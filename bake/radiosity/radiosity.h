@@ -114,6 +114,7 @@ struct DetailReport {
   std::size_t cells = 0, points = 0;
   double relative_error = 0;  // stated, rms over points
   bool left_out = false;      // there was no time
+  std::uint64_t rays = 0;
 };
 
 struct RadiosityReport {

@@ -129,8 +129,9 @@ class Sweep {
   Result<Measures> bake(const std::string& key, const Settings& settings, std::uint64_t seed,
                         const std::string& reference) {
     const fs::path report = store_.file(key, ".report");
-    Arguments arguments{bake_program(),  o_.scene.string(), "-o",      pack(key).string(), "--report",
-                        report.string(), "--no-cache",      "--quiet", "--seed",           std::to_string(seed)};
+    Arguments arguments{bake_program(),      o_.scene.string(),  "-o",         pack(key).string(), "--report",
+                        report.string(),     "--accept-partial", "--no-cache", "--quiet",          "--seed",
+                        std::to_string(seed)};
     append(arguments, settings);
     arguments.insert(arguments.end(), o_.forwarded.begin(), o_.forwarded.end());
     ORIEL_TRY(const Finished finished, run_program(arguments, log(key), context_.stop));

@@ -53,19 +53,24 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<
   DetailReport& report = light.report.detail;
   report = {};
   double squares = 0;
+  // Counted apart: the texels' refinement, which may go on, has so many rays of its own.
+  std::atomic<std::uint64_t> rays{0}, quick_rays{0};
+  const RadiosityTask own{task.transport, task.atlas,   task.map, task.pixels,
+                          task.options,   task.context, rays,     quick_rays};
   for (std::uint8_t level = 1; level <= kDetailLevels; ++level) {
     std::size_t cells = 0;
     for (const auto& page : levels) cells += static_cast<std::size_t>(std::count(page.begin(), page.end(), level));
     if (cells == 0) continue;
     ORIEL_TRY(const DetailPoints of_level, list_points(task.atlas, levels, level, task.context));
-    ORIEL_TRY(PointLight lit, light_points(task, known, of_level));
+    ORIEL_TRY(PointLight lit, light_points(own, known, of_level));
     report.cells += cells, report.points += lit.texels.count();
     for (std::size_t i = 0; i < lit.light.size(); ++i) {
-      const double own = luminance(lit.light[i]);
-      squares += double{luminance(lit.variance[i])} / (own * own + goal.floor * goal.floor + 1e-30);
+      const double shown = luminance(lit.light[i]);
+      squares += double{luminance(lit.variance[i])} / (shown * shown + goal.floor * goal.floor + 1e-30);
     }
     points[level - 1u] = std::make_unique<PointLight>(std::move(lit));
   }
+  report.rays = rays + quick_rays;
   if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));
   for (std::uint32_t p = 0; p < light.pages.size(); ++p)
     add_blocks(task.map[p], levels[p], p, {points[0].get(), points[1].get(), points[2].get()}, light.pages[p]);
