@@ -47,7 +47,7 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<
         "the lightmap's pages are too large for finer cells: a smaller --max-page leaves room for them");
     return {};
   }
-  goal.most_points = std::max(kFewPoints, known.texels.count());
+  goal.most_points = std::max(kFewPoints, 2 * known.texels.count());
   const CellLevels levels = choose_cells(task.atlas, task.map, light, shares, goal);
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points;
   DetailReport& report = light.report.detail;
