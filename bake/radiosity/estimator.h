@@ -2,6 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "bake/radiosity/frames/frame_pixels.h"
 #include "bake/radiosity/radiosity.h"
@@ -33,6 +36,19 @@ struct Goal {
 // Pages of the texel map's sizes, without light.
 Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
 
+struct Texels;
+class Surroundings;
+struct CachedLight;
+
+// What an estimator knows of the texels beside their light.
+struct TexelLight {
+  const Texels& texels;
+  const Surroundings& around;
+  const CachedLight& cached;
+  std::vector<Vec3> beside;       // by texel: light that no gather ray looks for, lux; empty: none
+  std::span<const float> shares;  // of frames, by texel
+};
+
 class LightEstimator {
  public:
   virtual ~LightEstimator() = default;
@@ -41,9 +57,8 @@ class LightEstimator {
   // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
   // report's numbers of the estimate. `light` is an empty_radiosity().
   virtual void write(Radiosity& light) const = 0;
-  // Finer light where the texels' is not enough, of what write() wrote and has been filled and stitched since. Error
-  // kStopped: it is as it was.
-  virtual Status add_detail(Radiosity&) { return {}; }
+  // What light between the texels can be found from (detail/detail.h); nothing where all there is is theirs.
+  virtual std::optional<TexelLight> texel_light() const { return std::nullopt; }
 };
 
 }  // namespace oriel

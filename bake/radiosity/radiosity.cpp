@@ -8,6 +8,7 @@
 
 #include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/certificate.h"
+#include "bake/radiosity/detail/detail.h"
 #include "bake/radiosity/dilate.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/paths/path_estimator.h"
@@ -140,11 +141,14 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
 }
 
 // Where there is no time for it, texels have to do.
-Status add_detail(const RadiosityTask& task, LightEstimator& estimator, Radiosity& light) {
+Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
   const RadiosityOptions& options = task.options;
   if (options.detail < 2 || options.hidden == Hidden::kBlack) return {};
+  const auto known = estimator.texel_light();
+  if (!known) return {};
   const Interruptible until(task.context, options.enough);
-  const Status added = options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : estimator.add_detail(light);
+  const Status added =
+      options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : add_detail(task, *known, light);
   if (added || task.context.stop || added.error().code != ErrorCode::kStopped) return added;
   light.report.detail = {.left_out = true};
   return {};
@@ -247,7 +251,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     light.report.refinements = refinements;
     estimator->write(light);
     ORIEL_TRY_VOID(fill_and_stitch(task, light));
-    ORIEL_TRY_VOID(add_detail(task, *estimator, light));
+    ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.certificate, verify(task, light, held_out));

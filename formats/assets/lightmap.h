@@ -16,6 +16,21 @@ enum class TexelState : std::uint8_t {
   kValid = 255,   // baked
 };
 
+// As people are told of it.
+inline const char* name_of(TexelState state) {
+  switch (state) {
+    case TexelState::kValid:
+      return "baked";
+    case TexelState::kBuried:
+      return "inside other geometry";
+    case TexelState::kDilated:
+      return "filled from neighbours";
+    case TexelState::kEmpty:
+      break;
+  }
+  return "empty";
+}
+
 // Texel (x, y) is at y * width + x; its centre at uv ((x + ½) / width, (y + ½) / height). Row 0 is v = 0.
 struct LightmapPage {
   std::uint32_t width = 0, height = 0;

@@ -9,20 +9,6 @@ namespace {
 
 constexpr std::size_t kShownLights = 8;
 
-const char* name_of(TexelState state) {
-  switch (state) {
-    case TexelState::kValid:
-      return "baked";
-    case TexelState::kBuried:
-      return "inside other geometry";
-    case TexelState::kDilated:
-      return "filled from neighbours";
-    case TexelState::kEmpty:
-      break;
-  }
-  return "empty";
-}
-
 const char* name_of(LightVerdict::Kind kind) {
   switch (kind) {
     case LightVerdict::Kind::kLights:

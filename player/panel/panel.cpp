@@ -130,20 +130,6 @@ void draw_statistics(const FrameMeter& meter, const Pack& pack, FrameOptions& fr
   text(meter.device);
 }
 
-const char* word_for(TexelState state) {
-  switch (state) {
-    case TexelState::kValid:
-      return "baked";
-    case TexelState::kBuried:
-      return "inside other geometry";
-    case TexelState::kDilated:
-      return "filled from neighbours";
-    case TexelState::kEmpty:
-      break;
-  }
-  return "empty";
-}
-
 // What makes it so; the first of its lights.
 void draw_why(const Why& why) {
   for (const Reason& reason : why.reasons) {
@@ -174,7 +160,7 @@ void draw_picked(const std::optional<PickedSurface>& picked) {
   }
   text(fmt::format("{:.4g} ± {:.2g} lux", picked->lux, picked->lux_error));
   text(fmt::format("texel {}, {} of page {}: {}", picked->texel.x, picked->texel.y, picked->page,
-                   word_for(picked->state)));
+                   name_of(picked->state)));
   if (picked->why) draw_why(*picked->why);
 }
 

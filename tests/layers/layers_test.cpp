@@ -86,15 +86,16 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/lux"] = plus(m["bake/direct"], {"bake/direct"});
   m["bake/reference"] = plus(m["bake/trace"], {"bake/trace", "formats/camera", "formats/image", "formats/metrics"});
   m["bake/radiosity/frames"] = stage;  // pixels that eyes see of the lightmap
-  m["bake/radiosity"].insert(
-      {"bake/radiosity/cached", "bake/radiosity/frames", "bake/radiosity/paths", "bake/radiosity/texels"});
+  m["bake/radiosity"].insert({"bake/radiosity/cached", "bake/radiosity/detail", "bake/radiosity/frames",
+                              "bake/radiosity/paths", "bake/radiosity/texels"});
   m["bake/radiosity/texels"] = stage;  // what both estimators and the stitching know of texels
   m["bake/radiosity/gather"] =
       plus(stage, {"bake/radiosity/texels", "bake/trace/particles"});  // rays into light that texels hold
   m["bake/radiosity/paths"] = plus(stage, {"bake/radiosity", "bake/radiosity/frames", "bake/radiosity/texels"});
   m["bake/radiosity/detail"] = plus(stage, {"bake/radiosity", "bake/radiosity/cached", "bake/radiosity/frames",
                                             "bake/radiosity/gather", "bake/radiosity/texels"});  // between texels
-  m["bake/radiosity/cached"] = plus(m["bake/radiosity/detail"], {"bake/radiosity/detail"});
+  m["bake/radiosity/cached"] = m["bake/radiosity/detail"];
+  m["bake/radiosity/cached"].erase("bake/radiosity/cached");
   m["bake/ledger"] = plus(
       stage, {"bake/radiosity", "bake/radiosity/texels", "bake/trace/particles"});  // a check of what radiosity made
   m["bake/run"] =

@@ -9,7 +9,6 @@
 #include "bake/radiosity/cached/part.h"
 #include "bake/radiosity/cached/patches.h"
 #include "bake/radiosity/cached/reuse.h"
-#include "bake/radiosity/detail/detail.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/gather/survival.h"
@@ -81,9 +80,8 @@ class CachedEstimator : public LightEstimator {
     }
   }
 
-  Status add_detail(Radiosity& light) override {
-    return oriel::add_detail(task_, {texels_, around_, cached_, mean_beside(lamps_, graph_, gathered_, context_)},
-                             shares_, light);
+  std::optional<TexelLight> texel_light() const override {
+    return TexelLight{texels_, around_, cached_, mean_beside(lamps_, graph_, gathered_, context_), shares_};
   }
 
  private:

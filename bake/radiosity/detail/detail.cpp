@@ -38,9 +38,9 @@ std::uint32_t most_side(const Atlas& atlas) {
 
 }  // namespace
 
-Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<const float> shares, Radiosity& light) {
+Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light) {
   CellGoal goal{.error = task.options.error > 0 ? task.options.error : kUsualError,
-                .floor = floor_of(task, light, shares),
+                .floor = floor_of(task, light, known.shares),
                 .most_side = std::min(task.options.detail, most_side(task.atlas))};
   if (goal.most_side < 2) {
     task.context.warning(
@@ -48,7 +48,7 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<
     return {};
   }
   goal.most_points = std::max(kFewPoints, 2 * known.texels.count());
-  const CellLevels levels = choose_cells(task.atlas, task.map, light, shares, goal);
+  const CellLevels levels = choose_cells(task.atlas, task.map, light, known.shares, goal);
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points;
   DetailReport& report = light.report.detail;
   report = {};

@@ -6,7 +6,7 @@
 namespace oriel {
 
 // Chooses cells by the light as it stands and fills LightmapPage::cell and detail, and the report's numbers of them.
-// shares: of frames, by texel. Error kStopped: the pages are as they were.
-Status add_detail(const RadiosityTask& task, const TexelLight& known, std::span<const float> shares, Radiosity& light);
+// Error kStopped: the pages are as they were.
+Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light);
 
 }  // namespace oriel

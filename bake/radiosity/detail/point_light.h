@@ -9,14 +9,6 @@
 
 namespace oriel {
 
-// What is known of the texels.
-struct TexelLight {
-  const Texels& texels;
-  const Surroundings& around;
-  const CachedLight& cached;
-  const std::vector<Vec3>& beside;  // by texel: light that no gather ray looks for, lux; empty: none
-};
-
 // By point, as numbered in `texels`.
 struct PointLight {
   Texels texels;               // points that lie inside something have visible 0
