@@ -81,7 +81,7 @@ class CachedEstimator : public LightEstimator {
   }
 
   std::optional<TexelLight> texel_light() const override {
-    return TexelLight{texels_, around_, cached_, mean_beside(lamps_, graph_, gathered_, context_), shares_};
+    return TexelLight{texels_, around_, cached_, smooth_beside(lamps_, texels_, graph_, gathered_, context_), shares_};
   }
 
  private:

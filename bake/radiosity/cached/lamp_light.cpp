@@ -31,12 +31,12 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
   }
 }
 
-std::vector<Vec3> mean_beside(const LampLight& lamps, const TexelGraph& graph, const HalfSums& sums, Context& context) {
-  constexpr int kPasses = 4;
+std::vector<Vec3> smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
+                                const HalfSums& sums, Context& context) {
   if (lamps.particles == 0) return {};
-  std::vector<Vec3> mean(sums.beside[0]);
-  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = 0.5f * (mean[i] + sums.beside[1][i]);
-  return pooled(graph, std::move(mean), kPasses, context);
+  Halves halves{sums.beside, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
+  for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
+  return filter(texels, graph, halves, {.scales = 1}, context).value;
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,

@@ -1,7 +1,7 @@
 // How many particles lamps send, beside the rays of the gather.
 #pragma once
 
-#include "bake/radiosity/cached/diffusion.h"
+#include "bake/radiosity/cached/filter.h"
 #include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/gather/lamp_paths.h"
@@ -15,8 +15,10 @@ std::uint64_t first_particles(std::size_t texels, const RadiosityOptions& option
 // Fills HalfSums::beside, but of texels that keep theirs.
 void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums& sums);
 
-// What put_beside put there, smoothed over a few texels; empty where no particle was followed.
-std::vector<Vec3> mean_beside(const LampLight& lamps, const TexelGraph& graph, const HalfSums& sums, Context& context);
+// What put_beside put there, filtered by itself: what ends at a shadow's edge does not reach under a bench. Empty where
+// no particle was followed.
+std::vector<Vec3> smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
+                                const HalfSums& sums, Context& context);
 
 // Whether twice as many particles take more of the squared error of frames away, for what they cost, than twice as many
 // rays: by the noise of both before the filter, which both share. light: of texels, lux.
