@@ -110,36 +110,45 @@ std::uint8_t level_for(double error, const CellGoal& goal) {
   return level;
 }
 
-// Those that miss more than is allowed; then those that miss somewhat less, or lie at a contact, where they touch a
-// chosen one, with half of its steps at least: edges are not drawn in dashes.
+std::uint64_t points_of(std::uint8_t level) {
+  const std::uint64_t side = (std::uint64_t{1} << level) + 1;
+  return level == 0 ? 0 : side * side;
+}
+
+// Those that miss more than is allowed; and what lies beside one has as many steps where it misses nearly as much, or
+// lies at a contact: edges are not drawn in dashes. found: of which none has a place twice.
 CellLevels choose(std::span<const LightmapPage> pages, const std::vector<Candidate>& found, const CellGoal& goal,
                   std::uint64_t& points) {
   CellLevels levels(pages.size());
-  std::vector<std::vector<std::uint32_t>> open(pages.size());  // by place: number in `found`, + 1
+  std::vector<std::vector<std::uint32_t>> at(pages.size());  // by place: number in `found`, + 1
   for (std::size_t p = 0; p < pages.size(); ++p)
-    levels[p].resize(pages[p].state.size()), open[p].resize(pages[p].state.size());
+    levels[p].resize(pages[p].state.size()), at[p].resize(pages[p].state.size());
   std::vector<std::uint32_t> chosen;
   points = 0;
   const auto take = [&](std::uint32_t k, std::uint8_t level) {
-    levels[found[k].page][found[k].place] = level;
-    open[found[k].page][found[k].place] = 0;
-    points += ((std::uint64_t{1} << level) + 1) * ((std::uint64_t{1} << level) + 1);
+    std::uint8_t& now = levels[found[k].page][found[k].place];
+    if (level <= now) return;
+    points += points_of(level) - points_of(now);
+    now = level;
     chosen.push_back(k);
   };
-  for (std::uint32_t k = 0; k < found.size(); ++k) {
-    if (found[k].error > goal.error)
-      take(k, level_for(found[k].error, goal));
-    else if (found[k].contact || found[k].error > kBeside * goal.error)
-      open[found[k].page][found[k].place] = k + 1;
-  }
+  for (std::uint32_t k = 0; k < found.size(); ++k) at[found[k].page][found[k].place] = k + 1;
+  for (std::uint32_t k = 0; k < found.size(); ++k)
+    if (found[k].error > goal.error) take(k, level_for(found[k].error, goal));
   for (std::size_t next = 0; next < chosen.size(); ++next) {
-    const Candidate& cell = found[chosen[next]];
-    const int own = levels[cell.page][cell.place], width = static_cast<int>(pages[cell.page].width);
+    const Candidate cell = found[chosen[next]];
+    const std::uint8_t own = levels[cell.page][cell.place];
+    const int width = static_cast<int>(pages[cell.page].width);
     for (const int dy : {-1, 0, 1})
       for (const int dx : {-1, 0, 1}) {
         const std::size_t place = cell.place + static_cast<std::size_t>(dy * width + dx);
-        if (place < open[cell.page].size() && open[cell.page][place] != 0)
-          take(open[cell.page][place] - 1, static_cast<std::uint8_t>(std::max(own - 1, 1)));
+        if (place >= at[cell.page].size() || at[cell.page][place] == 0) continue;
+        const std::uint32_t k = at[cell.page][place] - 1;
+        const double nearly = found[k].error / kBeside;
+        if (found[k].contact)
+          take(k, own);
+        else if (nearly > goal.error)
+          take(k, std::min(own, level_for(nearly, goal)));
       }
   }
   return levels;

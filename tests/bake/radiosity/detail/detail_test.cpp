@@ -66,6 +66,17 @@ TEST(DetailCells, AreChosenAlongEdgesAndNotOnSlopes) {
   EXPECT_EQ(count(chosen(floor, noisy, goal), 0), noisy.state.size()) << "which may be noise";
 }
 
+TEST(DetailCells, AlongAnEdgeHaveAsManySteps) {
+  const Listed floor(bare_floor(), 0.1f);
+  const CellGoal goal{.error = 0.02, .floor = 1, .most_points = 1 << 20};
+  const auto edge = lit(
+      floor, [](float x, float y) { return x < 16                   ? 100.0f
+                                           : std::fmod(y, 8.0f) < 4 ? 119.0f
+                                                                    : 113.0f; }, 0);
+  const CellLevels levels = chosen(floor, edge, goal);
+  for (std::uint32_t y = 3; y < 27; ++y) EXPECT_EQ(levels[0][y * edge.width + 15], 2) << y;
+}
+
 TEST(DetailCells, KeepToTheirPoints) {
   const Listed floor(bare_floor(), 0.1f);
   const auto edge = lit(
