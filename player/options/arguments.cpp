@@ -201,7 +201,9 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
        {},
        {},
        {"--compare", "--path", "--frames"}},
-      {"--stats", kOffscreen, "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast frames came "
+      {"--stats", kOffscreen,
+       "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
+       "frames came "
        "while something moved and how soon the whole one after it",
        text(out.stats, "FILE")},
   };

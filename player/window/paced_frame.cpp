@@ -25,6 +25,8 @@ FrameOptions looks_of(const Session& session, bool white_matters) {
   return out;
 }
 
+}  // namespace
+
 FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.coarse = true;
   options.few_reflections = few_reflections;
@@ -32,8 +34,6 @@ FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.maps_per_element = std::min(options.maps_per_element, 1);
   return options;
 }
-
-}  // namespace
 
 PacedFrame::PacedFrame(const gpu::Device& device) : pace_(is_software(device.renderer)) {}
 

@@ -10,6 +10,9 @@
 
 namespace oriel {
 
+// What a frame is drawn with while something moves. few_reflections: Pace::few_reflections.
+FrameOptions coarse_options(FrameOptions options, bool few_reflections);
+
 class PacedFrame {
  public:
   explicit PacedFrame(const gpu::Device& device);
