@@ -147,7 +147,8 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   }
   if (!task.options.stitch || is_dark(task.transport)) return {};
   if (task.options.late()) {
-    task.context.warning("the seams of the lightmap are not stitched: --time was over");
+    task.context.warning(
+        "the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them");
     return {};
   }
   return stitch_lightmap(task, light);
