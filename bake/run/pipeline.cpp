@@ -123,7 +123,9 @@ class Bake {
   Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {
     context_.foretold = [this](std::string_view part, double done) { forecast_.at(part, done, clock_.spent()); };
     context_.progress = [this](Progress progress) {
-      forecast_.at(progress.stage, progress.fraction, clock_.spent());
+      // A loop of another stage's is a try, as that of the time that reflections take.
+      if (progress.stage == stage_ || (stage_ == "radiance" && progress.stage == "surroundings"))
+        forecast_.at(progress.stage, progress.fraction, clock_.spent());
       progress.left_s = std::min(forecast_.left(clock_.spent()).value_or(-1), budget_.left());
       if (listener_) listener_(progress);
     };
@@ -362,7 +364,8 @@ class Bake {
   const std::function<void(const Progress&)> listener_ = context_.progress;
   const Deadline clock_{0};
   Forecast forecast_;
-  Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage, 0); }};
+  std::string_view stage_;
+  Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage_ = stage, 0); }};
   PreparedScene prepared_;
   std::optional<LightSet> lights_;  // of the prepared scene
   MaterialMaps materials_;
