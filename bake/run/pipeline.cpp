@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
 #include "bake/run/forecast.h"
 #include "bake/run/inputs.h"
@@ -173,13 +174,10 @@ class Bake {
     return {};
   }
 
-  // By what a ray took that told what people see.
   void foretell_light() {
-    double ray_s = 0, texels = 0;
-    for (const StageTime& time : result_.times)
-      if (time.stage == "importance") ray_s = time.seconds / kViewRays;
+    double texels = 0;
     for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
-    forecast_.expect("first light", std::max(Forecast::kFirstRays * texels * ray_s, kLeastLight_s));
+    forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
   Status make_materials() {

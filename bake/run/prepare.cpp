@@ -20,7 +20,8 @@ constexpr std::uint32_t kEyesForSides = 256;
 constexpr double kMostForSides = 0.15;       // of --time
 constexpr double kMostForFirstLight = 0.18;  // of what of it is left when the lightmap is laid out
 constexpr double kFirstRays = 800;    // of a texel, for a first estimate of its light: points, direct light, gather
-constexpr double kLeastRay_s = 1e-7;  // by which a ray's time is told, which says nothing where they were known already
+constexpr double kViewRays = 6e5;     // that tell what people see, by which a ray's time is told;
+constexpr double kLeastRay_s = 1e-7;  // which says nothing where they were known already
 
 Status build_accel(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
   ORIEL_TRY(prepared.accel, timed("accelerator", [&](auto&) {

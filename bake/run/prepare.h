@@ -13,8 +13,6 @@
 
 namespace oriel {
 
-inline constexpr double kViewRays = 6e5;  // that tell what people see (stage "importance"): what a ray takes
-
 struct PreparedScene {
   std::unique_ptr<ImportedScene> imported;  // at one place: accel refers to it
   std::vector<TakenMover> movers;           // apart from the scene; empty where they stand still in it
