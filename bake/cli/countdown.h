@@ -27,7 +27,7 @@ class Countdown {
   bool begun() const { return told_s_ >= 0; }
 
  private:
-  static constexpr double kLeast_s = 0.1, kSlowest = 0.05, kFastest = 12;
+  static constexpr double kLeast_s = 0.1, kSlowest = 0.05, kFastest = 16;
   double told_s_ = -1, last_s_ = 0;
 };
 

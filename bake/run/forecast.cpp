@@ -42,7 +42,7 @@ void Forecast::at(std::string_view part, double done, double now_s) {
 double Forecast::expected(std::size_t part) const {
   const auto time_of = [&](std::string_view other) {
     const std::size_t i = index_of(other);
-    return took_s_[i] > 0 ? took_s_[i] : expected_s_[i];
+    return took_s_[i] > 0 ? took_s_[i] : expected(i);
   };
   if (kParts[part] == "refinement") return kRefinement * time_of("first light");
   if (kParts[part] == "detail") return kDetail * time_of("first light");

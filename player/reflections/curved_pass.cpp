@@ -69,11 +69,11 @@ void set_normals(const gpu::Program& program, const GpuScene& scene, const GpuCu
 
 Result<CurvedPass> CurvedPass::create(gpu::Dialect dialect) {
   CurvedPass pass;
-  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
-  ORIEL_TRY(pass.surface_, gpu::Program::create("curved/surface", dialect));
-  ORIEL_TRY(pass.shade_, gpu::Program::create("screen/curved", dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("curved/light", dialect));
-  ORIEL_TRY(pass.shaded_light_, gpu::Program::create("curved/light", dialect, "SHADED"));
+  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector_mask", dialect));
+  ORIEL_TRY(pass.surface_, gpu::Program::create("curved_surface", dialect));
+  ORIEL_TRY(pass.shade_, gpu::Program::create("screen_curved", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("curved_light", dialect));
+  ORIEL_TRY(pass.shaded_light_, gpu::Program::create("curved_light", dialect, "SHADED"));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

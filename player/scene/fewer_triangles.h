@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "player/scene/gpu_mesh.h"
-#include "player/view/view.h"
+#include "player/navigation/view.h"
 
 namespace oriel {
 

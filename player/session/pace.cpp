@@ -63,12 +63,13 @@ void Pace::took(Draw drawn, float ms) {
   mean_ms_ = mean_ms_ == 0 ? ms : mean_ms_ + (ms - mean_ms_) / 4;
   if (frames_ > 2 && mean_ms_ > options_.slowest_ms * 0.95f) {
     // What a frame shows does not say what a finer one would: each try that failed makes the next one later.
-    if (tries_ && frames_ < kSteady) steady_ = std::min(4 * steady_, kMostSteady);
+    if (tries_ && frames_ < kSteady) steady_ = std::min(4 * steady_, kMostSteady), failed_ = level_;
     return fit(mean_ms_);
   }
   if (frames_ < kSteady) return;
-  if (tries_) tries_ = false, steady_ = kSteady;
-  if (level_ > 1 && frames_ >= steady_) go_finer();
+  if (tries_ && level_ <= failed_) steady_ = kSteady;
+  tries_ = false;
+  if (level_ > 1 && frames_ >= (level_ - 1 <= failed_ ? steady_ : kSteady)) go_finer();
 }
 
 void Pace::go_finer() {

@@ -70,6 +70,7 @@ class Pace {
   int frames_ = 0;      // since the level changed
   int steady_ = 0;      // frames until a finer level is tried; more after one that was too slow
   bool tries_ = false;  // this level is such a try
+  int failed_ = 0;      // the last level that was too slow a try
   float whole_ms_ = 0;  // the last whole frame took; 0: none was drawn
   double moved_s_ = -1e9;
   bool shows_whole_ = false, drawn_ = false;
