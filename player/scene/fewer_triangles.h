@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "player/scene/gpu_mesh.h"
 #include "player/navigation/view.h"
+#include "player/scene/gpu_mesh.h"
 
 namespace oriel {
 
