@@ -9,7 +9,8 @@ namespace {
 // Of the time of the first light: refinement, which may end soon, and detail, which looks for light on points as that
 // does; and of the time of light and refinement. Measured 0.4 to 2.9, 0.5 to 1.2 and 0.06 to 0.1 on rooms, houses and
 // halls.
-constexpr double kRefinement = 1, kDetail = 0.8, kVerification = 0.085;
+// Rather long than short: what is told can hurry, but not rise.
+constexpr double kRefinement = 2, kDetail = 0.8, kVerification = 0.085;
 constexpr double kOverdue = 0.1;  // of what was foretold, where a part takes longer than that
 constexpr double kTrusted = 0.3;  // of a part, after which what it took tells the rest
 
