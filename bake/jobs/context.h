@@ -17,6 +17,7 @@ struct Progress {
   std::string_view stage;  // "radiosity", …
   double fraction = 0;     // [0,1] of this stage, monotonic
   std::uint64_t rays = 0;  // traced by this stage so far
+  double left_s = -1;      // of the whole work, as it is foretold now; negative: nobody knows
 };
 
 class UnitStore;  // units.h
@@ -38,6 +39,9 @@ class Context {
   bool stopped() const { return stop.load(std::memory_order_relaxed) || (enough_ && enough_()); }
   void warning(const std::string& message);
   void report(std::string_view stage, double fraction, std::uint64_t rays = 0);
+  // A part of a stage is under way: how much of its time is over, [0,1], as far as that can be told.
+  void foretell(std::string_view part, double fraction);
+  std::function<void(std::string_view part, double fraction)> foretold;  // may be empty
 
  private:
   friend class Interruptible;

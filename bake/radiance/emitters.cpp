@@ -201,6 +201,17 @@ struct LeftIn {
   std::size_t too_many = 0;   // beyond the polygons that it may list
 
   std::size_t total() const { return too_fine + too_faint + parted + too_many; }
+  std::string reasons(std::size_t brightest) const {
+    std::string text;
+    const auto add = [&](std::size_t lamps, const std::string& why) {
+      if (lamps > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", lamps, why);
+    };
+    add(too_fine, fmt::format("have more than {} triangles", kMaxReflectorEmitters));
+    add(too_faint, fmt::format("are fainter than the {} brightest", brightest));
+    add(parted, "are hidden in part and large");
+    add(too_many, fmt::format("came after its {} polygons", kMaxReflectorEmitters));
+    return text;
+  }
 };
 
 // The lights that would light the reflector most if nothing were in the way, by what they are worth.
@@ -291,11 +302,8 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
-          "their light is the same): {} have more than {} triangles, {} are fainter than the {} brightest, {} are "
-          "hidden "
-          "in part and large, {} came after its {} polygons",
-          r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
-          left_in.parted, left_in.too_many, kMaxReflectorEmitters));
+          "their light is the same): {}",
+          r.name, left_in.total(), left_in.reasons(options.max_lights)));
   }
   const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
                                       [&](const FoundReflector& f) { return lobe_widths[f.reflector.material] > 0; });

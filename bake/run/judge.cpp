@@ -94,4 +94,16 @@ Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, st
   return e;
 }
 
+void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
+  const DroppedSamples& dropped = accel.dropped();
+  if (dropped.count() == 0) return;
+  std::string place = "far from any surface";
+  if (const std::uint32_t t = dropped.first_triangle(); t != DroppedSamples::kNowhere) {
+    const Surface& surface = accel.scene().surfaces[accel.scene().triangle_surface[t]];
+    place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
+                        accel.scene().materials[surface.material].name);
+  }
+  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
+}
+
 }  // namespace oriel

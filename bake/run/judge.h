@@ -23,4 +23,7 @@ Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, st
                                    const OutgoingRadiance& outgoing, Context& context,
                                    std::atomic<std::uint64_t>& rays);
 
+// Samples that were left out, and where to look for the cause.
+void tell_dropped(const Accel& accel, std::vector<std::string>& findings);
+
 }  // namespace oriel

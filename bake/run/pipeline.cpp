@@ -4,7 +4,9 @@
 #include <functional>
 #include <optional>
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
+#include "bake/run/forecast.h"
 #include "bake/run/inputs.h"
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
@@ -19,6 +21,8 @@ namespace oriel {
 namespace {
 
 constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
+constexpr double kLightField = 0.4;    // of the time that texels' first light takes a thread: measured on few scenes
+constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
 constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
 
@@ -39,21 +43,28 @@ std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudge
   };
 }
 
-// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
-Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
-  Pack dark;
+// In the dark, whose pixels take as long; `dark` gets the lightmap for it.
+Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
+                        Context& context, PlannedReflections& planned) {
+  dark.lightmaps.clear();
   for (const AtlasPage& page : prepared.atlas.pages) {
     const std::size_t texels = std::size_t{page.width} * page.height;
     dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
   }
+  return time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
+}
+
+// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
+Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
+                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
+  Pack dark;
   if (!planned.empty()) {
     const double until = budget.left() - budget.for_timing();
     const auto late = [&] { return budget.left() < until; };
     Status tried;
     {
       const Interruptible interruptible(context, late);
-      tried = time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
+      tried = time_reflections(options, prepared, lights, dark, context, planned);
     }
     if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
     if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
@@ -97,19 +108,6 @@ void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissi
   for (auto& kernel : materials.kernel) kernel = -1;
 }
 
-// Samples that were left out, and where to look for the cause.
-void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
-  const DroppedSamples& dropped = accel.dropped();
-  if (dropped.count() == 0) return;
-  std::string place = "far from any surface";
-  if (const std::uint32_t t = dropped.first_triangle(); t != DroppedSamples::kNowhere) {
-    const Surface& surface = accel.scene().surfaces[accel.scene().triangle_surface[t]];
-    place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
-                        accel.scene().materials[surface.material].name);
-  }
-  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
-}
-
 void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
   assemble_materials(scene, materials, pack);
   pack.mesh = std::move(mesh.mesh);
@@ -124,7 +122,22 @@ void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, P
 // One bake: what its stages hand on to each other. Each stage is a function; run() names them in their order.
 class Bake {
  public:
-  Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {}
+  Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {
+    context_.foretold = [this](std::string_view part, double done) { forecast_.at(part, done, clock_.spent()); };
+    context_.progress = [this](Progress progress) {
+      // A loop of another stage's is a try, as that of the time that reflections take.
+      if (progress.stage == stage_ || (stage_ == "radiance" && progress.stage == "surroundings"))
+        forecast_.at(progress.stage, progress.fraction, clock_.spent());
+      progress.left_s = std::min(forecast_.left(clock_.spent()).value_or(-1), budget_.left());
+      if (listener_) listener_(progress);
+    };
+  }
+  ~Bake() {
+    context_.progress = listener_;
+    context_.foretold = nullptr;
+  }
+  Bake(const Bake&) = delete;
+  Bake& operator=(const Bake&) = delete;
 
   Result<BakeResult> run() {
     ORIEL_TRY_VOID(prepare());
@@ -134,6 +147,7 @@ class Bake {
     ORIEL_TRY_VOID(find_visible_sets());
     ORIEL_TRY_VOID(make_transfer());
     ORIEL_TRY_VOID(fit_to_time());
+    ORIEL_TRY_VOID(foretell_reflections());
     ORIEL_TRY_VOID(bake_lightmap());
     ORIEL_TRY_VOID(keep_energy_ledger());
     ORIEL_TRY_VOID(capture_reflections());
@@ -152,9 +166,20 @@ class Bake {
     if (budget_.limited() && layout.atlas.time_limit_s <= 0) layout.atlas.time_limit_s = budget_.for_atlas();
     ORIEL_TRY_VOID(lay_out_lightmap(layout, timed_, context_, prepared_, budget_.left()));
     result_.omissions = prepared_.omissions;
+    for (const Surface& surface : scene().surfaces)
+      for (const std::string& name : {surface.name, surface.mesh_name})
+        result_.node_paths.try_emplace(name, surface.node_path);
     lights_.emplace(scene());
     warn_about_light(scene(), *lights_, context_);
+    foretell_light();
     return {};
+  }
+
+  void foretell_light() {
+    double texels = 0;
+    for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
+    forecast_.expect("probes", prepared_.movers.empty() ? 0 : kLightField * Forecast::kTexel_s * texels);
+    forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
   Status make_materials() {
@@ -199,6 +224,19 @@ class Bake {
     ORIEL_TRY(later_s_, timed_("timing", [&](auto&) {
                 return fit_reflections(options_, prepared_, *lights_, budget_, context_, planned_);
               }));
+    return {};
+  }
+
+  // A few of their pixels tell how long all take.
+  Status foretell_reflections() {
+    if (planned_.empty()) return {};
+    if (!budget_.limited()) {
+      Pack dark;
+      ORIEL_TRY_VOID(time_reflections(options_, prepared_, *lights_, dark, context_, planned_));
+    }
+    const double surround = planned_.surround_pixels() / std::max(planned_.pixels(), 1.0);
+    forecast_.expect("radiance", (1 - surround) * planned_.capture_s);
+    forecast_.expect("surroundings", surround * planned_.capture_s);
     return {};
   }
 
@@ -277,6 +315,7 @@ class Bake {
   }
 
   Status assemble() {
+    context_.foretell("writing", 0);
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
     ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
@@ -322,7 +361,11 @@ class Bake {
   TimeBudget budget_;
   BakeResult result_;
   WarningLog log_{context_, result_.warnings};
-  Stopwatch timed_{result_.times};
+  const std::function<void(const Progress&)> listener_ = context_.progress;
+  const Deadline clock_{0};
+  Forecast forecast_;
+  std::string_view stage_;
+  Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage_ = stage, 0); }};
   PreparedScene prepared_;
   std::optional<LightSet> lights_;  // of the prepared scene
   MaterialMaps materials_;

@@ -283,8 +283,13 @@ void leave_out_maps(const std::string& why, PlannedReflections& planned) {
 }
 
 double PlannedReflections::pixels() const {
-  double sum = 0;
+  double sum = surround_pixels();
   for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
+  return sum;
+}
+
+double PlannedReflections::surround_pixels() const {
+  double sum = 0;
   for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
   return sum;
 }

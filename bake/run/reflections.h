@@ -47,6 +47,7 @@ struct PlannedReflections {
   std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
   bool light_reused = false;              // some of the lightmap is that of the bake before
   double pixels() const;                  // of all maps
+  double surround_pixels() const;         // of those of curved reflectors
   bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
 };
 

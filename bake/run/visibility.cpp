@@ -50,8 +50,8 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
                                  : "left out by --only, which finds no floors";
   if (options.visible_sets == VisibleSetsWanted::kAuto && triangles < kLeastTriangles)
     return fmt::format(
-        "{} triangles are few enough to draw all of them; from {} on, or with --pvs on, it is found which "
-        "can be seen from where",
+        "{} triangles are few enough to draw all of them; from {} on, or with --pvs on, the bake finds out "
+        "which can be seen from where people walk",
         triangles, kLeastTriangles);
   return {};
 }

@@ -40,7 +40,7 @@ std::vector<DrawBatch> choose_shown(GpuScene& scene, const View& view, const Fra
     stats.groups = static_cast<std::uint32_t>(seen->size());
     stats.groups_seen = static_cast<std::uint32_t>(std::count(seen->begin(), seen->end(), 1));
   }
-  return scene.show(make_frustum(view.clip_from_pack), seen);
+  return options.coarse ? scene.show_fewer(view, seen) : scene.show(make_frustum(view.clip_from_pack), seen);
 }
 
 void count_images(GpuScene& scene, FrameStats& stats) {
@@ -216,8 +216,9 @@ Result<std::vector<const GpuCurvedReflector*>> Renderer::draw_curved(GpuScene& s
   if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
   if (options.few_reflections) return see_through;
   const Frustum frustum = make_frustum(view.clip_from_pack);
+  std::vector<CurvedPass::Shown> opaque;
   for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
-    if (!may_be_visible(frustum, reflector.bounds)) continue;
+    if (!may_be_visible(frustum, reflector.triangles.bounds)) continue;
     ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
     if (!there) continue;
     if (scene.is_transparent(reflector.material)) {
@@ -225,11 +226,14 @@ Result<std::vector<const GpuCurvedReflector*>> Renderer::draw_curved(GpuScene& s
       see_through.push_back(&reflector);
     } else if (marked_.size() + 1 < kMoverBits) {
       marked_.push_back(reflector.material);
-      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(marked_.size()), kReflectorBits, options,
-                              stats);
+      opaque.push_back({&reflector, static_cast<GLint>(marked_.size())});
       reflective.insert(reflector.material);
     }
   }
+  ORIEL_TRY_VOID(curved_pass_.shade(scene, opaque, view, options, stats));
+  frame_->drawn().bind();
+  for (const CurvedPass::Shown& shown : opaque)
+    curved_pass_.draw_shaded(scene, shown, view, kReflectorBits, options, stats);
   return see_through;
 }
 
@@ -314,7 +318,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   clock_.time(Pass::kCurved, [&] {
     for (const GpuCurvedReflector* reflector : see_through)
       if (scene.images().has({ImageKind::kSurround, reflector->map}))
-        curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
+        curved_pass_.add_light(scene, *reflector, view, options, stats);
   });
   frame_->resolve_light();
   count_images(scene, stats);

@@ -10,6 +10,8 @@ namespace oriel {
 namespace {
 
 constexpr int kKernelTaps = 48, kCoarseTaps = 12;
+constexpr std::size_t kFewTriangles = 20000;  // that no device minds
+constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
 
 // Where the images of ranges are seen.
 void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
@@ -72,16 +74,55 @@ void GpuScene::upload_geometry() {
   upload_vertices(mesh, buffers_);
   index_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
-  if (known) indices_ = std::move(indices);
+  indices_ = std::move(indices);
 }
 
 std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& seen) {
   shown_buffer_.reset();
+  chosen_ = {};
   if (!seen) return visible_batches(opaque_, frustum);
   ShownTriangles shown = gather_visible(opaque_, indices_, frustum, seen);
   glBindVertexArray(vertex_array_.name());
   shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
   return std::move(shown.batches);
+}
+
+void GpuScene::begin_fewer() {
+  coming_ = std::async(std::launch::async, [this] {
+    std::vector<std::uint32_t> kept;
+    for (const Reflector& r : pack_.reflectors) kept.insert(kept.end(), r.indices.begin(), r.indices.end());
+    FewerTriangles::DrawnAgain again{kept, {}};
+    for (const CurvedReflector& r : pack_.curved_reflectors) again.curved.emplace_back(r.indices);
+    return FewerTriangles(pack_.mesh, opaque_, indices_, again);
+  });
+}
+
+void GpuScene::make_fewer() {
+  if (fewer_ || pack_.mesh.indices.size() <= 3 * kFewTriangles) return;
+  if (!coming_.valid()) begin_fewer();
+  fewer_ = coming_.get();
+  glBindVertexArray(vertex_array_.name());
+  fewer_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(fewer_->indices()));
+}
+
+std::vector<DrawBatch> GpuScene::show_fewer(const View& view, const SeenMask& seen) {
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  if (!fewer_ && !coming_.valid() && pack_.mesh.indices.size() > 3 * kFewTriangles) begin_fewer();
+  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) make_fewer();
+  if (!fewer_) return show(frustum, seen);
+  chosen_ = fewer_->choose(view, kFewerPixels);
+  ShownTriangles shown = gather_visible(chosen_.ranges, fewer_->indices(), frustum, seen);
+  glBindVertexArray(vertex_array_.name());
+  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
+  return std::move(shown.batches);
+}
+
+std::span<const DrawRange> GpuScene::bind_curved(const GpuCurvedReflector& reflector) const {
+  glBindVertexArray(vertex_array_.name());
+  const bool fewer = !chosen_.ranges.empty() && !is_transparent(reflector.material);
+  (fewer ? fewer_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
+  if (fewer) return chosen_.curved[reflector.index];
+  return {&reflector.triangles, 1};
 }
 
 void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
@@ -180,13 +221,12 @@ void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {
 }
 
 void GpuScene::make_curved_reflectors(std::vector<std::uint32_t>& indices) {
-  for (const CurvedReflector& r : pack_.curved_reflectors) {
-    GpuCurvedReflector out{r.material,
-                           r.map,
-                           static_cast<std::uint32_t>(indices.size()),
-                           static_cast<std::uint32_t>(r.indices.size()),
-                           {}};
-    for (const std::uint32_t index : r.indices) out.bounds.extend(pack_.mesh.positions[index]);
+  for (std::uint32_t i = 0; i < pack_.curved_reflectors.size(); ++i) {
+    const CurvedReflector& r = pack_.curved_reflectors[i];
+    GpuCurvedReflector out{r.material, r.map, i, {}};
+    out.triangles.first_index = static_cast<std::uint32_t>(indices.size());
+    out.triangles.index_count = static_cast<std::uint32_t>(r.indices.size());
+    for (const std::uint32_t index : r.indices) out.triangles.bounds.extend(pack_.mesh.positions[index]);
     indices.insert(indices.end(), r.indices.begin(), r.indices.end());
     curved_reflectors_.push_back(out);
   }
@@ -217,7 +257,7 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
     elements.push_back(reflector.elements);
   }
   for (const GpuCurvedReflector& reflector : curved_reflectors_)
-    uses.push_back({{ImageKind::kSurround, reflector.map}, reflector.bounds, DrawRange::kNoGroup});
+    uses.push_back({{ImageKind::kSurround, reflector.map}, reflector.triangles.bounds, DrawRange::kNoGroup});
   images_ = std::make_unique<SceneImages>(ImageSource(pack_, std::move(deferred), std::move(elements)), uses, loading);
 }
 

@@ -1,6 +1,7 @@
 // A pack as the passes draw it.
 #pragma once
 
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "player/gpu/device.h"
 #include "player/images/scene_images.h"
 #include "player/navigation/view.h"
+#include "player/scene/fewer_triangles.h"
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
@@ -34,8 +36,8 @@ struct GpuReflector {
 struct GpuCurvedReflector {
   std::uint32_t material = 0;  // into Pack::materials
   std::uint32_t map = 0;       // into Pack::surround_maps
-  std::uint32_t first_index = 0, index_count = 0;
-  Bounds bounds;
+  std::uint32_t index = 0;     // into Pack::curved_reflectors
+  DrawRange triangles;
 };
 
 // K as shaders read it.
@@ -93,6 +95,13 @@ class GpuScene {
   // The opaque triangles in the frustum, without groups that are not seen; uploads their indices. For draws after
   // bind_shown(), until the next call.
   std::vector<DrawBatch> show(const Frustum& frustum, const SeenMask& seen);
+  // The same for a coarse frame, with fewer triangles where the scene has many. They are made in the background, from
+  // the first such frame on: until they are there, it is all of them.
+  std::vector<DrawBatch> show_fewer(const View& view, const SeenMask& seen);
+  // Waits for them.
+  void make_fewer();
+  // A curved reflector's triangles, those of them that are shown; binds what they are of.
+  std::span<const DrawRange> bind_curved(const GpuCurvedReflector& reflector) const;
   void bind_shown() const {
     glBindVertexArray(vertex_array_.name());
     (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
@@ -139,6 +148,7 @@ class GpuScene {
   void make_reflectors(std::vector<std::uint32_t>& indices);
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
+  void begin_fewer();
   Pack pack_;
   std::uint64_t serial_ = 0;
   SeenGroups seen_groups_;
@@ -152,7 +162,11 @@ class GpuScene {
   std::vector<gpu::Buffer> buffers_;
   gpu::Buffer index_buffer_;
   std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
-  std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
+  std::vector<std::uint32_t> indices_;       // of index_buffer_
+  std::optional<FewerTriangles> fewer_;      // once they are made
+  gpu::Buffer fewer_buffer_;                 // of their indices
+  std::future<FewerTriangles> coming_;       // reads pack_, opaque_ and indices_
+  FewerTriangles::Chosen chosen_;            // of the frame, empty where it shows all
   std::vector<gpu::Texture2d> sphere_maps_;
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;

@@ -201,7 +201,10 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
        {},
        {},
        {"--compare", "--path", "--frames"}},
-      {"--stats", kOffscreen, "Offscreen: time each pass and write times, counts and the options as JSON",
+      {"--stats", kOffscreen,
+       "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
+       "frames came "
+       "while something moved and how soon the whole one after it",
        text(out.stats, "FILE")},
   };
 }
@@ -320,7 +323,6 @@ std::string contradiction(const PlayArguments& out) {
   if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
     return "--offscreen draws into files: -o FILE is missing";
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
-  if (!out.offscreen && !out.stats.empty()) return "--stats needs --offscreen";
   if (!out.offscreen && (!out.video.empty() || out.fps > 0 || out.smooth_s > 0 || out.panorama))
     return "--video, --fps, --smooth and --panorama need --offscreen";
   if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";
