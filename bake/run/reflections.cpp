@@ -8,6 +8,7 @@
 #include "bake/jobs/units.h"
 #include "bake/radiance/curved/surround_capture.h"
 #include "bake/radiance/emitters/emitters.h"
+#include "bake/radiance/mesh/map_mesh.h"
 #include "bake/radiance/plan/residual.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/deadline.h"
@@ -17,7 +18,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
+constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048, kCameraSamples = 4096;
 constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
 constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
 constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
@@ -130,8 +131,8 @@ Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& 
 }
 
 Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
-             const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
-             ReflectionReport& report) {
+             std::span<const Vec3> cameras, const OutgoingRadiance& outgoing, Context& context,
+             std::atomic<std::uint64_t>& rays, ReflectionReport& report) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
@@ -139,20 +140,25 @@ Status judge(const ReflectedSurroundings& surroundings, std::span<const Radiance
     ReflectedError e;
     std::uint64_t traced = 0;
     const auto inputs = [&](Archive& key) {
-      key(r, eyes);
+      key(r, eyes, cameras);
       for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
     };
     const auto compute = [&]() -> Status {
       ORIEL_TRY(const auto samples,
                 sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
       q = judge_maps(surroundings, own, samples, context);
+      for (const Vec3& camera : cameras) {
+        ORIEL_TRY(const auto seen, sample_reflections(surroundings, r, {&camera, 1}, kCameraSamples, context.seed + 4,
+                                                      context));
+        if (!seen.empty()) q.worst = std::min(q.worst, judge_maps(surroundings, own, seen, context).seen);
+      }
       std::atomic<std::uint64_t> judging{0};
       ORIEL_TRY(e, judge_light(surroundings, r, own, samples, outgoing, context, judging));
       traced = judging;
       return {};
     };
     ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
-      archive(q.seen, q.sharp, q.residual, e.samples, e.seen, e.relative_error, e.seen_error, traced);
+      archive(q.seen, q.sharp, q.residual, q.worst, e.samples, e.seen, e.relative_error, e.seen_error, traced);
     }));
     rays += traced;
     report.quality.push_back(q);
@@ -358,12 +364,13 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
   if (options.view_scheme == ViewScheme::kPlanned) {
-    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};
+    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes, .cameras = cameras};
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
   const std::vector<Vec3> others = held_out_eyes(region, kHeldOutEyes, context.seed);
   ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
+  ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);
   keep(reflectors, mesh, pack.reflectors);

@@ -1,7 +1,9 @@
 // Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as tests/player/twins/march.h, which tells
 // what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
 
-const float kConnected = 0.1;
+const float kNear = 0.1;
+const float kGap = 0.5;
+const float kSteep = 4.0;
 const float kTouching = 0.003;
 const float kDistrust = 128.0;
 const float kBorder = 1e-3;
@@ -71,15 +73,20 @@ float disparity_at(sampler2DArray disparity, int layer, ivec2 size, vec2 at) {
 
 // The same over the surface around a texel of it.
 float on_surface(float s, float surface) {
-  return clamp(s, surface / (1.0 + kConnected), surface * (1.0 + kConnected));
+  return clamp(s, surface / (1.0 + kNear), surface * (1.0 + kNear));
 }
 
-// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`: both are on one plane by the slopes
+// before and behind, or those planes meet between them.
 bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
   float last = texelFetch(disparity, ivec3(map_texel(ray, begin, size), layer), 0).r;
+  float earlier = texelFetch(disparity, ivec3(map_texel(ray, max(begin - 1.0, 0.0), size), layer), 0).r;
   float after = texelFetch(disparity, ivec3(map_texel(ray, min(end + 1.0, ray.length), size), layer), 0).r;
-  float rise = surface - last, further = (rise < 0.0 ? -2.0 : 2.0) * (after - surface);
-  return surface <= 1.0 && abs(rise) <= max(kConnected * surface, further);
+  float unit = float(max(size.x, size.y));
+  float first = unit * (last - (surface - (after - surface))), second = unit * (last + (last - earlier) - surface);
+  float least = min(abs(first), abs(second)), most = max(abs(first), abs(second));
+  bool meet = (first <= 0.0) != (second <= 0.0) || least <= kGap;
+  return surface <= 1.0 && last <= 1.0 && (most <= kGap || (meet && unit * abs(surface - last) <= kSteep));
 }
 
 // How far the ray is above the surface.

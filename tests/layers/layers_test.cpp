@@ -79,6 +79,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   for (const char* name : {"bake/radiosity", "bake/radiance", "bake/material", "bake/transfer"}) m[name] = stage;
   m["bake/radiance/curved"] = plus(stage, {"bake/radiance"});    // shiny surfaces that no plane holds
   m["bake/radiance/emitters"] = plus(stage, {"bake/radiance"});  // what maps leave out
+  m["bake/radiance/mesh"] = plus(stage, {"bake/radiance"});      // their depth as triangles
   m["bake/radiance/plan"] = plus(stage, {"bake/radiance"});      // which viewpoints
   m["bake/radiance/reuse"] = plus(stage, {"bake/radiance", "bake/radiance/plan"});  // maps that an edit leaves
   m["bake/walk"] = plus(m["bake/trace/lights"], {"formats/camera"});                // where eyes can be
@@ -101,7 +102,7 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/run"] =
       plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
                    "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                   "bake/radiance/plan", "bake/radiance/reuse", "bake/radiosity/frames", "bake/visibility", "bake/walk",
+                   "bake/radiance/mesh", "bake/radiance/plan", "bake/radiance/reuse", "bake/radiosity/frames", "bake/visibility", "bake/walk",
                    "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
   m["bake/plan"] = plus(m["bake/run"], {"bake/run"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.

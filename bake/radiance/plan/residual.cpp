@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint32_t kLeastResolution = 16;
 constexpr int kMaxHidden = 16;         // surfaces in front of a missing one
+constexpr double kHelps = 0.9;         // of what a camera misses, that another residual leaves at most
 constexpr float kSameSurface = 0.03f;  // relative distance from a missing sample's tangent plane
 
 bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
@@ -21,15 +22,14 @@ bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
          pixel.y < static_cast<float>(map.height);
 }
 
-bool sees(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
-  return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
-}
-
-// The map of the reflector in whose window most of the samples' weight lies; null where none has any.
+// The map of the reflector in whose window most of the samples' weight lies, in an element that can have one more; null
+// where none has any.
 const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
   const RadianceMap* best = nullptr;
   double most = 0;
   for (const RadianceMap& map : maps) {
+    const auto beside = [&](const RadianceMap& m) { return m.element == map.element; };
+    if (map.residual || std::count_if(maps.begin(), maps.end(), beside) >= std::ptrdiff_t{kMostMapsPerElement}) continue;
     double weight = 0;
     for (const ReflectedSample& s : missing) weight += is_in_window(map, s) ? s.weight : 0;
     if (weight > most) best = &map, most = weight;
@@ -80,7 +80,7 @@ class ResidualCapture {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
       if (rays_) *rays_ += seen.rays;
       const auto is_shown = [&](const ReflectedSample& found) {
-        const auto shown = [&](const RadianceMap& map) { return sees(surroundings_, map, found); };
+        const auto shown = [&](const RadianceMap& map) { return shows(surroundings_, map, found); };
         return std::any_of(others_.begin(), others_.end(), shown);
       };
       if (sky && seen.sight.state == Sight::kSky) {
@@ -139,9 +139,37 @@ class ResidualMaker {
 
   // What is missing in the reflector's maps, in no more than `bytes`; none where that is little. Counts what it had to
   // make smaller or leave out.
-  Result<std::optional<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> maps,
-                                          std::uint64_t bytes) {
+  Result<std::vector<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> own,
+                                        std::uint64_t bytes) {
+    std::vector<RadianceMap> maps(own.begin(), own.end()), made;
+    const auto add = [&](std::span<const ReflectedSample> missing) -> Result<bool> {
+      ORIEL_TRY(auto map, map_of(reflector, maps, missing, bytes));
+      if (!map) return false;
+      bytes -= std::min(bytes, map_bytes(map->width, map->height));
+      maps.push_back(*map);
+      made.push_back(std::move(*map));
+      return true;
+    };
     ORIEL_TRY(const auto missing, find_missing(reflector, maps));
+    ORIEL_TRY_VOID(add(missing));
+    ORIEL_TRY(auto cameras, see_by_camera(reflector));
+    for (double before = 2; !cameras.empty();) {
+      std::vector<ReflectedSample> left;
+      ORIEL_TRY(const double worst, leave_unseen(maps, cameras, left));
+      if (worst <= options_.most_missing || worst > kHelps * before) break;
+      before = worst;
+      ORIEL_TRY(const bool more, add(left));
+      if (!more) break;
+    }
+    return made;
+  }
+
+  std::uint32_t reduced = 0;
+
+ private:
+  // Of samples that no map shows; none where no map has them in line.
+  Result<std::optional<RadianceMap>> map_of(std::uint32_t reflector, std::span<const RadianceMap> maps,
+                                            std::span<const ReflectedSample> missing, std::uint64_t bytes) {
     const RadianceMap* host = best_host(maps, missing);
     if (!host) return std::nullopt;
     const Element element{host->lower, host->upper, host->element};
@@ -165,9 +193,41 @@ class ResidualMaker {
     return map;
   }
 
-  std::uint32_t reduced = 0;
+  // What each camera sees in the reflector, of weights that add up to 1; none of those that see nothing.
+  Result<std::vector<std::vector<ReflectedSample>>> see_by_camera(std::uint32_t reflector) {
+    std::vector<std::vector<ReflectedSample>> seen;
+    for (const Vec3& camera : options_.cameras) {
+      ORIEL_TRY(auto samples, sample_reflections(surroundings_, reflector, {&camera, 1}, options_.camera_samples,
+                                                 context_.seed + 3, context_));
+      float total = 0;
+      for (const ReflectedSample& s : samples) total += s.weight;
+      if (!(total > 0)) continue;
+      for (ReflectedSample& s : samples) s.weight /= total;
+      seen.push_back(std::move(samples));
+    }
+    return seen;
+  }
 
- private:
+  // Leaves each camera those samples that none of the maps shows, all of them in `left` too. The most that one misses.
+  Result<double> leave_unseen(std::span<const RadianceMap> maps, std::vector<std::vector<ReflectedSample>>& cameras,
+                              std::vector<ReflectedSample>& left) {
+    double worst = 0;
+    for (std::vector<ReflectedSample>& samples : cameras) {
+      std::vector<std::uint8_t> unseen(samples.size());
+      ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+        unseen[i] = std::none_of(maps.begin(), maps.end(),
+                                 [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
+      }));
+      std::size_t i = 0;
+      std::erase_if(samples, [&](const ReflectedSample&) { return unseen[i++] == 0; });
+      double missing = 0;
+      for (const ReflectedSample& s : samples) missing += s.weight;
+      worst = std::max(worst, missing);
+      if (missing > options_.most_missing) left.insert(left.end(), samples.begin(), samples.end());
+    }
+    return worst;
+  }
+
   // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
   Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
     ORIEL_TRY(const auto samples,
@@ -175,7 +235,7 @@ class ResidualMaker {
     std::vector<std::uint8_t> is_missing(samples.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
       is_missing[i] = std::none_of(maps.begin(), maps.end(),
-                                   [&](const RadianceMap& map) { return sees(surroundings_, map, samples[i]); });
+                                   [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
     }));
     std::vector<ReflectedSample> missing;
     double total = 0, lost = 0;
@@ -195,20 +255,21 @@ class ResidualMaker {
   std::atomic<std::uint64_t>* rays_;
 };
 
-// The reflector's maps with the residual behind those of its element.
-void append_with_residual(std::span<RadianceMap> maps, std::vector<RadianceMap> residual,
-                          std::vector<RadianceMap>& all) {
+// The reflector's maps with the residuals behind those of their elements.
+void append_with_residuals(std::span<RadianceMap> maps, std::vector<RadianceMap> residuals,
+                           std::vector<RadianceMap>& all) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const bool ends_element = i + 1 == maps.size() || maps[i].element != maps[i + 1].element;
-    const bool is_next = !residual.empty() && ends_element && maps[i].element == residual[0].element;
+    const std::uint32_t element = maps[i].element;
+    const bool ends_element = i + 1 == maps.size() || element != maps[i + 1].element;
     all.push_back(std::move(maps[i]));
-    if (is_next) all.push_back(std::move(residual[0])), residual.clear();
+    for (RadianceMap& residual : residuals)
+      if (ends_element && residual.element == element) all.push_back(std::move(residual));
   }
 }
 
 struct Residual {
-  std::vector<RadianceMap> map;  // one or none
-  std::uint32_t reduced = 0;     // whether it had to be smaller or left out
+  std::vector<RadianceMap> maps;
+  std::uint32_t reduced = 0;  // had to be smaller or left out
   std::uint64_t rays = 0;
 };
 
@@ -220,20 +281,20 @@ Result<Residual> residual_of(const ReflectedSurroundings& surroundings, const Ou
   const auto inputs = [&](Archive& key) {
     // More memory than the largest map takes changes nothing.
     key(reflector, eyes, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
-        options.spread, options.max_resolution, options.least_missing);
+        options.spread, options.max_resolution, options.least_missing, options.cameras, options.most_missing,
+        options.camera_samples);
     for (const RadianceMap& map : maps) key(frame_of(map));
   };
   const auto compute = [&]() -> Status {
     std::atomic<std::uint64_t> rays{0};
     ResidualMaker maker(surroundings, outgoing, eyes, options, context, &rays);
-    ORIEL_TRY(auto map, maker.make(reflector, maps, bytes));
-    if (map) made.map.push_back(std::move(*map));
+    ORIEL_TRY(made.maps, maker.make(reflector, maps, bytes));
     made.reduced = maker.reduced;
     made.rays = rays;
     return {};
   };
   ORIEL_TRY_VOID(one_unit(context, "residual", inputs, compute,
-                          [&](Archive& archive) { archive(made.map, made.reduced, made.rays); }));
+                          [&](Archive& archive) { archive(made.maps, made.reduced, made.rays); }));
   return made;
 }
 
@@ -251,7 +312,7 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
     const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
     const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
     ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
-    for (const RadianceMap& map : made.map) used += map_bytes(map.width, map.height);
+    for (const RadianceMap& map : made.maps) used += map_bytes(map.width, map.height);
     reduced += made.reduced;
     if (rays) *rays += made.rays;
     residuals.push_back(std::move(made));
@@ -264,7 +325,7 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
     Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span(plan.maps).subspan(reflector.first_map, reflector.map_count);
     reflector.first_map = static_cast<std::uint32_t>(all.size());
-    append_with_residual(own, std::move(residuals[r].map), all);
+    append_with_residuals(own, std::move(residuals[r].maps), all);
     reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
   }
   plan.maps = std::move(all);

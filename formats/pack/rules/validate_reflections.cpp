@@ -79,6 +79,26 @@ void validate_elements(const Pack& pack, IssueList& list) {
   }
 }
 
+void validate_map_meshes(const Pack& pack, IssueList& list) {
+  list.in_section(kMapMeshSection);
+  const std::size_t meshes = pack.map_meshes.size();
+  if (meshes != 0 && meshes != pack.radiance_maps.size())
+    list.error(427, "found {} meshes of {} radiance maps, expected one each, or none", meshes,
+               pack.radiance_maps.size());
+  for (std::size_t i = 0; i < meshes; ++i) {
+    const MapMesh& mesh = pack.map_meshes[i];
+    list.in_section(kMapMeshSection, i);
+    list.each(
+        428, "vertices", mesh.vertices, [](const Vec3& v) { return within(v, 0, 1); },
+        [](const Vec3& v) { return text_of(v); }, "0 to 1");
+    const auto bad = std::count_if(mesh.indices.begin(), mesh.indices.end(),
+                                   [&](std::uint32_t v) { return v >= mesh.vertices.size(); });
+    if (bad > 0 || mesh.indices.size() % 3 != 0)
+      list.error(429, "found {} indices, {} of them not below {}, expected triangles of those vertices",
+                 mesh.indices.size(), bad, mesh.vertices.size());
+  }
+}
+
 void validate_emitters(const Pack& pack, IssueList& list) {
   list.in_section(kEmitterSection);
   for (std::size_t i = 0; i < pack.emitters.size(); ++i) {

@@ -26,15 +26,22 @@ float disparity_at(const Relief& relief, const Vec2& at) {
 
 // The same over the surface around a texel of it.
 float on_surface(float s, float surface) {
-  return std::clamp(s, surface / (1 + kConnected), surface * (1 + kConnected));
+  return std::clamp(s, surface / (1 + kNear), surface * (1 + kNear));
 }
 
-// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
+// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`: both are on one plane by the
+// slopes before and behind, or those planes meet between them.
 bool is_connected(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
   const float last = relief.at(map_texel(ray, begin, relief.size));
+  const float earlier = relief.at(map_texel(ray, std::max(begin - 1, 0.0f), relief.size));
   const float after = relief.at(map_texel(ray, std::min(end + 1, ray.length), relief.size));
-  const float rise = surface - last, further = std::copysign(2.0f, rise) * (after - surface);
-  return surface <= 1 && std::fabs(rise) <= std::max(kConnected * surface, further);
+  const auto unit = static_cast<float>(std::max(relief.size.x, relief.size.y));
+  const float first = unit * (last - (surface - (after - surface)));
+  const float second = unit * (last + (last - earlier) - surface);
+  const float least = std::min(std::fabs(first), std::fabs(second)),
+              most = std::max(std::fabs(first), std::fabs(second));
+  const bool meet = (first <= 0) != (second <= 0) || least <= kGap;
+  return surface <= 1 && last <= 1 && (most <= kGap || (meet && unit * std::fabs(surface - last) <= kSteep));
 }
 
 // The crossing in [begin, end], found by false position.
