@@ -46,7 +46,7 @@ struct Pack {
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
   std::vector<MapMesh> map_meshes;  // of each radiance map, or none
-  std::vector<Emitter> emitters;  // that reflectors show in closed form
+  std::vector<Emitter> emitters;    // that reflectors show in closed form
   std::vector<CurvedReflector> curved_reflectors;
   std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;

@@ -83,6 +83,7 @@ void MeshPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& 
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_mirrored)[2]);
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
+  program_.set("u_near", view.orthographic ? 0.0f : view.near);
   program_.set("u_closest", kClosest);
   program_.set("u_light", 0);
   program_.set("u_disparity", 1);

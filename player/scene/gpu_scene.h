@@ -119,7 +119,8 @@ class GpuScene {
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
   }
-  // Whether the pack has meshes of its radiance maps; that of Pack::radiance_maps[index], uploaded on first use and kept.
+  // Whether the pack has meshes of its radiance maps; that of Pack::radiance_maps[index], uploaded on first use and
+  // kept.
   bool has_map_meshes() const { return !map_meshes_.empty(); }
   const GpuMapMesh& map_mesh(std::uint32_t index) { return map_meshes_.get(index, pack_.map_meshes); }
   const SurroundTextures& surround_map(std::uint32_t index) const { return images_->surround(index); }

@@ -11,7 +11,9 @@ in vec3 v_place;
 in vec4 v_point;
 layout(location = 0) out vec4 o_light;
 
-const float kMixed = 0.03;  // relative: beside another surface, whose light is not mixed in
+// Of disparity, in pixels of shift seen from as far away as the element is wide: beside another surface, whose light is not mixed in.
+const float kOfCodes = 65535.0 / 32767.0;  // 16 bits hold a disparity as a share of it
+const float kMixed = 0.5;
 
 // The pixel beside which this surface lies whose disparity is most like its own.
 vec2 own_pixel(vec2 at, float disparity) {
@@ -20,7 +22,7 @@ vec2 own_pixel(vec2 at, float disparity) {
   float least = 1e30;
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = clamp(low + ivec2(i & 1, i >> 1), ivec2(0), ivec2(u_size) - 1);
-    float off = abs(texelFetch(u_disparity, ivec3(pixel, int(u_layer)), 0).r - disparity);
+    float off = abs(kOfCodes * texelFetch(u_disparity, ivec3(pixel, int(u_layer)), 0).r - disparity);
     if (off < least) {
       least = off;
       best = vec2(pixel) + 0.5;
@@ -33,8 +35,8 @@ void main() {
   vec2 dx = dFdx(v_place.xy), dy = dFdy(v_place.xy);
   vec2 at = v_place.xy;
   vec2 inside = clamp(at, vec2(0.5), u_size - 0.5);
-  float mixed = textureLod(u_disparity, vec3(inside / vec2(textureSize(u_disparity, 0).xy), u_layer), 0.0).r;
-  if (abs(mixed - v_place.z) > kMixed * v_place.z) at = own_pixel(at, v_place.z);
+  float mixed = kOfCodes * textureLod(u_disparity, vec3(inside / vec2(textureSize(u_disparity, 0).xy), u_layer), 0.0).r;
+  if (abs(mixed - v_place.z) * max(u_size.x, u_size.y) > kMixed) at = own_pixel(at, v_place.z);
   // Of a pixel that is long in the map, half way between its sides.
   float level = 0.25 * log2(max(dot(dx, dx), 1e-12) * max(dot(dy, dy), 1e-12));
   float coarsest = floor(log2(max(u_size.x, u_size.y)) + 1e-3);

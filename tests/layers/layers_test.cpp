@@ -100,10 +100,11 @@ const std::map<std::string, std::set<std::string>> kArrows = [] {
   m["bake/ledger"] = plus(
       stage, {"bake/radiosity", "bake/radiosity/texels", "bake/trace/particles"});  // a check of what radiosity made
   m["bake/run"] =
-      plus(stage, {"bake/radiosity", "bake/ledger", "bake/radiance", "bake/material", "bake/transfer",
-                   "bake/scene/motion", "bake/lux", "bake/radiance/curved", "bake/radiance/emitters",
-                   "bake/radiance/mesh", "bake/radiance/plan", "bake/radiance/reuse", "bake/radiosity/frames", "bake/visibility", "bake/walk",
-                   "formats/cli", "formats/motion", "formats/pack", "formats/image", "formats/visibility"});
+      plus(stage, {"bake/radiosity",         "bake/ledger",        "bake/radiance",      "bake/material",
+                   "bake/transfer",          "bake/scene/motion",  "bake/lux",           "bake/radiance/curved",
+                   "bake/radiance/emitters", "bake/radiance/mesh", "bake/radiance/plan", "bake/radiance/reuse",
+                   "bake/radiosity/frames",  "bake/visibility",    "bake/walk",          "formats/cli",
+                   "formats/motion",         "formats/pack",       "formats/image",      "formats/visibility"});
   m["bake/plan"] = plus(m["bake/run"], {"bake/run"});
   // Measures the programs from outside: it knows packs and pictures, and no stage.
   m["tools/trade"] =

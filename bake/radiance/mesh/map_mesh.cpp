@@ -17,7 +17,8 @@ constexpr float kStraightened = 0.5f;  // pixels: most that a vertex of an edge 
 // Vertices on the edge of what is connected, with the two beside them along it: where just one edge passes.
 class Outlines {
  public:
-  explicit Outlines(const GridMesh& mesh) : before_(mesh.positions.size(), kNone), after_(before_), edges_(before_.size()) {
+  explicit Outlines(const GridMesh& mesh)
+      : before_(mesh.positions.size(), kNone), after_(before_), edges_(before_.size()) {
     std::unordered_map<std::uint64_t, int> sides;
     sides.reserve(mesh.indices.size());
     const auto each = [&](const auto& take) {

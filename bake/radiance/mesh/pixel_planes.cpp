@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kMostHidden = 16;         // surfaces in front of one that a residual shows
+constexpr int kMostHidden = 16;          // surfaces in front of one that a residual shows
 constexpr float kSameDisparity = 1e-3f;  // relative: of a surface that is looked at again
 constexpr float kEdgeOn = 1e-4f;         // cosine at which a plane has no image
 

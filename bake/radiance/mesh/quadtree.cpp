@@ -8,8 +8,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kLargest = 64;     // pixels of a square's side
-constexpr float kFlat = 0.05f;   // in pixels of shift (SurfaceGrid::pixels_of_disparity): off a square's plane
+constexpr int kLargest = 64;    // pixels of a square's side
+constexpr float kFlat = 0.05f;  // in pixels of shift (SurfaceGrid::pixels_of_disparity): off a square's plane
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 struct Square {
@@ -82,7 +82,8 @@ class Squares {
           return false;
     }
     for (int i = 0; i < s.side; ++i)
-      if (!grid_.connected(s.at + IVec2(half - 1, i), 0) || !grid_.connected(s.at + IVec2(i, half - 1), 1)) return false;
+      if (!grid_.connected(s.at + IVec2(half - 1, i), 0) || !grid_.connected(s.at + IVec2(i, half - 1), 1))
+        return false;
     return true;
   }
 

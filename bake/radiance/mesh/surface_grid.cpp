@@ -41,7 +41,8 @@ bool SurfaceGrid::are_connected(const PixelPlane& a, const PixelPlane& b, int ax
 
 unsigned SurfaceGrid::around(const IVec2& point, int from) const {
   const auto joined = [&](int i) {  // of numbers i and i + 1
-    const IVec2 a = point + kAround[static_cast<std::size_t>(i)], b = point + kAround[static_cast<std::size_t>((i + 1) % 4)];
+    const IVec2 a = point + kAround[static_cast<std::size_t>(i)],
+                b = point + kAround[static_cast<std::size_t>((i + 1) % 4)];
     if (!inside(a) || !inside(b)) return false;
     return a.y == b.y ? connected(a.x < b.x ? a : b, 0) : connected(a.y < b.y ? a : b, 1);
   };

@@ -21,7 +21,9 @@ class SurfaceGrid {
 
   // Numbers the vertex in which the pixel's corner (0 to 1 along each axis) takes part, below vertex_slots().
   std::size_t vertex_slot(const IVec2& pixel, const IVec2& corner) const;
-  std::size_t vertex_slots() const { return 4 * static_cast<std::size_t>(size_.x + 1) * static_cast<std::size_t>(size_.y + 1); }
+  std::size_t vertex_slots() const {
+    return 4 * static_cast<std::size_t>(size_.x + 1) * static_cast<std::size_t>(size_.y + 1);
+  }
   // Of that vertex: pixels from the map's corner, disparity as the planes around have it on average.
   struct Vertex {
     Vec2 at{0};

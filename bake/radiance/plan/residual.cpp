@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint32_t kLeastResolution = 16;
 constexpr int kMaxHidden = 16;         // surfaces in front of a missing one
-constexpr double kHelps = 0.9;         // of what a camera misses, that another residual leaves at most
 constexpr float kSameSurface = 0.03f;  // relative distance from a missing sample's tangent plane
 
 bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
@@ -22,17 +21,49 @@ bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
          pixel.y < static_cast<float>(map.height);
 }
 
-// The map of the reflector in whose window most of the samples' weight lies, in an element that can have one more; null
-// where none has any.
-const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
-  const RadianceMap* best = nullptr;
+// Where a residual is taken from.
+struct Host {
+  Vec3 eye{0};
+  Element element;
+  std::uint32_t resolution = 0;
+  bool has_emission = false;
+};
+
+Host host_of(const RadianceMap& map) {
+  return {map.eye, {map.lower, map.upper, map.element}, std::max(map.width, map.height), map.has_emission};
+}
+
+bool has_room(std::span<const RadianceMap> maps, std::uint32_t element) {
+  const auto of_it = [&](const RadianceMap& map) { return map.element == element; };
+  return std::count_if(maps.begin(), maps.end(), of_it) < std::ptrdiff_t{kMostMapsPerElement};
+}
+
+// The map of the reflector in whose window most of the samples' weight lies; none where none has any.
+std::optional<Host> best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
+  std::optional<Host> best;
   double most = 0;
   for (const RadianceMap& map : maps) {
-    const auto beside = [&](const RadianceMap& m) { return m.element == map.element; };
-    if (map.residual || std::count_if(maps.begin(), maps.end(), beside) >= std::ptrdiff_t{kMostMapsPerElement}) continue;
     double weight = 0;
     for (const ReflectedSample& s : missing) weight += is_in_window(map, s) ? s.weight : 0;
-    if (weight > most) best = &map, most = weight;
+    if (weight > most && has_room(maps, map.element)) best = host_of(map), most = weight;
+  }
+  return best;
+}
+
+// The mirror image of the eye of these samples, before the element in which most of their weight lies.
+std::optional<Host> camera_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
+  std::optional<Host> best;
+  double most = 0;
+  for (const RadianceMap& map : maps) {
+    double weight = 0;
+    for (const ReflectedSample& s : missing)
+      weight += glm::all(glm::greaterThanEqual(Vec2(s.on_plane), map.lower)) &&
+                        glm::all(glm::lessThanEqual(Vec2(s.on_plane), map.upper))
+                    ? s.weight
+                    : 0;
+    if (map.residual || !(weight > most) || !has_room(maps, map.element)) continue;
+    best = host_of(map), most = weight;
+    best->eye = missing[0].eye * Vec3(1, 1, -1);
   }
   return best;
 }
@@ -142,8 +173,9 @@ class ResidualMaker {
   Result<std::vector<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> own,
                                         std::uint64_t bytes) {
     std::vector<RadianceMap> maps(own.begin(), own.end()), made;
-    const auto add = [&](std::span<const ReflectedSample> missing) -> Result<bool> {
-      ORIEL_TRY(auto map, map_of(reflector, maps, missing, bytes));
+    const auto add = [&](const std::optional<Host>& host, std::span<const ReflectedSample> missing) -> Result<bool> {
+      if (!host) return false;
+      ORIEL_TRY(auto map, map_of(reflector, maps, *host, missing, bytes));
       if (!map) return false;
       bytes -= std::min(bytes, map_bytes(map->width, map->height));
       maps.push_back(*map);
@@ -151,15 +183,14 @@ class ResidualMaker {
       return true;
     };
     ORIEL_TRY(const auto missing, find_missing(reflector, maps));
-    ORIEL_TRY_VOID(add(missing));
+    ORIEL_TRY_VOID(add(best_host(maps, missing), missing));
     ORIEL_TRY(auto cameras, see_by_camera(reflector));
-    for (double before = 2; !cameras.empty();) {
-      std::vector<ReflectedSample> left;
-      ORIEL_TRY(const double worst, leave_unseen(maps, cameras, left));
-      if (worst <= options_.most_missing || worst > kHelps * before) break;
-      before = worst;
-      ORIEL_TRY(const bool more, add(left));
-      if (!more) break;
+    while (!cameras.empty()) {
+      ORIEL_TRY_VOID(leave_unseen(maps, cameras));
+      if (cameras.empty()) break;
+      const std::vector<ReflectedSample> worst = std::move(cameras.front());
+      cameras.erase(cameras.begin());
+      ORIEL_TRY_VOID(add(camera_host(maps, worst), worst));
     }
     return made;
   }
@@ -167,18 +198,16 @@ class ResidualMaker {
   std::uint32_t reduced = 0;
 
  private:
-  // Of samples that no map shows; none where no map has them in line.
+  // Of samples that no map shows.
   Result<std::optional<RadianceMap>> map_of(std::uint32_t reflector, std::span<const RadianceMap> maps,
-                                            std::span<const ReflectedSample> missing, std::uint64_t bytes) {
-    const RadianceMap* host = best_host(maps, missing);
-    if (!host) return std::nullopt;
-    const Element element{host->lower, host->upper, host->element};
-    const std::uint32_t wanted = std::min(options_.max_resolution, std::max(host->width, host->height));
-    const std::uint32_t resolution = fitting_resolution(element, wanted, bytes);
+                                            const Host& host, std::span<const ReflectedSample> missing,
+                                            std::uint64_t bytes) {
+    const std::uint32_t wanted = std::min(options_.max_resolution, host.resolution);
+    const std::uint32_t resolution = fitting_resolution(host.element, wanted, bytes);
     reduced += resolution < wanted;
     if (resolution == 0) return std::nullopt;
-    RadianceMap map = blank_map(reflector, host->eye, element, resolution);
-    map.has_emission = host->has_emission;
+    RadianceMap map = blank_map(reflector, host.eye, host.element, resolution);
+    map.has_emission = host.has_emission;
     map.residual = true;
     const std::size_t pixels = std::size_t{map.width} * map.height;
     map.radiance.assign(pixels, Vec3(0));
@@ -208,10 +237,14 @@ class ResidualMaker {
     return seen;
   }
 
-  // Leaves each camera those samples that none of the maps shows, all of them in `left` too. The most that one misses.
-  Result<double> leave_unseen(std::span<const RadianceMap> maps, std::vector<std::vector<ReflectedSample>>& cameras,
-                              std::vector<ReflectedSample>& left) {
-    double worst = 0;
+  // Leaves each camera those samples that none of the maps shows, and those cameras that miss too much: the worst
+  // first.
+  Status leave_unseen(std::span<const RadianceMap> maps, std::vector<std::vector<ReflectedSample>>& cameras) {
+    const auto missed = [](const std::vector<ReflectedSample>& samples) {
+      double weight = 0;
+      for (const ReflectedSample& s : samples) weight += s.weight;
+      return weight;
+    };
     for (std::vector<ReflectedSample>& samples : cameras) {
       std::vector<std::uint8_t> unseen(samples.size());
       ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
@@ -220,12 +253,11 @@ class ResidualMaker {
       }));
       std::size_t i = 0;
       std::erase_if(samples, [&](const ReflectedSample&) { return unseen[i++] == 0; });
-      double missing = 0;
-      for (const ReflectedSample& s : samples) missing += s.weight;
-      worst = std::max(worst, missing);
-      if (missing > options_.most_missing) left.insert(left.end(), samples.begin(), samples.end());
     }
-    return worst;
+    std::erase_if(cameras, [&](const auto& samples) { return missed(samples) <= options_.most_missing; });
+    std::stable_sort(cameras.begin(), cameras.end(),
+                     [&](const auto& a, const auto& b) { return missed(a) > missed(b); });
+    return {};
   }
 
   // Samples of surfaces and the sky that no map sees; none where they are not worth a map.

@@ -17,12 +17,13 @@ struct ResidualOptions {
   // samples for each of them.
   std::span<const Vec3> cameras{};
   double most_missing = 1e-3;
-  std::uint32_t camera_samples = 8192;
+  std::uint32_t camera_samples = 2048;
 };
 
-// Adds residual maps to each reflector whose maps (captured) miss some of what eyes (scene space) see in it: with the
-// eye and element of that map of its from which most of the missing is in line, valid only where they hold it. One for
-// what eyes miss on the mean, then more while a camera misses too much and another one helps. They are put behind that
+// Adds residual maps to each reflector whose maps (captured) miss some of what eyes (scene space) see in it, valid only
+// where they hold it. One for what eyes miss on the mean, with the eye and element of that map of its from which most
+// of the missing is in line; then one for each camera that misses too much, the worst first, from its own mirror image,
+// until none does or an element has as many maps as the player asks. They are put behind that
 // element's other maps, and the reflectors' maps are numbered anew. Where memory_bytes does not suffice, those of the
 // least important reflectors are made smaller or left out, as plan.omitted says. Adds to `rays` (may be null). The same
 // for any number of threads. Error kStopped.

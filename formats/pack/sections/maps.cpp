@@ -265,7 +265,9 @@ void describe(Serial& s, MapMesh& mesh) {
   const std::uint32_t vertices = s.count(mesh.vertices), indices = s.count(mesh.indices);
   s.coded<Codes>(
       mesh.vertices, vertices,
-      [&](const Vec3& v) { return Codes{code_of_share(v.x), code_of_share(v.y), code_from_disparity(v.z, shift)}; },
+      [&](const Vec3& v) {
+        return Codes{code_of_share(v.x), code_of_share(v.y), code_from_disparity(v.z, shift)};
+      },
       [&](const Codes& c, std::size_t) {
         return Vec3(c[0] / 65535.0f, c[1] / 65535.0f, disparity_from_code(c[2], shift));
       });

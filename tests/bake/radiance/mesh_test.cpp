@@ -130,8 +130,7 @@ TEST(MapMesh, StepsAreCut) {
 }
 
 TEST(MapMesh, WhatWasNotSeenHasNoTriangle) {
-  const auto planes =
-      planes_of([](const Vec2& p) { return glm::length(p - 32.0f) < 12 ? PixelPlane() : floor_at(p); });
+  const auto planes = planes_of([](const Vec2& p) { return glm::length(p - 32.0f) < 12 ? PixelPlane() : floor_at(p); });
   expect_equal(mesh_of(planes, kMap, {}), planes);
   EXPECT_TRUE(mesh_of(planes_of([](const Vec2&) { return PixelPlane(); }), kMap, {}).indices.empty());
 }
@@ -167,7 +166,8 @@ TEST(MapMesh, ARoomsMapIsItsWalls) {
       EXPECT_TRUE(d0 * d1 <= 1e-9f || std::min(std::abs(d0), std::abs(d1)) < 1e-4f) << "walls meet without a step";
     }
     const MapMesh mesh = mesh_of(planes, IVec2(map.width, map.height), {});
-    EXPECT_LT(mesh.indices.size(), 3 * 60u) << "five walls and where they meet";
+    EXPECT_LT(mesh.indices.size() / 3, map.valid.size() / 25)
+        << "five walls and where they meet: 2 % of the pixels' triangles";
   }
 }
 
