@@ -19,12 +19,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048, kCameraSamples = 4096;
+constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048, kCameraSamples = 2048;
 constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
-constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
-constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
-constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
-constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
+constexpr std::uint32_t kTried = 8,
+                        kLeastSide = 16;  // to time capture, a map's sides are divided by; when made smaller
+constexpr double kPixel_s = 1e-6;         // of surround maps, where no planar map tells
+constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
 
 std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
@@ -131,7 +131,17 @@ Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& 
   return {};
 }
 
-// Those that maps are judged by: eyes that were not planned for, all together, and each camera for itself.
+// Of eyes that are given those that are asked one by one: the first, which are cameras, and some of the others, which
+// may be hundreds of a path's keys.
+std::vector<Vec3> cameras_of(std::span<const Vec3> given) {
+  constexpr std::size_t kFirst = 16, kOthers = 8;
+  const std::size_t first = std::min(given.size(), kFirst), others = given.size() - first;
+  std::vector<Vec3> cameras(given.begin(), given.begin() + static_cast<int>(first));
+  for (std::size_t i = 0; i < std::min(others, kOthers); ++i) cameras.push_back(given[first + i * others / kOthers]);
+  return cameras;
+}
+
+// Eyes that were not planned for, and cameras.
 struct Judges {
   std::vector<Vec3> eyes, cameras;
 };
@@ -372,12 +382,12 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
   if (options.view_scheme == ViewScheme::kPlanned) {
-    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes, .cameras = region.points};
+    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
-  const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), region.points};
   ORIEL_TRY_VOID(judge(surroundings, plan.maps, judges, to_planar, context, rays, report));
   ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;

@@ -15,16 +15,18 @@ layout(location = 0) out vec4 o_light;
 const float kOfCodes = 65535.0 / 32767.0;  // 16 bits hold a disparity as a share of it
 const float kMixed = 0.5;
 
-// The pixel beside which this surface lies whose disparity is most like its own.
-vec2 own_pixel(vec2 at, float disparity) {
+// The nearest of the four pixels around that lies on the same plane (its disparity's slope by pixel), or else nearest to it.
+vec2 own_pixel(vec2 at, float disparity, vec2 slope) {
   ivec2 low = ivec2(floor(at - 0.5));
   vec2 best = at;
   float least = 1e30;
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = clamp(low + ivec2(i & 1, i >> 1), ivec2(0), ivec2(u_size) - 1);
-    float off = abs(kOfCodes * texelFetch(u_disparity, ivec3(pixel, int(u_layer)), 0).r - disparity);
-    if (off < least) {
-      least = off;
+    vec2 away = vec2(pixel) + 0.5 - at;
+    float off = kOfCodes * texelFetch(u_disparity, ivec3(pixel, int(u_layer)), 0).r - disparity - dot(slope, away);
+    float cost = max(abs(off) * max(u_size.x, u_size.y) - kMixed, 0.0) * 100.0 + dot(away, away);
+    if (cost < least) {
+      least = cost;
       best = vec2(pixel) + 0.5;
     }
   }
@@ -32,13 +34,15 @@ vec2 own_pixel(vec2 at, float disparity) {
 }
 
 void main() {
-  vec2 dx = dFdx(v_place.xy), dy = dFdy(v_place.xy);
+  vec3 dx = dFdx(v_place), dy = dFdy(v_place);
+  float area = dx.x * dy.y - dx.y * dy.x;
+  vec2 slope = vec2(dx.z * dy.y - dy.z * dx.y, dy.z * dx.x - dx.z * dy.x) / (abs(area) < 1e-12 ? 1e-12 : area);
   vec2 at = v_place.xy;
   vec2 inside = clamp(at, vec2(0.5), u_size - 0.5);
   float mixed = kOfCodes * textureLod(u_disparity, vec3(inside / vec2(textureSize(u_disparity, 0).xy), u_layer), 0.0).r;
-  if (abs(mixed - v_place.z) * max(u_size.x, u_size.y) > kMixed) at = own_pixel(at, v_place.z);
+  if (abs(mixed - v_place.z) * max(u_size.x, u_size.y) > kMixed) at = own_pixel(at, v_place.z, slope);
   // Of a pixel that is long in the map, half way between its sides.
-  float level = 0.25 * log2(max(dot(dx, dx), 1e-12) * max(dot(dy, dy), 1e-12));
+  float level = 0.25 * log2(max(dot(dx.xy, dx.xy), 1e-12) * max(dot(dy.xy, dy.xy), 1e-12));
   float coarsest = floor(log2(max(u_size.x, u_size.y)) + 1e-3);
   level = clamp(level, 0.0, coarsest);
   float texel = exp2(ceil(level));  // beyond the map's own texels of a level lies nothing

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kSmoothings = 8;
 constexpr float kStraightened = 0.5f;  // pixels: most that a vertex of an edge moves
+constexpr float kTucked = 0.75f;       // pixels by which a surface goes on behind a nearer one
 
 // Vertices on the edge of what is connected, with the two beside them along it: where just one edge passes.
 class Outlines {
@@ -46,7 +47,8 @@ class Outlines {
   std::vector<std::uint32_t> before_, after_, edges_;
 };
 
-// Steps of pixels become the lines that they stand for.
+// Steps of pixels become the lines that they stand for. What ends at something nearer goes on behind it a little, so
+// that from beside the map's eye no gap opens along a silhouette.
 void straighten(const IVec2& size, GridMesh& mesh) {
   const Outlines outlines(mesh);
   std::vector<Vec2> at(mesh.positions.begin(), mesh.positions.end()), next = at;
@@ -63,6 +65,14 @@ void straighten(const IVec2& size, GridMesh& mesh) {
     next = at;
   }
   const float most = static_cast<float>(std::max(size.x, size.y));
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    const Vec2 own(mesh.positions[v]);
+    const bool on_frame = own.x <= 0 || own.y <= 0 || own.x >= end.x || own.y >= end.y;
+    if (mesh.behind[v] == 0 || on_frame || !outlines.passes(v)) continue;
+    const Vec2 along = at[outlines.after(v)] - at[outlines.before(v)];  // the surface lies to the left
+    if (glm::length(along) > 0) next[v] = at[v] + kTucked * glm::normalize(Vec2(along.y, -along.x));
+  }
+  at = next;
   for (std::size_t v = 0; v < at.size(); ++v) {
     Vec3& p = mesh.positions[v];
     p.z = std::clamp(p.z + glm::dot(mesh.slopes[v], at[v] - Vec2(p)), 0.0f, most);

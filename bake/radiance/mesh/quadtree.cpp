@@ -95,6 +95,7 @@ class Squares {
     vertex = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.emplace_back(v.at, unit * v.disparity);
     mesh_.slopes.push_back(unit * v.slope);
+    mesh_.behind.push_back(v.behind);
     return vertex;
   }
 

@@ -8,7 +8,8 @@ namespace oriel {
 // A mesh over a map: (x, y) in pixels, and disparity times SurfaceGrid::pixels_of_disparity().
 struct GridMesh {
   std::vector<Vec3> positions;
-  std::vector<Vec2> slopes;  // of the third coordinate, by pixel
+  std::vector<Vec2> slopes;          // of the third coordinate, by pixel
+  std::vector<std::uint8_t> behind;  // SurfaceGrid::Vertex's
   std::vector<std::uint32_t> indices;
 };
 

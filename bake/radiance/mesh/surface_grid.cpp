@@ -66,7 +66,7 @@ SurfaceGrid::Vertex SurfaceGrid::vertex(const IVec2& pixel, const IVec2& corner)
   const IVec2 point = pixel + corner;
   const unsigned found = around(point, number_around(corner));
   float least = 1, most = 0, count = 0;
-  Vertex out{Vec2(point), 0, Vec2(0)};
+  Vertex out{Vec2(point), 0, Vec2(0), false};
   for (std::size_t i = 0; i < kAround.size(); ++i) {
     const IVec2 at = point + kAround[i];
     if (!inside(at) || !plane(at).seen()) continue;
@@ -79,6 +79,7 @@ SurfaceGrid::Vertex SurfaceGrid::vertex(const IVec2& pixel, const IVec2& corner)
   // Half a pixel beyond a surface's end its plane may be anywhere; what lies beside it bounds it.
   out.disparity = std::clamp(out.disparity / count, (1 - kOvershoot) * least, std::min(1.0f, (1 + kOvershoot) * most));
   out.slope /= count;
+  out.behind = pixels_of_disparity() * (most - out.disparity) > kGap;
   return out;
 }
 

@@ -29,6 +29,7 @@ class SurfaceGrid {
     Vec2 at{0};
     float disparity = 0;
     Vec2 slope{0};
+    bool behind = false;  // something nearer begins there
   };
   Vertex vertex(const IVec2& pixel, const IVec2& corner) const;
 

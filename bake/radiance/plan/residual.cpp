@@ -110,10 +110,6 @@ class ResidualCapture {
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
       if (rays_) *rays_ += seen.rays;
-      const auto is_shown = [&](const ReflectedSample& found) {
-        const auto shown = [&](const RadianceMap& map) { return shows(surroundings_, map, found); };
-        return std::any_of(others_.begin(), others_.end(), shown);
-      };
       if (sky && seen.sight.state == Sight::kSky) {
         ReflectedSample found = aim;
         found.on_plane = q;
@@ -140,7 +136,36 @@ class ResidualCapture {
     }
   }
 
+  // What the pixel's ray meets first, if no other map shows it.
+  void capture_first(std::size_t at) {
+    const Vec3 q(map_point(map_, Vec2(at % map_.width, at / map_.width) + 0.5f), 0);
+    const Vec3 along = glm::normalize(q - map_.eye);
+    const Vec3 from = pack_from_reflector(reflector_, q);
+    const Vec3 direction = glm::normalize(Mat3(reflector_.pack_from_reflector) * along);
+    const Sight sight = surroundings_.look(map_.reflector, from, direction, [](const SeenSurface&) { return false; });
+    if (rays_) *rays_ += sight.rays;
+    if (sight.state == Sight::kNothing) return;
+    const bool sky = sight.state == Sight::kSky;
+    ReflectedSample found;
+    found.on_plane = q;
+    found.image = sky ? Vec4(along, 0) : Vec4(q + glm::length(sight.offset) * along, 1);
+    found.normal = glm::transpose(Mat3(reflector_.pack_from_reflector)) * sight.normal;
+    found.spacing = 1;
+    found.sky = sky || sight.backdrop;
+    if (is_shown(found)) return;
+    const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
+    if (rays_) *rays_ += seen.rays;
+    map_.radiance[at] = seen.radiance;
+    map_.disparity[at] = sky ? 0 : disparity_of(map_, found.image.z);
+    map_.valid[at] = static_cast<std::uint8_t>(sight.state);
+  }
+
  private:
+  bool is_shown(const ReflectedSample& found) const {
+    return std::any_of(others_.begin(), others_.end(),
+                       [&](const RadianceMap& map) { return shows(surroundings_, map, found); });
+  }
+
   const ReflectedSurroundings& surroundings_;
   const Reflector& reflector_;
   const OutgoingRadiance& outgoing_;
@@ -183,14 +208,14 @@ class ResidualMaker {
       return true;
     };
     ORIEL_TRY(const auto missing, find_missing(reflector, maps));
-    ORIEL_TRY_VOID(add(best_host(maps, missing), missing));
+    if (!missing.empty()) ORIEL_TRY_VOID(add(best_host(maps, missing), missing));
     ORIEL_TRY(auto cameras, see_by_camera(reflector));
     while (!cameras.empty()) {
       ORIEL_TRY_VOID(leave_unseen(maps, cameras));
       if (cameras.empty()) break;
       const std::vector<ReflectedSample> worst = std::move(cameras.front());
       cameras.erase(cameras.begin());
-      ORIEL_TRY_VOID(add(camera_host(maps, worst), worst));
+      ORIEL_TRY_VOID(add(camera_host(maps, worst), {}));
     }
     return made;
   }
@@ -198,7 +223,7 @@ class ResidualMaker {
   std::uint32_t reduced = 0;
 
  private:
-  // Of samples that no map shows.
+  // Of samples that no map shows; without any, of all from there that none does.
   Result<std::optional<RadianceMap>> map_of(std::uint32_t reflector, std::span<const RadianceMap> maps,
                                             const Host& host, std::span<const ReflectedSample> missing,
                                             std::uint64_t bytes) {
@@ -216,7 +241,10 @@ class ResidualMaker {
     ResidualCapture capture(surroundings_, outgoing_, maps, map, rays_);
     const auto aims = capture.aims(missing, options_.spread);
     ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
-      if (aims[i]) capture.capture(i, *aims[i]);
+      if (missing.empty())
+        capture.capture_first(i);
+      else if (aims[i])
+        capture.capture(i, *aims[i]);
     }));
     if (std::all_of(map.valid.begin(), map.valid.end(), [](std::uint8_t v) { return v == 0; })) return std::nullopt;
     return map;
