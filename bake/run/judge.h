@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/radiance/capture.h"
-#include "bake/radiance/plan/samples.h"
+#include "bake/radiance/samples.h"
 
 namespace oriel {
 
@@ -22,5 +22,10 @@ Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, st
                                    std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
                                    const OutgoingRadiance& outgoing, Context& context,
                                    std::atomic<std::uint64_t>& rays);
+
+// What that of the cameras (scene space) which sees least of a reflector sees in its maps: a share of what it sees in
+// it. Error kStopped.
+Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                          std::span<const RadianceMap> own, std::span<const Vec3> cameras, Context& context);
 
 }  // namespace oriel

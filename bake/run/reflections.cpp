@@ -6,10 +6,10 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/radiance/curved/surround_capture.h"
-#include "bake/radiance/emitters/emitters.h"
-#include "bake/radiance/mesh/map_mesh.h"
-#include "bake/radiance/plan/residual.h"
+#include "bake/radiance/emitters.h"
+#include "bake/radiance/map_mesh.h"
+#include "bake/radiance/residual.h"
+#include "bake/radiance/surround_capture.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
@@ -19,12 +19,12 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048, kCameraSamples = 2048;
+constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
 constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
-constexpr std::uint32_t kTried = 8,
-                        kLeastSide = 16;  // to time capture, a map's sides are divided by; when made smaller
-constexpr double kPixel_s = 1e-6;         // of surround maps, where no planar map tells
-constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
+constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
+constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
+constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
+constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
 
 std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
@@ -136,7 +136,8 @@ Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& 
 std::vector<Vec3> cameras_of(std::span<const Vec3> given) {
   constexpr std::size_t kFirst = 16, kOthers = 8;
   const std::size_t first = std::min(given.size(), kFirst), others = given.size() - first;
-  std::vector<Vec3> cameras(given.begin(), given.begin() + static_cast<int>(first));
+  std::vector<Vec3> cameras;
+  for (std::size_t i = 0; i < first; ++i) cameras.push_back(given[i]);
   for (std::size_t i = 0; i < std::min(others, kOthers); ++i) cameras.push_back(given[first + i * others / kOthers]);
   return cameras;
 }
@@ -145,18 +146,6 @@ std::vector<Vec3> cameras_of(std::span<const Vec3> given) {
 struct Judges {
   std::vector<Vec3> eyes, cameras;
 };
-
-// What the camera that sees least of a reflector sees in its maps.
-Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
-                          std::span<const RadianceMap> own, std::span<const Vec3> cameras, Context& context) {
-  double worst = 1;
-  for (const Vec3& camera : cameras) {
-    ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings, reflector, {&camera, 1}, kCameraSamples, context.seed + 4, context));
-    if (!samples.empty()) worst = std::min(worst, judge_maps(surroundings, own, samples, context).seen);
-  }
-  return worst;
-}
 
 Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, const Judges& judges,
              const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,

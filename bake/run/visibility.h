@@ -3,7 +3,7 @@
 
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 
 namespace oriel {
 

@@ -11,13 +11,13 @@
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
+#include "player/passes/survey_pass.h"
 #include "player/reflections/convolve_pass.h"
 #include "player/reflections/curved_pass.h"
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/mesh_pass.h"
 #include "player/reflections/reproject_pass.h"
-#include "player/survey/survey_pass.h"
 
 namespace oriel {
 

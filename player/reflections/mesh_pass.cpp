@@ -62,7 +62,7 @@ bool shows(const ReflectorElement& element, const Mat4& image_from_reflector) {
 Result<MeshPass> MeshPass::create(const gpu::Device& device) {
   MeshPass pass;
   ORIEL_TRY(pass.program_, gpu::Program::create("map_mesh", device.dialect));
-  ORIEL_TRY(pass.holes_, gpu::Program::create("screen/probe", device.dialect));
+  ORIEL_TRY(pass.holes_, gpu::Program::create("screen_probe", device.dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   pass.query_ = gpu::make_query();
   pass.conditional_ = device.dialect == gpu::Dialect::kDesktop330;

@@ -15,18 +15,17 @@ layout(location = 0) out vec4 o_light;
 const float kOfCodes = 65535.0 / 32767.0;  // 16 bits hold a disparity as a share of it
 const float kMixed = 0.5;
 
-// The nearest of the four pixels around that lies on the same plane (its disparity's slope by pixel), or else nearest to it.
+// The nearest of the pixels around that lies on the same plane (its disparity's slope by pixel); x < 0: none does.
 vec2 own_pixel(vec2 at, float disparity, vec2 slope) {
-  ivec2 low = ivec2(floor(at - 0.5));
-  vec2 best = at;
+  ivec2 middle = ivec2(floor(at));
+  vec2 best = vec2(-1.0);
   float least = 1e30;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 pixel = clamp(low + ivec2(i & 1, i >> 1), ivec2(0), ivec2(u_size) - 1);
+  for (int i = 0; i < 9; ++i) {
+    ivec2 pixel = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(u_size) - 1);
     vec2 away = vec2(pixel) + 0.5 - at;
     float off = kOfCodes * texelFetch(u_disparity, ivec3(pixel, int(u_layer)), 0).r - disparity - dot(slope, away);
-    float cost = max(abs(off) * max(u_size.x, u_size.y) - kMixed, 0.0) * 100.0 + dot(away, away);
-    if (cost < least) {
-      least = cost;
+    if (abs(off) * max(u_size.x, u_size.y) <= kMixed && dot(away, away) < least) {
+      least = dot(away, away);
       best = vec2(pixel) + 0.5;
     }
   }
@@ -40,7 +39,10 @@ void main() {
   vec2 at = v_place.xy;
   vec2 inside = clamp(at, vec2(0.5), u_size - 0.5);
   float mixed = kOfCodes * textureLod(u_disparity, vec3(inside / vec2(textureSize(u_disparity, 0).xy), u_layer), 0.0).r;
-  if (abs(mixed - v_place.z) * max(u_size.x, u_size.y) > kMixed) at = own_pixel(at, v_place.z, slope);
+  if (abs(mixed - v_place.z) * max(u_size.x, u_size.y) > kMixed) {
+    at = own_pixel(at, v_place.z, slope);
+    if (at.x < 0.0) discard;  // nothing the map saw tells of it
+  }
   // Of a pixel that is long in the map, half way between its sides.
   float level = 0.25 * log2(max(dot(dx.xy, dx.xy), 1e-12) * max(dot(dy.xy, dy.xy), 1e-12));
   float coarsest = floor(log2(max(u_size.x, u_size.y)) + 1e-3);

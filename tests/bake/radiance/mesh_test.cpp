@@ -1,5 +1,5 @@
 // Radiance maps' meshes against the planes that they are made of.
-#include "bake/radiance/mesh/map_mesh.h"
+#include "bake/radiance/map_mesh.h"
 
 #include <gtest/gtest.h>
 

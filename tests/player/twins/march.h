@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "player/maps/relief.h"
+#include "player/images/relief.h"
 
 namespace oriel {
 
@@ -16,7 +16,8 @@ namespace oriel {
 inline constexpr float kNear = 0.1f;
 // Neighbouring pixels lie on one surface where their planes differ by no more than kGap, or meet and their disparities
 // differ by no more than kSteep: in pixels by which things shift, seen from as far away as the element is wide, as
-// bake/radiance/mesh cuts them. Elsewhere a ray does not hit the gap between them, it passes behind the nearer one.
+// bake/radiance/surface_grid.h cuts them. Elsewhere a ray does not hit the gap between them, it passes behind the
+// nearer one.
 inline constexpr float kGap = 0.5f, kSteep = 4;
 // Unless it was no farther behind the nearer one than this share before the gap.
 inline constexpr float kTouching = 0.003f;
