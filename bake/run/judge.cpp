@@ -9,6 +9,7 @@
 namespace oriel {
 namespace {
 
+constexpr std::uint32_t kCameraSamples = 2048;
 constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it
 
 // Mean of the pixels around a place that hold the same surface, by their bilinear weights; none where none does.
@@ -104,6 +105,17 @@ void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
                         accel.scene().materials[surface.material].name);
   }
   findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
+}
+
+Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                          std::span<const RadianceMap> own, std::span<const Vec3> cameras, Context& context) {
+  double worst = 1;
+  for (const Vec3& camera : cameras) {
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings, reflector, {&camera, 1}, kCameraSamples, context.seed + 4, context));
+    if (!samples.empty()) worst = std::min(worst, judge_maps(surroundings, own, samples, context).seen);
+  }
+  return worst;
 }
 
 }  // namespace oriel

@@ -70,6 +70,7 @@ Json reflectors_json(const BakeFacts& f) {
                    {"maps", r.map_count},
                    {"pixels", pixels},
                    {"seen", f.reflections.quality[i].seen},
+                   {"seen_by_worst_camera", f.reflections.quality[i].worst},
                    {"sharp", f.reflections.quality[i].sharp},
                    {"seen_in_residual", f.reflections.quality[i].residual},
                    {"relative_error", f.reflections.errors[i].relative_error},

@@ -34,6 +34,7 @@ void remove_normal_textures(Pack& pack) {
 void remove_reflectors(Pack& pack) {
   pack.reflectors.clear();
   pack.radiance_maps.clear();
+  pack.map_meshes.clear();
   pack.emitters.clear();
 }
 
@@ -62,7 +63,7 @@ const std::array<Removable, 11>& removables() {
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
-      {"radiance maps", {kReflectorSection, kRadianceMapSection, kEmitterSection}, remove_reflectors},
+      {"radiance maps", {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection}, remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
       {"kernels", {kKernelSection}, remove_kernels},
       {"cameras", {kCameraSection}, [](Pack& pack) { pack.cameras.clear(); }},

@@ -82,6 +82,7 @@ inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
+inline constexpr std::uint32_t kMapMeshSection = fourcc("MMSH");
 inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
 inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
 inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
@@ -96,7 +97,7 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 23> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -107,6 +108,7 @@ inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
     {kNormalTextureSection, "normal texture", true, false, true},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
+    {kMapMeshSection, "map mesh", true, false, true},
     {kEmitterSection, "emitters", true, false, false},
     {kCurvedReflectorSection, "curved reflectors", true, false, false},
     {kSurroundMapSection, "surround map", true, false, true},

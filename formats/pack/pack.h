@@ -10,6 +10,7 @@
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/light_field.h"
 #include "formats/assets/lightmap.h"
+#include "formats/assets/map_mesh.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
 #include "formats/assets/mover.h"
@@ -44,7 +45,8 @@ struct Pack {
   std::vector<LightmapPage> lightmaps;
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
-  std::vector<Emitter> emitters;  // that reflectors show in closed form
+  std::vector<MapMesh> map_meshes;  // of each radiance map, or none
+  std::vector<Emitter> emitters;    // that reflectors show in closed form
   std::vector<CurvedReflector> curved_reflectors;
   std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;

@@ -14,6 +14,7 @@ void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
 void describe(Serial& s, RadianceMap& map);
+void describe(Serial& s, MapMesh& mesh);
 void describe(Serial& s, Emitter& emitter);
 void describe(Serial& s, CurvedReflector& reflector);
 void describe(Serial& s, SurroundMap& map);
@@ -77,6 +78,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kNormalTextureSection, pack.normal_textures);
   v.list(kReflectorSection, pack.reflectors);
   v.each(kRadianceMapSection, pack.radiance_maps);
+  v.each(kMapMeshSection, pack.map_meshes);
   v.list(kEmitterSection, pack.emitters);
   v.list(kCurvedReflectorSection, pack.curved_reflectors);
   v.each(kSurroundMapSection, pack.surround_maps);

@@ -203,6 +203,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, pixels, list);
   validate_elements(pack, list);
+  validate_map_meshes(pack, list);
   validate_emitters(pack, list);
   validate_curved_reflectors(pack, list);
   validate_surround_maps(pack, pixels, list);

@@ -77,6 +77,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
   ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
   ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
+  ORIEL_TRY(renderer->mesh_pass_, MeshPass::create(device));
   ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
   ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
   ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
@@ -151,13 +152,19 @@ Status Renderer::draw_mirrored_world(GpuScene& scene, const Candidate& candidate
   switch (options.reflections) {
     case Reflections::kPoints:
       return reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
+    case Reflections::kMesh:
+      if (!scene.has_map_meshes()) break;
+      mesh_pass_.draw(scene, reflector, view, rect, *image_, kernel == nullptr && shown.value != 0 ? &shown : nullptr,
+                      options, stats);
+      return {};
     case Reflections::kGeometry:
       draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, options.white, stats);
       return {};
     default:
-      march_pass_.draw(scene, reflector, kernel, view, rect, *image_, shown, options, stats);
-      return {};
+      break;
   }
+  march_pass_.draw(scene, reflector, kernel, view, rect, *image_, shown, options, stats);
+  return {};
 }
 
 Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,

@@ -16,6 +16,7 @@
 #include "player/reflections/curved_pass.h"
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
+#include "player/reflections/mesh_pass.h"
 #include "player/reflections/reproject_pass.h"
 
 namespace oriel {
@@ -82,6 +83,7 @@ class Renderer {
   BrightPass bright_pass_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
+  MeshPass mesh_pass_;
   ReprojectPass reproject_pass_;
   FillPass fill_pass_;
   ConvolvePass convolve_pass_;

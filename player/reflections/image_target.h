@@ -16,6 +16,13 @@ struct ImageRect {
   int marched = 1;            // of M, where the lobe is wide or the reflector is not seen: 1 or 4
 };
 
+// Where the frame shows a reflector: its stencil holds `value` in `bits`. value 0: the stencil does not tell.
+struct ShownPixels {
+  const gpu::Framebuffer* frame = nullptr;
+  GLint value = 0;
+  GLuint bits = 0;
+};
+
 // Image pixels to normalised device coordinates of the frame: scale in xy, offset in zw.
 Vec4 ndc_from_image(const ImageRect& rect, const View& view);
 // Clip space of the frame to the clip space whose picture is the rectangle.

@@ -19,9 +19,9 @@ inline constexpr int kShows = 11;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
-// How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
-// mirrored scene; or not at all.
-enum class Reflections { kMarch, kPoints, kGeometry, kOff };
+// How M is made: by marching rays through radiance maps; by drawing the maps' meshes; from their pixels as points, as
+// published; by drawing the mirrored scene; or not at all.
+enum class Reflections { kMarch, kMesh, kPoints, kGeometry, kOff };
 // How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
 enum class Blur { kDistance, kConstant, kOff };
 enum class Reflectance { kTable, kSphereMap };

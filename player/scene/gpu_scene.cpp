@@ -41,6 +41,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
   static std::atomic<std::uint64_t> scenes{0};
   scene->serial_ = ++scenes;
   scene->pack_ = std::move(pack.pack);
+  scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
   scene->upload_geometry();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
   scene->upload_images(std::move(pack.images), loading);

@@ -13,6 +13,7 @@
 #include "player/navigation/view.h"
 #include "player/scene/fewer_triangles.h"
 #include "player/scene/gpu_emitters.h"
+#include "player/scene/gpu_map_meshes.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
@@ -127,11 +128,15 @@ class GpuScene {
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
   }
+  // Whether the pack has meshes of its radiance maps; that of Pack::radiance_maps[index], uploaded on first use and
+  // kept.
+  bool has_map_meshes() const { return !map_meshes_.empty(); }
+  const GpuMapMesh& map_mesh(std::uint32_t index) { return map_meshes_.get(index, pack_.map_meshes); }
   const SurroundTextures& surround_map(std::uint32_t index) const { return images_->surround(index); }
   // Of Pack::lightmaps with all that the bake knows; null: not yet.
   Result<const LightmapPage*> page(std::uint32_t index) { return images_->page(index, pack_.lightmaps[index]); }
   // Of radiance and surround maps on the device.
-  std::uint64_t map_bytes() const { return images_->map_bytes(); }
+  std::uint64_t map_bytes() const { return images_->map_bytes() + map_meshes_.bytes(); }
   const gpu::Texture2d& sphere_map(std::uint32_t fresnel_map);
   // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
   // coarse: of few taps.
@@ -171,6 +176,7 @@ class GpuScene {
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
+  GpuMapMeshes map_meshes_;
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

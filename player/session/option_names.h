@@ -18,6 +18,7 @@ inline const std::map<std::string, Show> kStages{
     {"error", Show::kError},       {"texels", Show::kTexels}, {"charts", Show::kCharts},
     {"overdraw", Show::kOverdraw}, {"zones", Show::kZones}};
 inline const std::map<std::string, Reflections> kReflections{{"march", Reflections::kMarch},
+                                                             {"mesh", Reflections::kMesh},
                                                              {"points", Reflections::kPoints},
                                                              {"geometry", Reflections::kGeometry},
                                                              {"off", Reflections::kOff}};

@@ -85,10 +85,11 @@ class Mirror : public FrameTest {
 };
 
 TEST_F(Mirror, ShowsTheSquareWhereGeometrySays) {
-  const Pack pack = mirror_pack();
+  Pack pack = mirror_pack();
+  add_pixel_meshes(pack);
   for (const Vec3& eye :
        {Vec3(0, 0, 1), Vec3(0.5f, 0.3f, 1.5f), Vec3(-0.8f, -0.4f, 0.7f), Vec3(0.01f, 0, 0.05f), Vec3(0, 0, 2.9f)}) {
-    for (const Reflections mode : {Reflections::kMarch, Reflections::kPoints}) {
+    for (const Reflections mode : {Reflections::kMarch, Reflections::kMesh, Reflections::kPoints}) {
       for (const Selection selection : {Selection::kAngle, Selection::kDistance}) {
         FrameOptions options;
         options.reflections = mode;

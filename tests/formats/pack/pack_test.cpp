@@ -193,6 +193,18 @@ TEST(Pack, VisibleSetsComeBack) {
   EXPECT_TRUE(made_for(b, out.mesh, out.materials, out.walk_grids));
 }
 
+TEST(Pack, MapMeshesComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_EQ(out.map_meshes.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MapMesh &a = in.map_meshes[i], &b = out.map_meshes[i];
+    EXPECT_EQ(b.indices, a.indices);
+    ASSERT_EQ(b.vertices.size(), a.vertices.size());
+    for (std::size_t v = 0; v < a.vertices.size(); ++v)
+      EXPECT_LE(max_component(glm::abs(b.vertices[v] - a.vertices[v])), 1.001f / 131070);
+  }
+}
+
 TEST(Pack, CurvedReflectorsComeBack) {
   const Pack in = tiny_mapped_pack(), out = round_trip(in);
   ASSERT_EQ(out.curved_reflectors.size(), 1u);
