@@ -109,6 +109,16 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
 
 std::vector<Option> reflection_options(BakeOptions& o) {
   return {
+      {"--reflections", kReflections,
+       "How planar reflectors show the scene: auto (each by the way whose frames are cheaper), geometry (the player "
+       "draws the mirrored scene: nothing is baked for them), maps (radiance maps)",
+       choice(o.ways,
+              Names<WaysWanted>{
+                  {"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
+       Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
+      {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
+       choice(o.target, Names<FrameTarget>{{"cpu", FrameTarget::kCpu}, {"gpu", FrameTarget::kGpu}}), Use::kRare,
+       "target", "reflections.md#geometry-or-maps"},
       {"--views",
        kReflections,
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "

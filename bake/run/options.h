@@ -8,6 +8,7 @@
 #include "bake/material/materials.h"
 #include "bake/radiance/curved/curved_reflectors.h"
 #include "bake/radiance/plan/planned_views.h"
+#include "bake/radiance/plan/ways.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
 #include "bake/radiosity/radiosity.h"
@@ -42,6 +43,8 @@ struct BakeOptions {
   RadiosityOptions radiosity;      // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
+  WaysWanted ways = WaysWanted::kAuto;
+  FrameTarget target = FrameTarget::kCpu;
   ViewScheme view_scheme = ViewScheme::kPlanned;
   PlannedViewOptions planned;
   ViewOptions views;  // of hemispheres

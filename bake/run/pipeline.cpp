@@ -47,7 +47,7 @@ Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& 
     const std::size_t texels = std::size_t{page.width} * page.height;
     dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
   }
-  if (!planned.empty()) {
+  if (planned.has_images()) {
     const double until = budget.left() - budget.for_timing();
     const auto late = [&] { return budget.left() < until; };
     Status tried;
@@ -171,7 +171,7 @@ class Bake {
                   return plan_reflections(options_, prepared_, *lights_, materials_, budget_.for_views(), context_);
                 }));
     }
-    if (planned_.empty()) return {};
+    if (!planned_.has_images()) return {};
     return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
   }
 

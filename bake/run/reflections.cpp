@@ -137,6 +137,11 @@ Status judge(const ReflectedSurroundings& surroundings, std::span<const Radiance
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
     ViewQuality q;
     ReflectedError e;
+    if (reflector.map_count == 0) {
+      report.quality.push_back(q);
+      report.errors.push_back(e);
+      continue;
+    }
     std::uint64_t traced = 0;
     const auto inputs = [&](Archive& key) {
       key(r, eyes);
@@ -228,6 +233,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   all.lobes = reflector_materials(materials);
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
   ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
+  choose_ways(options.ways, options.target, accel.scene().triangles.size(), all.found.reflectors);
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
   all.curved =
@@ -277,7 +283,8 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
 
 void leave_out_maps(const std::string& why, PlannedReflections& planned) {
   planned.plan = {};
-  planned.all.found.reflectors.clear();
+  for (FoundReflector& r : planned.all.found.reflectors)
+    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why;
   planned.all.curved = {};
   planned.all.omissions.push_back("radiance maps: left out, " + why);
 }
@@ -366,6 +373,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);
+  for (const FoundReflector& r : reflectors) report.ways.push_back(r.why);
   keep(reflectors, mesh, pack.reflectors);
   pack.surround_maps = std::move(curved.maps);
   keep(curved.reflectors, mesh, pack.curved_reflectors);

@@ -32,6 +32,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
+  std::vector<std::string> ways;       // by reflector: why it is drawn as it is
   std::vector<std::string> omissions;  // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
   MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
@@ -47,7 +48,8 @@ struct PlannedReflections {
   std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
   bool light_reused = false;              // some of the lightmap is that of the bake before
   double pixels() const;                  // of all maps
-  bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
+  bool has_images() const { return !plan.maps.empty() || !all.curved.reflectors.empty(); }
+  bool empty() const { return all.empty(); }
 };
 
 // Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no

@@ -19,10 +19,11 @@ void draw_reflector(const GpuScene& scene, const GpuCurvedReflector& reflector, 
   stats.triangles += reflector.index_count / 3;
 }
 
-gpu::RasterState state_for(GLint value, GLuint bits) {
+gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;
+  state.mirrored = view.mirrored;
   state.stencil_ref = value;
   state.stencil_write = bits;
   return state;
@@ -39,7 +40,7 @@ Result<CurvedPass> CurvedPass::create(gpu::Dialect dialect) {
 
 void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
                            GLuint bits, FrameStats& stats) const {
-  gpu::RasterState state = state_for(value, bits);
+  gpu::RasterState state = state_for(view, value, bits);
   state.color_write = false;
   gpu::apply(state);
   mask_.use();
@@ -49,7 +50,7 @@ void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& refl
 
 void CurvedPass::draw_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
                             GLuint bits, const FrameOptions& options, FrameStats& stats) const {
-  gpu::RasterState state = state_for(value, bits);
+  gpu::RasterState state = state_for(view, value, bits);
   if (bits == 0) {
     state.blend = gpu::Blend::kAdd;
     state.alpha_write = false;

@@ -25,6 +25,21 @@ void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::fu
   }
 }
 
+// Over the plane of a reflector, of the triangles before it, by their area.
+float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
+  const Vec4 height = glm::transpose(reflector_from_pack)[2];
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+               &c = mesh.positions[mesh.indices[i + 2]];
+    const float above = glm::dot(height, Vec4((a + b + c) / 3.0f, 1));
+    if (!(above > 0)) continue;
+    const double area = glm::length(glm::cross(b - a, c - a));
+    sum += area * above, total += area;
+  }
+  return total > 0 ? static_cast<float>(sum / total) : 0.0f;
+}
+
 Status first_of(const std::vector<Error>& errors) {
   if (errors.empty()) return {};
   return tl::unexpected<Error>(errors.front());
@@ -101,6 +116,7 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
+    if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }

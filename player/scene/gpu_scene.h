@@ -25,10 +25,12 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
+  // From the plane to what its maps show, metres; the sky does not count. Once bring_maps() has been called; without
+  // maps it is that of all triangles before it.
+  float mean_distance = 0;
   // Once bring_maps() has been called:
-  Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
-  float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
-  GpuEmitters emitters;     // that its maps leave out
+  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+  GpuEmitters emitters;   // that its maps leave out
 };
 
 struct GpuCurvedReflector {

@@ -257,11 +257,13 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   std::sort(seen.begin(), seen.end());
   found.reflectors.clear();
   for (const auto& [worth, r] : seen) {
-    if (found.reflectors.size() < limit)
+    if (found.reflectors.size() < limit) {
       found.reflectors.push_back(all[r]);
-    else
+      found.reflectors.back().seen_sr = static_cast<float>(-worth / all[r].reflectance);
+    } else {
       found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
                                           all[r].reflector.name, all[r].reflector.area_m2, limit));
+    }
   }
   return {};
 }
@@ -274,6 +276,10 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
   ViewPlan out;
   std::vector<ReflectorPlan> plans;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    if (reflectors[r].way == ReflectorWay::kGeometry) {
+      plans.emplace_back();
+      continue;
+    }
     const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
     ReflectorPlan plan;
     ORIEL_TRY(const bool kept, take_known(planner, r, identity, eyes, options, known, context, plan));

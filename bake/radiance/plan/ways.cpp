@@ -1,0 +1,30 @@
+#include "bake/radiance/plan/ways.h"
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+WayCosts way_costs(FrameTarget target) {
+  if (target == FrameTarget::kGpu) return {0.05, 0.0005, 0.0002, 0.05, 0.001};
+  return {0.5, 0.02, 0.02, 1.0, 0.15};
+}
+
+void choose_ways(WaysWanted wanted, FrameTarget target, std::uint64_t triangles, std::span<FoundReflector> reflectors) {
+  const WayCosts costs = way_costs(target);
+  for (FoundReflector& r : reflectors) {
+    if (wanted != WaysWanted::kAuto) {
+      r.way = wanted == WaysWanted::kGeometry ? ReflectorWay::kGeometry : ReflectorWay::kMaps;
+      r.why = "as asked for";
+      continue;
+    }
+    const double pixels = r.seen_sr * kPixelsPerSteradian;
+    const double geometry = costs.geometry_ms + 1e-3 * (costs.triangle_us * static_cast<double>(triangles) +
+                                                        costs.geometry_pixel_us * pixels);
+    const double maps = costs.maps_ms + 1e-3 * costs.maps_pixel_us * pixels;
+    r.way = geometry <= maps ? ReflectorWay::kGeometry : ReflectorWay::kMaps;
+    r.why = fmt::format("{:.0f} pixels and {} triangles: {:.2g} ms by geometry, {:.2g} ms by maps", pixels, triangles,
+                        geometry, maps);
+  }
+}
+
+}  // namespace oriel
