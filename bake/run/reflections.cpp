@@ -233,7 +233,6 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   all.lobes = reflector_materials(materials);
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
   ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
-  choose_ways(options.ways, options.target, accel.scene().triangles.size(), all.found.reflectors);
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
   all.curved =
@@ -243,11 +242,11 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 }
 
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found_ones, double seconds,
                                             Context& context) {
   const Accel& accel = *prepared.accel;
   PlannedReflections planned;
-  ORIEL_TRY(planned.all, find_reflections(options, prepared, materials.summaries, context));
+  planned.all = std::move(found_ones);
   const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};

@@ -52,11 +52,11 @@ struct PlannedReflections {
   bool empty() const { return all.empty(); }
 };
 
-// Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// Plans the maps of reflectors that have maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found, double seconds,
                                             Context& context);
 
 // Nothing is captured, and the reason is among the omissions.

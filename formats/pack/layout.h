@@ -92,11 +92,12 @@ inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
 inline constexpr std::uint32_t kVisibleSetsSection = fourcc("PVIS");
+inline constexpr std::uint32_t kReflectedSetsSection = fourcc("RVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 23> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -117,6 +118,7 @@ inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},
     {kVisibleSetsSection, "visible sets", true, false, false},
+    {kReflectedSetsSection, "reflected sets", true, false, false},
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
 }};

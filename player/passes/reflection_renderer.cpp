@@ -30,6 +30,9 @@ constexpr float kLargeShare = 0.02f;
 // What mirrors on the way leave of a reflection that is drawn: less shows as if its lobe was wide.
 constexpr float kLeastReflectance = 0.01f;
 
+// Of the light, from which a reflector is a mirror to others.
+constexpr float kMirroring = 0.5f;
+
 float share_of_picture(const NdcRect& rect) {
   const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
   return 0.25f * size.x * size.y;
@@ -86,7 +89,8 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWo
     if (eye.z <= (target.view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
     MarkedReflector marked{&reflector, project_polygon(target.view.clip_from_pack, reflector.corners), 0,
                            kMaskQueries * out.size(), false};
-    if (marked.screen.empty || (options.few_reflections && target.share * share_of_picture(marked.screen) < kLargeShare))
+    if (marked.screen.empty ||
+        (options.few_reflections && target.share * share_of_picture(marked.screen) < kLargeShare))
       continue;
     const bool see_through = scene.is_transparent(reflector.material);
     if (target.frame == nullptr &&
@@ -111,8 +115,7 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWo
     out.push_back(marked);
   }
   for (MarkedReflector& m : out) {
-    m.screen =
-        ReflectorPass::visible_part(m.screen, target.view, std::span(queries_).subspan(m.query, kMaskQueries));
+    m.screen = ReflectorPass::visible_part(m.screen, target.view, std::span(queries_).subspan(m.query, kMaskQueries));
     if (m.waits && !m.screen.empty) scene.want_maps(*m.reflector);
   }
   std::erase_if(out, [](const MarkedReflector& m) { return m.screen.empty || m.waits; });
@@ -161,7 +164,7 @@ Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& ta
   }
   target.bind();
   timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work, target, marked, image); });
-  const GLint value = target.frame != nullptr ? marked.value : 0;
+  const GLint value = target.frame != nullptr ? marked.value : kAdded;
   timed(clock, Pass::kEmitters,
         [&] { reflector_pass_.draw_emitters(scene, reflector, target.view, value, options, stats); });
   ++stats.reflectors;
@@ -170,7 +173,9 @@ Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& ta
 
 void ReflectionRenderer::compose(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
                                  const Image& image) const {
-  const GLint value = target.frame != nullptr ? marked.value : 0;
+  // Of what mostly mirrors, the image's depth counts, as in radiance maps: it is what blurs it in another reflector.
+  const bool mirrors = reflectance_of(work.scene.pack(), marked.reflector->material) > kMirroring;
+  const GLint value = target.frame != nullptr ? marked.value : mirrors ? kAddedWithDistance : kAdded;
   if (image.blurs) {
     reflector_pass_.draw_convolved(work.scene, *marked.reflector, image.kernel, target.view, image.rect, image.target,
                                    value, work.options, work.stats);
@@ -199,6 +204,15 @@ Status ReflectionRenderer::draw_image(ReflectionWork& work, const ReflectionTarg
   return {};
 }
 
+bool ReflectionRenderer::sets_hold(const ReflectionWork& work, const ReflectionTarget& target) {
+  if (!work.options.visible_sets || target.mirrors > 0 || target.view.orthographic) return false;
+  if (zone_of_ != work.scene.serial()) {
+    zone_ = planned_zone(work.scene.pack());
+    zone_of_ = work.scene.serial();
+  }
+  return zone_.holds(Vec3(target.view.eye));
+}
+
 // M by drawing the mirrored scene: what radiance maps stand for, at the cost of the scene's triangles.
 Status ReflectionRenderer::draw_mirrored(ReflectionWork& work, const ReflectionTarget& target,
                                          const GpuReflector& reflector, const Image& image) {
@@ -206,16 +220,16 @@ Status ReflectionRenderer::draw_mirrored(ReflectionWork& work, const ReflectionT
   const Pack& pack = scene.pack();
   clear_image(image.target, image.rect, Vec4(pack.sky, kClosest));
   const View view = mirrored_view(scene, reflector, target.view, image.rect);
-  const ReflectionTarget inside{
-      view,
-      nullptr,
-      &image.target,
-      target.mirrors + 1,
-      target.reflectance * reflectance_of(pack, reflector.material),
-      target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
-          (static_cast<float>(target.view.width) * static_cast<float>(target.view.height))};
+  const ReflectionTarget inside{view,
+                                nullptr,
+                                &image.target,
+                                target.mirrors + 1,
+                                target.reflectance * reflectance_of(pack, reflector.material),
+                                target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
+                                    (static_cast<float>(target.view.width) * static_cast<float>(target.view.height))};
   MirroredScene mirrored{view,
-                         visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)),
+                         visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
+                                         sets_hold(work, target) ? reflector.seen : std::nullopt),
                          pack.reflectors[reflector.index].emitters,
                          {}};
   if (inside.mirrors < options.orders) {

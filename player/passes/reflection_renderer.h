@@ -20,6 +20,7 @@
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/reproject_pass.h"
+#include "player/walk/zone.h"
 
 namespace oriel {
 
@@ -38,9 +39,9 @@ struct ReflectionTarget {
   const View& view;
   const FrameTarget* frame = nullptr;  // null: an image
   const ImageTarget* image = nullptr;
-  int mirrors = 0;          // on the way to it
-  float reflectance = 1;    // of those, at 60 degrees
-  float share = 1;          // of the frame's pixels
+  int mirrors = 0;        // on the way to it
+  float reflectance = 1;  // of those, at 60 degrees
+  float share = 1;        // of the frame's pixels
   void bind() const;
 };
 
@@ -86,7 +87,12 @@ class ReflectionRenderer {
   void compose(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
                const Image& image) const;
 
+  // Whether sets of what reflectors show hold for the view.
+  bool sets_hold(const ReflectionWork& work, const ReflectionTarget& target);
+
   gpu::Device device_;
+  std::uint64_t zone_of_ = 0;  // GpuScene::serial()
+  Zone zone_;
   ReflectorPass reflector_pass_;
   MarchPass march_pass_;
   ReprojectPass reproject_pass_;

@@ -24,19 +24,19 @@ IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
   return lower + (upper - lower) * i / kMaskStrips;
 }
 
-// Over what the mask marked with `value`; 0: added wherever the depth leaves the reflector visible.
+// Over what the mask marked with `value`; kAdded…: wherever the depth leaves the reflector visible.
 gpu::RasterState where_marked(const View& view, GLint value) {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;
   state.mirrored = view.mirrored;
-  if (value != 0) {
+  if (value > 0) {
     state.stencil_func = GL_EQUAL;
     state.stencil_ref = value;
     state.stencil_read = kReflectorBits;
   } else {
     state.blend = gpu::Blend::kAdd;
-    state.alpha_write = false;
+    state.alpha_write = value == kAddedWithDistance;
   }
   return state;
 }
@@ -109,6 +109,7 @@ void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, c
   gpu::apply(where_marked(view, value));
   compose_.use();
   compose_.set("u_image", 0);
+  compose_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
@@ -124,6 +125,7 @@ void ReflectorPass::draw_convolved(GpuScene& scene, const GpuReflector& reflecto
   gpu::apply(where_marked(view, value));
   convolve_.use();
   convolve_.set("u_origin", rect.origin);
+  convolve_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   convolve_.set("u_missing", reflector.mean_radiance);
   set_surface(convolve_, scene, reflector, view, options);
   convolve_.set("u_blurred", 6);

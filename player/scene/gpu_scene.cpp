@@ -25,6 +25,15 @@ void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::fu
   }
 }
 
+// What the pack knows of a reflector's image.
+SeenMask seen_in(const Pack& pack, std::uint32_t reflector) {
+  const VisibleSets& groups = pack.visible_sets;
+  const std::vector<std::uint8_t>& sets = pack.reflected_sets.seen;
+  std::vector<std::uint8_t> seen(groups.groups);
+  for (std::size_t g = 0; g < seen.size(); ++g) seen[g] = sets[reflector * groups.set_bytes() + g / 8] >> (g % 8) & 1;
+  return seen;
+}
+
 // Over the plane of a reflector, of the triangles before it, by their area.
 float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
   const Vec4 height = glm::transpose(reflector_from_pack)[2];
@@ -78,7 +87,8 @@ void GpuScene::upload_geometry() {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
-  make_reflectors(indices);
+  make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
+                               pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));
   make_emitters(indices);
   make_curved_reflectors(indices);
 
@@ -99,7 +109,7 @@ std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& se
   return std::move(shown.batches);
 }
 
-void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
+void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known) {
   for (std::uint32_t i = 0; i < pack_.reflectors.size(); ++i) {
     const Reflector& r = pack_.reflectors[i];
     GpuReflector out;
@@ -117,6 +127,7 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
     if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
+    if (sets_known) out.seen = seen_in(pack_, i);
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }

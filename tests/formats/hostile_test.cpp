@@ -223,6 +223,7 @@ TEST(Hostile, VisibleSets) {
   expect_refusal(with_raw(kVisibleSetsSection, 8, 0u), sets + "found eye cells of 0 walk cells a side");
   expect_refusal(with_raw(kVisibleSetsSection, 20, ~0u), sets + "its counts need more");
   expect_refusal(with_raw(kVisibleSetsSection, 20, 2u), sets + "holds 1 bytes more");
+  expect_refusal(with_raw(kReflectedSetsSection, 0, ~0u), "section RVIS (reflected sets): its counts need more");
 }
 
 TEST(Hostile, WhatReflectionsNeed) {

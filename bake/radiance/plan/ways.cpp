@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "formats/core/check.h"
+
 namespace oriel {
 
 WayCosts way_costs(FrameTarget target) {
@@ -9,21 +11,24 @@ WayCosts way_costs(FrameTarget target) {
   return {0.5, 0.02, 0.02, 1.0, 0.15};
 }
 
-void choose_ways(WaysWanted wanted, FrameTarget target, std::uint64_t triangles, std::span<FoundReflector> reflectors) {
+void choose_ways(WaysWanted wanted, FrameTarget target, std::span<const std::uint64_t> triangles,
+                 std::span<FoundReflector> reflectors) {
+  ORIEL_CHECK_EQ(triangles.size(), reflectors.size());
   const WayCosts costs = way_costs(target);
-  for (FoundReflector& r : reflectors) {
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
+    FoundReflector& r = reflectors[i];
     if (wanted != WaysWanted::kAuto) {
       r.way = wanted == WaysWanted::kGeometry ? ReflectorWay::kGeometry : ReflectorWay::kMaps;
       r.why = "as asked for";
       continue;
     }
     const double pixels = r.seen_sr * kPixelsPerSteradian;
-    const double geometry = costs.geometry_ms + 1e-3 * (costs.triangle_us * static_cast<double>(triangles) +
+    const double geometry = costs.geometry_ms + 1e-3 * (costs.triangle_us * static_cast<double>(triangles[i]) +
                                                         costs.geometry_pixel_us * pixels);
     const double maps = costs.maps_ms + 1e-3 * costs.maps_pixel_us * pixels;
     r.way = geometry <= maps ? ReflectorWay::kGeometry : ReflectorWay::kMaps;
-    r.why = fmt::format("{:.0f} pixels and {} triangles: {:.2g} ms by geometry, {:.2g} ms by maps", pixels, triangles,
-                        geometry, maps);
+    r.why = fmt::format("{:.0f} pixels and {} triangles: {:.2g} ms by geometry, {:.2g} ms by maps", pixels,
+                        triangles[i], geometry, maps);
   }
 }
 

@@ -25,8 +25,9 @@ WayCosts way_costs(FrameTarget target);
 // Of a screen of 720 x 486 pixels, 60 degrees high: pixels that a solid angle covers near its middle.
 inline constexpr double kPixelsPerSteradian = 177'000;
 
-// Sets way and why of each reflector. triangles: of the scene, that are drawn at most for each reflector's image.
-// Pixels: those of FoundReflector::seen_sr.
-void choose_ways(WaysWanted wanted, FrameTarget target, std::uint64_t triangles, std::span<FoundReflector> reflectors);
+// Sets way and why of each reflector. triangles: by reflector those that its image may show; pixels: those of
+// FoundReflector::seen_sr.
+void choose_ways(WaysWanted wanted, FrameTarget target, std::span<const std::uint64_t> triangles,
+                 std::span<FoundReflector> reflectors);
 
 }  // namespace oriel
