@@ -50,14 +50,14 @@ struct FoundReflector {
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
   float reflectance = 0;                 // as compared with min_reflectance
   float roughness = 0;
-  float seen_sr = 0;                    // solid angle in which eyes see it reflect, mean over eyes; 0: not known
+  float shown_sr = 0;                   // solid angle that it fills for an eye that sees it, mean; 0: not known
   std::vector<std::uint32_t> emitters;  // triangles whose own light its image leaves out, ascending
   ReflectorWay way = ReflectorWay::kMaps;
   std::string why;  // that way
 };
 
 inline void fields(Archive& archive, FoundReflector& f) {
-  archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.seen_sr, f.emitters, f.way, f.why);
+  archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.shown_sr, f.emitters, f.way, f.why);
 }
 
 struct FoundReflectors {

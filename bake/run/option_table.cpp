@@ -118,8 +118,8 @@ std::vector<Option> reflection_options(BakeOptions& o) {
                   {"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
        Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
       {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
-       choice(o.target, Names<FrameTarget>{{"cpu", FrameTarget::kCpu}, {"gpu", FrameTarget::kGpu}}), Use::kRare,
-       "target", "reflections.md#geometry-or-maps"},
+       choice(o.target, Names<DrawnOn>{{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
+       "reflections.md#geometry-or-maps"},
       {"--views",
        kReflections,
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "

@@ -44,7 +44,7 @@ struct BakeOptions {
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
   WaysWanted ways = WaysWanted::kAuto;
-  FrameTarget target = FrameTarget::kCpu;
+  DrawnOn target = DrawnOn::kCpu;
   ViewScheme view_scheme = ViewScheme::kPlanned;
   PlannedViewOptions planned;
   ViewOptions views;  // of hemispheres

@@ -67,7 +67,7 @@ std::vector<SeenMirror> mirrors_of(std::span<const FoundReflector> reflectors) {
   return out;
 }
 
-bool wants_reflected_sets(const BakeOptions& options, std::size_t triangles, const Onlookers& onlookers) {
+bool wants_reflected_sets(const BakeOptions& options, std::size_t triangles, const SetEyes& onlookers) {
   return options.visible_sets != VisibleSetsWanted::kOff && options.ways != WaysWanted::kMaps &&
          !onlookers.reflectors.empty() &&
          (triangles >= kLeastReflected || options.visible_sets == VisibleSetsWanted::kOn);
@@ -76,7 +76,7 @@ bool wants_reflected_sets(const BakeOptions& options, std::size_t triangles, con
 // Finds sets, as units of work, within a time.
 class SetFinder {
  public:
-  SetFinder(const BakeOptions& options, const GroupedScene& scene, const Onlookers& onlookers, double seconds,
+  SetFinder(const BakeOptions& options, const GroupedScene& scene, const SetEyes& onlookers, double seconds,
             Context& context)
       : options_(options.visibility), scene_(scene), onlookers_(onlookers), seconds_(seconds), context_(context) {}
 
@@ -126,7 +126,7 @@ class SetFinder {
 
   const VisibilityOptions& options_;
   const GroupedScene& scene_;
-  const Onlookers& onlookers_;
+  const SetEyes& onlookers_;
   double seconds_;
   Context& context_;
   Deadline clock_{0};
@@ -147,7 +147,7 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
   return {};
 }
 
-Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const Onlookers& onlookers,
+Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
                                   AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
                                   std::vector<std::string>& omissions) {
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);

@@ -18,7 +18,7 @@ struct VisibilityReport {
 std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangles, std::span<const WalkGrid> grids);
 
 // Who looks, and into which reflectors.
-struct Onlookers {
+struct SetEyes {
   std::span<const WalkGrid> grids;
   std::span<const Vec3> eyes;  // scene space
   std::span<const FoundReflector> reflectors;
@@ -33,7 +33,7 @@ struct SceneSets {
 // Sets for the eyes of the grids, and of what eyes see in reflectors, unless that takes more than `seconds`; where they
 // pay, mesh's triangles are sorted by group within its parts. Where they do not, mesh stays as it is, the sets are
 // empty and `omissions` says why. Error kStopped.
-Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const Onlookers& onlookers,
+Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
                                   AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
                                   std::vector<std::string>& omissions);
 
