@@ -52,7 +52,7 @@ void expect_readable(const char* name, const Pack& expected) {
   }
 }
 
-  ASSERT_TRUE(write_pack("/tmp/mirrors/whole-v1.oriel", tiny_mapped_pack()));
+ASSERT_TRUE(write_pack("/tmp/mirrors/whole-v1.oriel", tiny_mapped_pack()));
 }
 TEST(PackFile, VersionOneStaysReadable) {
   expect_readable("tiny-v1.oriel", tiny_pack());

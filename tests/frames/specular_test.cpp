@@ -39,8 +39,8 @@ TEST_F(SpecularFrames, GalleryByMirroredGeometry) {
   ASSERT_EQ(run("oriel-scenes gallery -o a.glb"), 0);
   ASSERT_EQ(run("oriel-bake a.glb -o a.oriel --error 8% --reflections geometry"), 0);
   const auto floor = compare("floor")["glossy"];
-  std::printf("floor: S net %.3f, nRMSE %.3f, FLIP %.4f\n", floor["S"]["net"].get<double>(), floor["S"]["nRMSE"].get<double>(),
-              floor["flip"].get<double>());
+  std::printf("floor: S net %.3f, nRMSE %.3f, FLIP %.4f\n", floor["S"]["net"].get<double>(),
+              floor["S"]["nRMSE"].get<double>(), floor["flip"].get<double>());
   EXPECT_LE(floor["S"]["net"], 0.3);
   EXPECT_LE(floor["flip"], 0.07);
   const auto off = compare("floor", "--reflections off");
