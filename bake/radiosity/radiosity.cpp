@@ -62,6 +62,18 @@ void summarize(const RadiosityTask& task, Radiosity& light) {
   report.relative_error = stated_error(task.map, task.pixels, light.pages);
 }
 
+std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const LightmapPage> pages) {
+  std::vector<std::vector<bool>> at;
+  for (const LightmapPage& page : pages) at.emplace_back(page.state.size());
+  for (const SeamPoint& point : seams.points)
+    for (std::size_t side = 0; side < point.page.size(); ++side) {
+      const LightmapPage& page = pages[point.page[side]];
+      const DVec2 cell = glm::clamp(point.place[side] - 0.5, DVec2(0), DVec2(page.width - 1.0, page.height - 1.0));
+      at[point.page[side]][std::size_t(cell.y) * page.width + std::size_t(cell.x)] = true;
+    }
+  return at;
+}
+
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
   ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.context, task.quick_rays));
   if (seams.points.empty()) return {};
@@ -69,6 +81,7 @@ Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
   const double before = power(), error = task.options.error;
   const double at_most = error > 0 ? kStitchShare * error : std::numeric_limits<double>::infinity();
   light.report.seams = stitch(seams, task.map, at_most, light.pages);
+  light.at_seam = cells_at(seams, light.pages);
   if (before > 0) light.report.seams.energy_change = power() / before - 1;
   return {};
 }

@@ -145,6 +145,9 @@ struct Radiosity {
   // By page and covered texel (as TexelMapPage::texel): the share of the texel's surface that is not inside other
   // geometry nor behind a wall on the texel (TexelPart). With Hidden::kBlack all 1: the light has it in it.
   std::vector<std::vector<float>> visible;
+  // By page and y * width + x: cells (LightmapPage::cell) whose light meets that of another place across a stitched
+  // seam. Empty where nothing was stitched.
+  std::vector<std::vector<bool>> at_seam{};
   RadiosityReport report;
 };
 

@@ -27,6 +27,7 @@ using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 struct Guide {
   const std::vector<Vec3>& light;
   const std::vector<Vec3>& variance;
+  bool everywhere = true;  // whether it tells texels apart that nothing stands or hangs close to
 
   // Squared difference of two texels over its variance; worst channel decides.
   float distance2(std::size_t i, std::size_t j, float strength) const {

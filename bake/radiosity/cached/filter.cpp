@@ -20,6 +20,15 @@ double total(const Texels& texels, const std::vector<Vec3>& values) {
 
 using TwoHalves = std::array<std::vector<Vec3>, kHalves>;
 
+// Of the noise of a texel after one pass of pooled(): its own share and that of so many neighbours, squared. At the end
+// of a surface, where there are few, most of it is left.
+float left_of_noise(std::size_t neighbours) {
+  constexpr float kShare = 1.0f / (kMaxNeighbours + 1);
+  const auto n = static_cast<float>(neighbours);
+  const float own = 1 - n * kShare;
+  return own * own + n * kShare * kShare;
+}
+
 // By texel, 1 over its light squared (dark ones: 1 % of the mean), so that what is pooled counts alike in the dark.
 std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& light, const std::vector<Vec3>& beside) {
   const float floor = 0.01f * mean_luminance(texels, light, beside);
@@ -99,6 +108,7 @@ Halves halves_of(const HalfSums& sums, Context& context) {
   Halves halves;
   for (auto& light : halves.light) light.resize(n);
   halves.common.resize(n), halves.beside.resize(n);
+  halves.steps = false;
   each_texel(context, n, [&](std::size_t i) {
     for (int h = 0; h < kHalves; ++h) halves.light[h][i] = sums.half(h, i);
     halves.common[i] = left_by_slopes(sums, i);
@@ -185,10 +195,10 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
     return result;
   }
   std::vector<Vec3> guide_variance = noise;
-  for (Vec3& v : guide_variance) v *= 0.5f / 3;
+  for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * left_of_noise(graph.of(i).size());
   for (Vec3& v : raw_variance) v *= 0.5f;
-  const Conductance edges =
-      conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance}, options.strength, context);
+  const Conductance edges = conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance, halves.steps},
+                                         options.strength, context);
   TwoHalves smooth = half;
   smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });

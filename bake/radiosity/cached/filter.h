@@ -20,6 +20,9 @@ struct Halves {
   std::array<std::vector<Vec3>, kHalves> light;
   std::vector<Vec3> common;  // squared error of both by texel, to be pooled: no difference of theirs tells it
   std::vector<Vec3> beside;  // other light that is there: errors are pooled relative to both
+  // Whether it steps in the open, as direct light's shadows do. Light from all around steps at contacts alone:
+  // elsewhere a texel that differs from all beside it is one lucky path.
+  bool steps = true;
 };
 Halves halves_of(const HalfSums& sums, Context& context);
 // gathered: light beside it. Relative to direct light alone the noise of a shadow would count as much beside it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "formats/core/color.h"
@@ -36,6 +37,7 @@ class LevelGrid {
       known_[k] = true;
     }
     leave_noise(noise);
+    leave_dots();
     for (std::uint32_t pass = 0; pass <= side_; ++pass) spread();
   }
 
@@ -71,6 +73,18 @@ class LevelGrid {
       share[k] = squares > 0 ? std::max(0.0f, 1 - kBothNoises * chance / squares) : 0;
     }
     for (std::size_t k = 0; k < place_.size(); ++k) change_[k] *= share[k];
+  }
+
+  // A point alone that differs more than all around it is one lucky path: shadows are longer than a point.
+  void leave_dots() {
+    const std::vector<Vec3> before = change_;
+    for (std::size_t k = 0; k < place_.size(); ++k) {
+      Vec3 least(std::numeric_limits<float>::max()), most(-std::numeric_limits<float>::max());
+      for_each_around(k, [&](std::size_t other) {
+        if (other != k) least = glm::min(least, before[other]), most = glm::max(most, before[other]);
+      });
+      if (least.r <= most.r) change_[k] = glm::clamp(before[k], least, most);
+    }
   }
 
   // Points that are known, of the nine around one.

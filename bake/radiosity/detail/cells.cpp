@@ -36,11 +36,14 @@ class PageCells {
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) bend_[i] = bend_at(i);
   }
 
-  // usual: share of frames of a texel.
-  void add(std::uint32_t page_number, const CellGoal& goal, double usual, std::vector<Candidate>& found) const {
+  // usual: share of frames of a texel. left: cells to leave as they are, none where empty.
+  void add(std::uint32_t page_number, const CellGoal& goal, double usual, const std::vector<bool>& left,
+           std::vector<Candidate>& found) const {
     for (std::uint32_t y = 0; y + 1 < page_.height; ++y)
-      for (std::uint32_t x = 0; x + 1 < page_.width; ++x)
-        add_cell({page_number, y * page_.width + x}, goal, usual, found);
+      for (std::uint32_t x = 0; x + 1 < page_.width; ++x) {
+        const std::uint32_t place = y * page_.width + x;
+        if (left.empty() || !left[place]) add_cell({page_number, place}, goal, usual, found);
+      }
   }
 
  private:
@@ -151,7 +154,7 @@ CellLevels choose_cells(const Atlas& atlas, std::span<const TexelMapPage> map, c
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
     PageCells(atlas, map[p], light.pages[p], light.visible[p], shares.subspan(first, map[p].texel.size()))
-        .add(p, goal, usual, found);
+        .add(p, goal, usual, light.at_seam.empty() ? std::vector<bool>() : light.at_seam[p], found);
     first += map[p].texel.size();
   }
   CellGoal allowed = goal;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bake/radiosity/cached/diffusion.h"
 #include "bake/radiosity/cached/part.h"
 #include "formats/core/color.h"
 #include "tests/bake/radiosity/listed.h"
@@ -68,6 +69,60 @@ TEST(Filter, TakesNoiseFromPenumbraeAndLeavesShadowsEdges) {
   EXPECT_GT(std::sqrt(stated_sharp / sharp), 0.8) << "beside the wall";
   EXPECT_LT(mixed / exact, 0.01) << "light that was exact has been mixed with what is not, and it is not stated";
   EXPECT_LT(std::fabs(smooth.energy_drift), 5e-4);
+}
+
+// Even light, a twelfth of whose samples are so bright that they bring half of it: by chance some texels have two or
+// three of these, in both halves.
+TEST(Filter, LeavesNoDots) {
+  Shadows s;
+  const Texels& texels = s.listed.texels;
+  HalfSums sums(texels.count(), false);
+  constexpr std::uint32_t kSamples = 4;
+  for (const std::uint32_t i : s.listed.floor) {
+    sums.samples[i] = kSamples;
+    for (int h = 0; h < kHalves; ++h)
+      for (std::uint32_t k = 0; k < kSamples; ++k)
+        sums.sum[h][i] += Vec3(mix64((i * 2 + static_cast<std::uint32_t>(h)) * kSamples + k) % 12 == 0 ? 650 : 50);
+  }
+  const Estimate smooth = filter(texels, s.graph, halves_of(sums, s.listed.context), {}, s.listed.context);
+  std::size_t dots = 0, open = 0, dots_at_ends = 0, at_ends = 0;
+  for (const std::uint32_t i : s.listed.floor) {
+    if (texels.visible[i] < 1 || texels.has_many[i]) continue;
+    const bool end = s.graph.of(i).size() < kMaxNeighbours;
+    const bool dot = std::fabs(smooth.value[i].g - 100) > 30;
+    (end ? at_ends : open) += 1, (end ? dots_at_ends : dots) += dot ? 1 : 0;
+  }
+  ASSERT_GT(open, 1000);
+  ASSERT_GT(at_ends, 100);
+  EXPECT_LT(dots, open / 300);
+  EXPECT_LT(dots_at_ends, at_ends / 16) << "where few neighbours smooth the guide";
+  EXPECT_LT(std::fabs(smooth.energy_drift), 5e-4);
+}
+
+// What light tells of a texel alone parts it from its neighbours at a contact, and everywhere only where light may
+// step.
+TEST(Filter, LightFromAllAroundStepsAtContactsAlone) {
+  Shadows s;
+  const Texels& texels = s.listed.texels;
+  std::vector<Vec3> raw(texels.count(), Vec3(100));
+  std::vector<std::uint32_t> bright;
+  for (const std::uint32_t i : s.listed.floor)
+    if (texels.x[i] % 2 == 0 && texels.y[i] % 2 == 0 && texels.visible[i] >= 1) raw[i] = Vec3(300), bright.push_back(i);
+  const std::vector<Vec3> even(texels.count(), Vec3(100)), variance(texels.count(), Vec3(1));
+  std::size_t open = 0, contacts = 0;
+  for (const bool steps : {false, true}) {
+    const Conductance c = conductances(texels, s.graph, {even, variance}, {raw, variance, steps}, 1, s.listed.context);
+    for (const std::uint32_t i : bright)
+      for (std::size_t k = 0; k < s.graph.of(i).size(); ++k) {
+        const std::uint32_t j = s.graph.of(i)[k];
+        if (texels.visible[j] < 1) continue;
+        const bool contact = texels.has_many[i] || texels.has_many[j];
+        ++(contact ? contacts : open);
+        EXPECT_EQ(c[i][k] > 0.01f, !contact && !steps) << i << " and " << j;
+      }
+  }
+  EXPECT_GT(open, 100);
+  EXPECT_GT(contacts, 10);
 }
 
 // Refinement goes on where an error falls by more for its rays.

@@ -33,9 +33,11 @@ LightmapPage lit(const Listed& floor, const Light& light, float standard_error) 
   return page;
 }
 
-CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal& goal) {
+CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal& goal,
+                  const std::vector<std::vector<bool>>& at_seam = {}) {
   const std::vector<float> shares(floor.map[0].texel.size(), 1.0f);
   Radiosity light;
+  light.at_seam = at_seam;
   light.pages.push_back(page);
   light.visible.emplace_back(shares.size(), 1.0f);
   return choose_cells(floor.atlas, floor.map, light, shares, goal);
@@ -77,6 +79,21 @@ TEST(DetailCells, KeepToTheirPoints) {
   EXPECT_GT(count(chosen(floor, edge, goal), 1), 60);
 }
 
+TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
+  const Listed floor(bare_floor(), 0.1f);
+  const auto edge = lit(
+      floor, [](float x, float) { return x < 16 ? 100.0f : 400.0f; }, 0);
+  const CellGoal goal{.error = 0.02, .floor = 10, .most_points = 1 << 20};
+  std::vector<std::vector<bool>> at_seam(1, std::vector<bool>(edge.state.size()));
+  for (std::uint32_t x = 0; x < edge.width; ++x) at_seam[0][7 * edge.width + x] = true;
+  const CellLevels all = chosen(floor, edge, goal), levels = chosen(floor, edge, goal, at_seam);
+  for (std::size_t place = 0; place < levels[0].size(); ++place)
+    EXPECT_EQ(levels[0][place], place / edge.width == 7 ? 0 : all[0][place]) << place;
+  EXPECT_GT(count(all, 0), 0);
+  EXPECT_LT(count(all, 3), count(levels, 3) + 10) << "the row alone";
+  EXPECT_GT(count(all, 3), count(levels, 3));
+}
+
 // Points of a level whose light is anything, so that only joining makes it continuous.
 PointLight any_light(const Listed& floor, const CellLevels& levels, std::uint8_t level) {
   Context context;
@@ -114,6 +131,21 @@ TEST(DetailBlocks, MeetWithoutAStep) {
     }
   EXPECT_LT(largest, 3) << "1e-4 of a texel at a slope of some 5000 lux a texel";
   EXPECT_GT(varies, 100) << "no cell is finer: the test shows nothing";
+}
+
+TEST(DetailBlocks, APointThatDiffersFromAllAroundItIsNoLight) {
+  const Listed floor(bare_floor(), 0.1f);
+  LightmapPage page = lit(
+      floor, [](float, float) { return 100.0f; }, 0);
+  CellLevels levels(1, std::vector<std::uint8_t>(page.state.size()));
+  for (std::uint32_t y = 8; y < 12; ++y)
+    for (std::uint32_t x = 8; x < 12; ++x) levels[0][y * page.width + x] = 3;
+  PointLight points = any_light(floor, levels, 3);
+  std::ranges::fill(points.light, Vec3(110));
+  points.light[points.light.size() / 2] = Vec3(5000);
+  add_blocks(floor.map[0], levels[0], 0, {nullptr, nullptr, &points}, page);
+  ASSERT_FALSE(page.detail.empty());
+  for (const Vec3& light : page.detail) EXPECT_LE(light.g, 110.01f);
 }
 
 TEST(DetailBlocks, WithoutCellsThePageStaysAsItIs) {
