@@ -36,7 +36,7 @@ struct AtlasPage {
 };
 
 // How well the automatic charts show their surfaces, and how well they fill their pages. Stretch and distortion are 1
-// for an isometry at the mean density of texels (StretchSum in chart/stretch.h); charts drawn coarser count as they
+// for an isometry at the mean density of texels (StretchSum in stretch.h); charts drawn coarser count as they
 // are.
 struct AtlasReport {
   double l2_stretch = 1, linf_stretch = 1;

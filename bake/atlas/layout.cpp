@@ -3,7 +3,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "bake/atlas/chart/surface_mesh.h"
+#include "bake/atlas/surface_mesh.h"
 #include "bake/jobs/parallel.h"
 
 namespace oriel {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/atlas/atlas.h"
-#include "bake/atlas/chart/charts.h"
+#include "bake/atlas/charts.h"
 #include "bake/atlas/mask_pack.h"
 
 namespace oriel {

@@ -1,5 +1,5 @@
-#include "bake/cache/unit_cache.h"
 #include "bake/cli/commands.h"
+#include "bake/jobs/unit_cache.h"
 #include "bake/run/option_values.h"
 #include "formats/core/file.h"
 #include "formats/core/text.h"

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "bake/cache/unit_cache.h"
 #include "bake/cli/session.h"
+#include "bake/jobs/unit_cache.h"
 #include "bake/run/pipeline.h"
 
 namespace oriel {

@@ -1,9 +1,9 @@
 // Commands for bakes that machines share: worker and verify.
 #include <random>
 
-#include "bake/cache/checking_store.h"
 #include "bake/cli/cache_options.h"
 #include "bake/cli/commands.h"
+#include "bake/jobs/checking_store.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "formats/core/file.h"

@@ -1,5 +1,5 @@
 #include "bake/cli/commands.h"
-#include "bake/lux/table.h"
+#include "bake/reference/table.h"
 #include "bake/run/measure.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"

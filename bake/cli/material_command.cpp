@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include "bake/brdf/ward.h"
 #include "bake/cli/commands.h"
 #include "bake/cli/material_plot.h"
 #include "bake/material/evaluate.h"
-#include "bake/trace/brdf/ward.h"
 #include "formats/core/file.h"
 
 namespace oriel {

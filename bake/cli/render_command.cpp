@@ -1,14 +1,14 @@
 #include "bake/cli/commands.h"
+#include "bake/import/movers.h"
 #include "bake/jobs/parallel.h"
 #include "bake/reference/reference.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
-#include "bake/scene/motion/movers.h"
-#include "formats/camera/camera_notes.h"
-#include "formats/camera/camera_spec.h"
 #include "formats/image/exr.h"
-#include "formats/motion/mover_pose.h"
+#include "formats/query/camera_notes.h"
+#include "formats/query/camera_spec.h"
+#include "formats/query/mover_pose.h"
 
 namespace oriel {
 namespace {

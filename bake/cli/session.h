@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bake/cli/progress.h"
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/cli/command.h"
 
 namespace oriel {

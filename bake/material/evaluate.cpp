@@ -1,8 +1,8 @@
 #include "bake/material/evaluate.h"
 
-#include "bake/trace/brdf/quadrature.h"
-#include "bake/trace/brdf/specular.h"
-#include "bake/trace/brdf/ward.h"
+#include "bake/brdf/quadrature.h"
+#include "bake/brdf/specular.h"
+#include "bake/brdf/ward.h"
 
 namespace oriel {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/optics/metals.h"
+#include "bake/brdf/metals.h"
 #include "formats/core/vec.h"
 
 namespace oriel {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "bake/brdf/quadrature.h"
 #include "bake/material/lobe.h"
-#include "bake/trace/brdf/quadrature.h"
 #include "formats/core/check.h"
 
 namespace oriel {

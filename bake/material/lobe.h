@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bake/trace/brdf/compensation.h"
+#include "bake/brdf/compensation.h"
 #include "formats/assets/brdf_kernel.h"
 
 namespace oriel {

@@ -1,7 +1,7 @@
 // R: directional reflectance as the tables that modulate a reflected image (Bastos et al. 1999, section 8.2.2).
 #pragma once
 
-#include "bake/trace/brdf/specular.h"
+#include "bake/brdf/specular.h"
 #include "formats/assets/fresnel_map.h"
 #include "formats/core/archive.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/direct/lobe_fit.h"
+#include "bake/trace/lobe_fit.h"
 #include "formats/core/check.h"
 
 namespace oriel {

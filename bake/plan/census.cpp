@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "bake/trace/brdf/specular.h"
+#include "bake/brdf/specular.h"
 #include "formats/core/color.h"
 
 namespace oriel {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/radiance/reproject.h"
-#include "bake/scene/light/sky.h"
+#include "bake/scene/sky.h"
 #include "formats/core/check.h"
 
 namespace oriel {

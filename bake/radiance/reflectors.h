@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/optics/fresnel.h"
+#include "bake/brdf/fresnel.h"
 #include "bake/trace/accel.h"
 #include "formats/assets/fields.h"
 #include "formats/assets/radiance_map.h"

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "bake/radiosity/frames/frame_error.h"
 #include "bake/radiosity/radiosity.h"
+#include "bake/radiosity/texels/frame_error.h"
 
 namespace oriel {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "bake/direct/onlookers.h"
 #include "bake/jobs/units.h"
+#include "bake/trace/onlookers.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
 

@@ -6,15 +6,15 @@
 #include <memory>
 #include <optional>
 
-#include "bake/radiosity/cached/cached.h"
 #include "bake/radiosity/certificate.h"
-#include "bake/radiosity/detail/detail.h"
 #include "bake/radiosity/dilate.h"
-#include "bake/radiosity/frames/frame_error.h"
-#include "bake/radiosity/paths/path_estimator.h"
+#include "bake/radiosity/estimators/cached.h"
+#include "bake/radiosity/estimators/detail.h"
+#include "bake/radiosity/estimators/path_estimator.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/fit_texels.h"
+#include "bake/radiosity/texels/frame_error.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texels.h"
 #include "formats/core/color.h"

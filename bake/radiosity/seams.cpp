@@ -5,8 +5,8 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
-#include "bake/direct/buried.h"
 #include "bake/jobs/parallel.h"
+#include "bake/trace/buried.h"
 
 namespace oriel {
 namespace {

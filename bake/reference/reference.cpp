@@ -2,8 +2,8 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/trace/albedo.h"
-#include "formats/camera/camera.h"
 #include "formats/metrics/relative_error.h"
+#include "formats/query/camera.h"
 
 namespace oriel {
 namespace {

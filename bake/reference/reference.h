@@ -28,7 +28,7 @@ struct ReferenceFrame {
   double relative_noise = 0;  // root of the mean of noise² / (total² + (0.01 mean)²), means over pixels and channels
 };
 
-// Paths start as pixel_ray() of formats/camera has them. Error kStopped only.
+// Paths start as pixel_ray() of formats/query has them. Error kStopped only.
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
                                         const ReferenceOptions& options, Context& context);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "bake/brdf/specular.h"
 #include "bake/trace/albedo.h"
-#include "bake/trace/brdf/specular.h"
 #include "formats/assets/bilinear.h"
 
 namespace oriel {

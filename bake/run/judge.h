@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/radiance/capture.h"
-#include "bake/radiance/plan/samples.h"
+#include "bake/radiance/samples.h"
 
 namespace oriel {
 

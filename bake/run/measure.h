@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "bake/lux/illuminance.h"
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
+#include "bake/reference/illuminance.h"
 
 namespace oriel {
 

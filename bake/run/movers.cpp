@@ -3,7 +3,7 @@
 #include "bake/jobs/units.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/inputs.h"
-#include "formats/motion/mover_pose.h"
+#include "formats/query/mover_pose.h"
 
 namespace oriel {
 namespace {

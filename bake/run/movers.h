@@ -1,10 +1,10 @@
 // Movers and the light that they move through.
 #pragma once
 
+#include "bake/import/movers.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/options.h"
-#include "bake/scene/motion/movers.h"
 
 namespace oriel {
 

@@ -5,18 +5,18 @@
 #include <string>
 
 #include "bake/atlas/atlas.h"
+#include "bake/import/import.h"
 #include "bake/material/materials.h"
-#include "bake/radiance/curved/curved_reflectors.h"
-#include "bake/radiance/plan/planned_views.h"
-#include "bake/radiance/plan/ways.h"
+#include "bake/radiance/curved_reflectors.h"
+#include "bake/radiance/planned_views.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
+#include "bake/radiance/ways.h"
 #include "bake/radiosity/radiosity.h"
-#include "bake/scene/import.h"
 #include "bake/transfer/compress.h"
 #include "bake/transfer/probes.h"
+#include "bake/visibility/eye_region.h"
 #include "bake/visibility/find_sets.h"
-#include "bake/walk/eye_region.h"
 
 namespace oriel {
 
@@ -35,7 +35,7 @@ struct BakeOptions {
   std::filesystem::path scene;   // .glb or .gltf
   std::filesystem::path output;  // .oriel
   ImportOptions import;
-  bool guess_unit = true;  // where the scene's numbers cannot be metres (walk/scene_unit.h)
+  bool guess_unit = true;  // where the scene's numbers cannot be metres (visibility/scene_unit.h)
   AtlasOptions atlas;
   std::uint64_t memory_bytes = 0;  // of the whole bake; 0: no limit
   bool memory_given = false;       // by the user: else it is the machine's, and not recorded
@@ -50,7 +50,7 @@ struct BakeOptions {
   ViewOptions views;  // of hemispheres
   EyeOptions eyes;
   bool error_named = false;      // by the user: else radiosity.error is a wish
-  bool guess_eye_height = true;  // of people over the floor: told from the file (walk/eye_height.h), instead of
+  bool guess_eye_height = true;  // of people over the floor: told from the file (visibility/eye_height.h), instead of
   float eye_height_m = 1.6f;
   VisibleSetsWanted visible_sets = VisibleSetsWanted::kAuto;
   VisibilityOptions visibility;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bake/jobs/units.h"
-#include "bake/ledger/ledger.h"
-#include "bake/radiance/reuse/kept_maps.h"
+#include "bake/radiance/kept_maps.h"
+#include "bake/radiosity/ledger.h"
 #include "bake/run/options.h"
 #include "bake/run/stopwatch.h"
 #include "formats/pack/pack.h"

@@ -8,9 +8,9 @@
 #include "bake/jobs/units.h"
 #include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
-#include "bake/walk/eye_height.h"
-#include "bake/walk/lit_eyes.h"
-#include "bake/walk/scene_unit.h"
+#include "bake/visibility/eye_height.h"
+#include "bake/visibility/lit_eyes.h"
+#include "bake/visibility/scene_unit.h"
 #include "formats/core/color.h"
 
 namespace oriel {

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "bake/import/movers.h"
 #include "bake/radiosity/lit_sides.h"
 #include "bake/run/options.h"
 #include "bake/run/stopwatch.h"
 #include "bake/run/view_demand.h"
-#include "bake/scene/motion/movers.h"
 
 namespace oriel {
 

@@ -6,9 +6,9 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/radiance/curved/surround_capture.h"
-#include "bake/radiance/emitters/emitters.h"
-#include "bake/radiance/plan/residual.h"
+#include "bake/radiance/emitters.h"
+#include "bake/radiance/residual.h"
+#include "bake/radiance/surround_capture.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/deadline.h"
 #include "bake/run/inputs.h"

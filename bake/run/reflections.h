@@ -1,9 +1,9 @@
 // Reflectors, the eyes they are planned for, and what their maps show.
 #pragma once
 
-#include "bake/radiance/curved/curved_reflectors.h"
-#include "bake/radiance/plan/samples.h"
-#include "bake/radiance/reuse/kept_maps.h"
+#include "bake/radiance/curved_reflectors.h"
+#include "bake/radiance/kept_maps.h"
+#include "bake/radiance/samples.h"
 #include "bake/run/assemble.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/judge.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bake/radiosity/frames/frame_error.h"
+#include "bake/radiosity/texels/frame_error.h"
 #include "bake/run/option_table.h"
 #include "bake/run/version.h"
 #include "formats/core/half.h"

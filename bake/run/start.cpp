@@ -1,6 +1,6 @@
 #include "bake/run/start.h"
 
-#include "bake/walk/first_look.h"
+#include "bake/visibility/first_look.h"
 
 namespace oriel {
 

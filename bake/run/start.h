@@ -9,9 +9,9 @@ namespace oriel {
 
 enum class Start : std::uint8_t { kOfScene, kInside, kOutside };
 
-// Where the scene has no camera and no walk, adds one to the pack: "start" (bake/walk/first_look.h), on the floors of
-// the eyes that the bake is for, or where these are given, wherever people could walk. Says which it is. Error
-// kStopped.
+// Where the scene has no camera and no walk, adds one to the pack: "start" (bake/visibility/first_look.h), on the
+// floors of the eyes that the bake is for, or where these are given, wherever people could walk. Says which it is.
+// Error kStopped.
 Result<Start> choose_start(const BakeOptions& options, const WalkOptions& people, const EyeRegion& region,
                            const BakedScene& baked, Context& context, Pack& pack);
 

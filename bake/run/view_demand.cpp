@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "bake/walk/divide.h"
-#include "bake/walk/view_importance.h"
+#include "bake/visibility/divide.h"
+#include "bake/visibility/view_importance.h"
 
 namespace oriel {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "bake/atlas/texel_demand.h"
 #include "bake/run/options.h"
-#include "bake/walk/eye_region.h"
+#include "bake/visibility/eye_region.h"
 
 namespace oriel {
 

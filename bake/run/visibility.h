@@ -4,7 +4,7 @@
 #include "bake/radiance/reflectors.h"
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 
 namespace oriel {
 

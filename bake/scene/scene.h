@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/optics/metals.h"
+#include "bake/brdf/metals.h"
 #include "formats/assets/camera.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mover.h"
@@ -151,7 +151,7 @@ struct Scene {
   std::vector<Camera> cameras;    // scene space
   std::vector<CameraPath> paths;  // scene space
   std::vector<LightProfile> profiles;
-  SkyImage sky_image;  // read it by sky_radiance() in light/sky.h
+  SkyImage sky_image;  // read it by sky_radiance() in sky.h
   Vec3 sky{0};  // radiance of the sky, cd/m² (an option of the bake, not of glTF): constant, or the image's mean
 
   float radius() const { return 0.5f * glm::length(upper - lower); }

@@ -1,9 +1,9 @@
 // What the surface is at a point: textures, vertex colours and factors resolved into the parameters of light transport.
 #pragma once
 
-#include "bake/scene/optics/fresnel.h"
+#include "bake/brdf/fresnel.h"
 #include "bake/scene/scene.h"
-#include "bake/scene/texture/texture.h"
+#include "bake/scene/texture.h"
 
 namespace oriel {
 

@@ -1,8 +1,8 @@
 // What a shading point's specular layers reflect and let through (brdf/specular.h).
 #pragma once
 
+#include "bake/brdf/specular.h"
 #include "bake/scene/shade.h"
-#include "bake/trace/brdf/specular.h"
 
 namespace oriel {
 

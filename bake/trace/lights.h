@@ -3,9 +3,9 @@
 #pragma once
 
 #include "bake/trace/accel.h"
-#include "bake/trace/lights/light_tree.h"
-#include "bake/trace/lights/punctual.h"
-#include "bake/trace/lights/sky_sampler.h"
+#include "bake/trace/light_tree.h"
+#include "bake/trace/punctual.h"
+#include "bake/trace/sky_sampler.h"
 
 namespace oriel {
 

@@ -1,9 +1,9 @@
 // Lights strong enough to shine on movers by themselves, with shadows of their own, instead of in harmonics.
 #pragma once
 
-#include "bake/direct/polygon_light.h"
 #include "bake/jobs/context.h"
 #include "bake/trace/lights.h"
+#include "bake/trace/polygon_light.h"
 #include "formats/assets/light_field.h"
 #include "formats/core/archive.h"
 

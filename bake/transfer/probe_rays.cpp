@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "bake/scene/light/sky.h"
+#include "bake/scene/sky.h"
 #include "bake/trace/albedo.h"
 #include "bake/transfer/probes.h"
 #include "formats/core/octahedral.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
 
 namespace oriel {
 namespace {

@@ -7,7 +7,7 @@
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "formats/assets/fields.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
 
 namespace oriel {
 namespace {

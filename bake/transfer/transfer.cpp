@@ -8,7 +8,7 @@
 #include "bake/trace/albedo.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
 
 namespace oriel {
 namespace {

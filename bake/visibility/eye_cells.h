@@ -3,7 +3,7 @@
 
 #include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 
 namespace oriel {
 

@@ -1,7 +1,7 @@
 // Triangles that lie together, so that a few hundred bits say what is seen.
 #pragma once
 
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 
 namespace oriel {
 

@@ -37,7 +37,7 @@ struct LightProbe {
   // Bits by LightField::lights. bright: the strongest here, which `sh` leaves out. kept: those that `sh` holds. In
   // neither: lights that do not reach this point.
   std::uint64_t bright = 0, kept = 0;
-  std::vector<float> sh;  // R, G, B, bands² coefficients each: radiance, cd/m² (formats/sh/sh.h)
+  std::vector<float> sh;  // R, G, B, bands² coefficients each: radiance, cd/m² (formats/core/sh.h)
   // Distance to the nearest surface by direction on an octahedral map (formats/core/octahedral.h), row by row from v =
   // 0: mean and mean square over a texel, as shares of depth_cap_m and its square.
   std::vector<Vec2> depth;

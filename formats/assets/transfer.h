@@ -8,7 +8,7 @@
 namespace oriel {
 
 // T of a vertex with B = albedo · Σ T_i L_i: B the radiance it sends out, L the radiance around in spherical harmonics
-// (formats/sh/sh.h), both in the object's axes. T = mean + Σ_k weight_k component_k of the vertex's cluster.
+// (formats/core/sh.h), both in the object's axes. T = mean + Σ_k weight_k component_k of the vertex's cluster.
 struct CompressedTransfer {
   int bands = 0;                      // 2 to 6
   int channels = 1;                   // 1 or 3: the same for all colours, or R, G, B

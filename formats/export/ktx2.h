@@ -6,7 +6,7 @@
 
 namespace oriel {
 
-// kRgb9e5: a u32 a texel (formats/core/half.h); kBc6h: blocks (formats/image/bc6h); kRg16f: two halves a texel.
+// kRgb9e5: a u32 a texel (formats/core/half.h); kBc6h: blocks (formats/image); kRg16f: two halves a texel.
 enum class TexelCoding { kRgb9e5, kBc6h, kRg16f };
 
 struct Ktx2Texture {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formats/core/half.h"
-#include "formats/image/bc6h/encode.h"
+#include "formats/image/encode.h"
 
 namespace oriel {
 namespace {

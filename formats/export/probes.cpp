@@ -6,7 +6,7 @@
 
 #include "formats/core/half.h"
 #include "formats/core/octahedral.h"
-#include "formats/image/bc6h/encode.h"
+#include "formats/image/encode.h"
 
 namespace oriel {
 namespace {

@@ -55,10 +55,10 @@ struct WhyRequest {
   bool json = false;
 };
 
-// Why the surface at a place is lit as it is (formats/why). Error kInvalid where there is none.
+// Why the surface at a place is lit as it is (formats/analysis). Error kInvalid where there is none.
 int why(const std::filesystem::path& path, const WhyRequest& request);
 
-// The pack as one HTML page to look at (formats/report).
+// The pack as one HTML page to look at (formats/export).
 int page(const std::filesystem::path& path, const std::filesystem::path& output);
 
 struct ExportOptions {

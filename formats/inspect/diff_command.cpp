@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "formats/analysis/error_bands.h"
+#include "formats/analysis/pack_diff.h"
+#include "formats/analysis/texel_diff.h"
 #include "formats/core/file.h"
-#include "formats/diff/error_bands.h"
-#include "formats/diff/pack_diff.h"
-#include "formats/diff/texel_diff.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"

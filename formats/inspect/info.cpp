@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/export/summary.h"
 #include "formats/inspect/commands.h"
 #include "formats/inspect/info_reflections.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
-#include "formats/report/summary.h"
 
 namespace oriel::inspect {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "formats/report/summary.h"
+#include "formats/export/summary.h"
 
 namespace oriel::inspect {
 namespace {

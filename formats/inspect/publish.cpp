@@ -6,11 +6,11 @@
 #include "formats/core/file.h"
 #include "formats/export/lightmap_texture.h"
 #include "formats/export/probes.h"
+#include "formats/export/report.h"
 #include "formats/export/scene_glb.h"
 #include "formats/image/exr.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/reader.h"
-#include "formats/report/report.h"
 
 namespace oriel::inspect {
 

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
+#include "formats/analysis/why.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/reader.h"
-#include "formats/why/why.h"
 
 namespace oriel::inspect {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "formats/core/hash.h"
-#include "formats/pack/rules/issues.h"
-#include "formats/pack/sections/decode.h"
-#include "formats/pack/sections/reading.h"
+#include "formats/pack/decode.h"
+#include "formats/pack/issues.h"
+#include "formats/pack/reading.h"
 
 namespace oriel {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "formats/core/file.h"
-#include "formats/pack/encoding/half_page.h"
+#include "formats/pack/half_page.h"
 #include "formats/pack/index.h"
 #include "formats/pack/pack.h"
 

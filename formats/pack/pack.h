@@ -17,7 +17,7 @@
 #include "formats/assets/surround_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/bytes.h"
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 
 namespace oriel {
 

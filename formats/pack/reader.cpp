@@ -1,9 +1,9 @@
 #include "formats/pack/reader.h"
 
 #include "formats/core/file.h"
-#include "formats/pack/rules/issues.h"
-#include "formats/pack/sections/decode.h"
-#include "formats/pack/sections/reading.h"
+#include "formats/pack/decode.h"
+#include "formats/pack/issues.h"
+#include "formats/pack/reading.h"
 
 namespace oriel {
 namespace {

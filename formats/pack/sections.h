@@ -1,7 +1,7 @@
 // What lies inside each section: one description an asset, which writes it and reads it.
 #pragma once
 
-#include "formats/pack/encoding/half_page.h"
+#include "formats/pack/half_page.h"
 #include "formats/pack/pack.h"
 #include "formats/pack/serial.h"
 

@@ -4,9 +4,9 @@
 #include "formats/core/bytes.h"
 #include "formats/core/result.h"
 #include "formats/core/vec.h"
-#include "formats/pack/encoding/planes.h"
-#include "formats/pack/encoding/quantise.h"
 #include "formats/pack/layout.h"
+#include "formats/pack/planes.h"
+#include "formats/pack/quantise.h"
 
 namespace oriel {
 
@@ -82,7 +82,7 @@ class Serial {
     if (!reading()) return out_->put_array(std::span<const T>(values));
     if (ok()) values = in_->get_array<T>(n);
   }
-  // n plain elements as planes (encoding/planes.h).
+  // n plain elements as planes (planes.h).
   template <class T>
   void planes(std::vector<T>& values, std::uint64_t n) {
     if (!reading()) return put_planes(*out_, std::span<const T>(values));

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "formats/pack/rules/issues.h"
+#include "formats/pack/issues.h"
 
 namespace oriel {
 namespace {

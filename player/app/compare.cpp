@@ -4,17 +4,17 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "formats/camera/camera_spec.h"
 #include "formats/core/file.h"
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
 #include "formats/metrics/display.h"
+#include "formats/query/camera_spec.h"
 #include "player/app/compare_picture.h"
-#include "player/comparison/other.h"
 #include "player/gpu/headless.h"
+#include "player/navigation/poses.h"
+#include "player/output/other.h"
 #include "player/output/picture.h"
 #include "player/passes/frame.h"
-#include "player/poses/poses.h"
 
 namespace oriel {
 namespace {

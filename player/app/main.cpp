@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <exception>
 
-#include "formats/camera/path.h"
 #include "formats/pack/deferred.h"
+#include "formats/query/path.h"
 #include "player/app/compare.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
-#include "player/options/arguments.h"
+#include "player/session/arguments.h"
 #include "player/window/window.h"
 
 namespace {

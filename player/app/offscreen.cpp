@@ -10,15 +10,15 @@
 #include "player/app/panorama_shot.h"
 #include "player/app/shots.h"
 #include "player/app/stop.h"
-#include "player/comparison/other.h"
 #include "player/gpu/headless.h"
+#include "player/navigation/poses.h"
+#include "player/navigation/zone.h"
 #include "player/output/frame_record.h"
+#include "player/output/other.h"
 #include "player/output/picture.h"
 #include "player/output/video.h"
 #include "player/passes/frame.h"
-#include "player/poses/poses.h"
 #include "player/session/session.h"
-#include "player/walk/zone.h"
 
 namespace oriel {
 namespace {

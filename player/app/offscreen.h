@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/pack/deferred.h"
-#include "player/options/arguments.h"
+#include "player/session/arguments.h"
 
 namespace oriel {
 

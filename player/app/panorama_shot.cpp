@@ -5,9 +5,9 @@
 
 #include "formats/core/color.h"
 #include "player/app/stop.h"
+#include "player/navigation/poses.h"
 #include "player/output/panorama.h"
 #include "player/output/picture.h"
-#include "player/poses/poses.h"
 
 namespace oriel {
 namespace {

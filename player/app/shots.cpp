@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "formats/camera/camera_spec.h"
-#include "formats/camera/path.h"
-#include "player/paths/path_file.h"
-#include "player/paths/smooth.h"
+#include "formats/query/camera_spec.h"
+#include "formats/query/path.h"
+#include "player/navigation/path_file.h"
+#include "player/navigation/smooth.h"
 
 namespace oriel {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "player/options/arguments.h"
 #include "player/scene/gpu_scene.h"
+#include "player/session/arguments.h"
 
 namespace oriel {
 

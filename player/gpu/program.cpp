@@ -25,7 +25,7 @@ Result<Handle<ObjectKind::kShader>> compile(GLenum stage, const ShaderText& sour
 }  // namespace
 
 Result<Program> Program::create(std::string_view name, Dialect dialect, std::string_view define) {
-  const std::string_view vertex_name = name.starts_with("screen/") ? "screen/fullscreen" : name;
+  const std::string_view vertex_name = name.starts_with("screen_") ? "screen_fullscreen" : name;
   ORIEL_TRY(const ShaderText vertex, assemble_shader(fmt::format("passes/{}.vert", vertex_name), dialect, define));
   ORIEL_TRY(const ShaderText fragment, assemble_shader(fmt::format("passes/{}.frag", name), dialect, define));
   return create_from(name, vertex, fragment);

@@ -33,8 +33,8 @@ std::string name_places(const std::string& log, const ShaderText& source);
 class Program {
  public:
   Program() = default;
-  // passes/<name>.vert with passes/<name>.frag; the passes over a whole image, "screen/…", share
-  // passes/screen/fullscreen.vert. define: as assemble_shader. Error kRuntime holds the driver's log with files and
+  // passes/<name>.vert with passes/<name>.frag; the passes over a whole image, "screen_…", share
+  // passes/screen_fullscreen.vert. define: as assemble_shader. Error kRuntime holds the driver's log with files and
   // lines.
   static Result<Program> create(std::string_view name, Dialect dialect, std::string_view define = {});
   // For tests: a program of two texts as assemble_shader gives them.

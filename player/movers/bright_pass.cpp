@@ -64,9 +64,9 @@ std::span<const Vec4> points_of(const LightSamples& light, std::size_t group) {
 Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
   ORIEL_TRY(pass.maps_, ShadowMaps::create(dialect));
-  ORIEL_TRY(pass.surface_, gpu::Program::create("mover/surface", dialect));
-  ORIEL_TRY(pass.shadow_, gpu::Program::create("mover/shadow", dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("mover/bright_light", dialect));
+  ORIEL_TRY(pass.surface_, gpu::Program::create("mover_surface", dialect));
+  ORIEL_TRY(pass.shadow_, gpu::Program::create("mover_shadow", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("mover_bright_light", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

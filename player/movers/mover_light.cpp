@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "formats/motion/mover_pose.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
+#include "formats/query/mover_pose.h"
 #include "player/movers/light_samples.h"
 
 namespace oriel {

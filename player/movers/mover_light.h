@@ -6,8 +6,8 @@
 #pragma once
 
 #include "formats/assets/mover.h"
-#include "formats/light/light_at.h"
-#include "player/view/culling.h"
+#include "formats/query/light_at.h"
+#include "player/navigation/culling.h"
 
 namespace oriel {
 

@@ -1,6 +1,6 @@
 #include "player/movers/mover_pass.h"
 
-#include "formats/motion/mover_pose.h"
+#include "formats/query/mover_pose.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -52,7 +52,7 @@ Bounds bounds_with_movers(const GpuScene& scene, std::span<const MoverPose> pose
 Result<MoverPass> MoverPass::create(gpu::Dialect dialect) {
   MoverPass pass;
   ORIEL_TRY(pass.depth_, gpu::Program::create("depth", dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("mover/light", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("mover_light", dialect));
   return pass;
 }
 

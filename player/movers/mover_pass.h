@@ -3,9 +3,9 @@
 
 #include "player/gpu/program.h"
 #include "player/movers/mover_light.h"
+#include "player/navigation/view.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
-#include "player/view/view.h"
 
 namespace oriel {
 

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kMapSize = 256;  // texels of a layer, which its points share, as in passes/mover/shadow.frag
+constexpr int kMapSize = 256;  // texels of a layer, which its points share, as in passes/mover_shadow.frag
 constexpr int kLayers = 128;   // kept: at least those of one light
 
 gpu::TextureArray make_maps(GLenum filter) {

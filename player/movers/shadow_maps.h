@@ -13,7 +13,7 @@
 
 namespace oriel {
 
-inline constexpr int kPointsOfLayer = 4;  // vec4 and mat4[4] of shaders/passes/mover/shadow.frag
+inline constexpr int kPointsOfLayer = 4;  // vec4 and mat4[4] of shaders/passes/mover_shadow.frag
 
 class ShadowMaps {
  public:

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "formats/core/vec.h"
-#include "player/view/culling.h"
+#include "player/navigation/culling.h"
 
 namespace oriel {
 

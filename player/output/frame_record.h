@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "formats/core/result.h"
-#include "player/options/arguments.h"
+#include "player/session/arguments.h"
 
 namespace oriel {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 
 namespace oriel {
 namespace {

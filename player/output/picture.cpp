@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <map>
 
-#include "formats/camera/camera_notes.h"
 #include "formats/core/color.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/metrics/relative_error.h"
-#include "player/options/option_names.h"
+#include "formats/query/camera_notes.h"
+#include "player/session/option_names.h"
 
 namespace oriel {
 namespace {

@@ -66,10 +66,10 @@ float exposure_of_white(float white) {
 
 Result<DisplayPass> DisplayPass::create(gpu::Dialect dialect) {
   DisplayPass pass;
-  ORIEL_TRY(pass.luminance_, gpu::Program::create("screen/luminance", dialect));
-  ORIEL_TRY(pass.tonemap_, gpu::Program::create("screen/tonemap", dialect));
+  ORIEL_TRY(pass.luminance_, gpu::Program::create("screen_luminance", dialect));
+  ORIEL_TRY(pass.tonemap_, gpu::Program::create("screen_tonemap", dialect));
   if (dialect == gpu::Dialect::kDesktop330) {
-    ORIEL_TRY(pass.tonemap_samples_, gpu::Program::create("screen/tonemap", dialect, "MULTISAMPLED"));
+    ORIEL_TRY(pass.tonemap_samples_, gpu::Program::create("screen_tonemap", dialect, "MULTISAMPLED"));
   }
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;

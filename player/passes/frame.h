@@ -11,7 +11,7 @@
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflection_renderer.h"
 #include "player/passes/scene_pass.h"
-#include "player/survey/survey_pass.h"
+#include "player/passes/survey_pass.h"
 
 namespace oriel {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "player/movers/mover_pass.h"
+#include "player/navigation/zone.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflector_pass.h"
 #include "player/passes/scene_pass.h"
@@ -20,7 +21,6 @@
 #include "player/reflections/fill_pass.h"
 #include "player/reflections/march_pass.h"
 #include "player/reflections/reproject_pass.h"
-#include "player/walk/zone.h"
 
 namespace oriel {
 

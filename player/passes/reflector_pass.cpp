@@ -45,11 +45,11 @@ gpu::RasterState where_marked(const View& view, GLint value) {
 
 Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   ReflectorPass pass;
-  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
-  ORIEL_TRY(pass.compose_, gpu::Program::create("reflector/compose", dialect));
-  ORIEL_TRY(pass.convolve_, gpu::Program::create("reflector/convolve", dialect));
-  ORIEL_TRY(pass.emitters_, gpu::Program::create("reflector/emitters", dialect));
-  ORIEL_TRY(pass.emitters_sharp_, gpu::Program::create("reflector/emitters_sharp", dialect));
+  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector_mask", dialect));
+  ORIEL_TRY(pass.compose_, gpu::Program::create("reflector_compose", dialect));
+  ORIEL_TRY(pass.convolve_, gpu::Program::create("reflector_convolve", dialect));
+  ORIEL_TRY(pass.emitters_, gpu::Program::create("reflector_emitters", dialect));
+  ORIEL_TRY(pass.emitters_sharp_, gpu::Program::create("reflector_emitters_sharp", dialect));
   return pass;
 }
 

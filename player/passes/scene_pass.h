@@ -6,9 +6,9 @@
 
 #include "player/gpu/program.h"
 #include "player/movers/bright_pass.h"
+#include "player/navigation/view.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
-#include "player/view/view.h"
 
 namespace oriel {
 

@@ -58,7 +58,7 @@ float constant_footprint(const GpuReflector& reflector, const View& view) {
 
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
-  ORIEL_TRY(pass.program_, gpu::Program::create("screen/convolve", dialect));
+  ORIEL_TRY(pass.program_, gpu::Program::create("screen_convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

@@ -12,11 +12,11 @@ namespace oriel {
 // screen: what the reflector covers.
 ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit, bool coarse = false);
 
-// What shaders/passes/screen/blur_width.glsl asks for, to the program in use.
+// What shaders/passes/screen_blur_width.glsl asks for, to the program in use.
 void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
                     const View& view, const ImageRect& rect, float scene_radius, Blur blur);
 
-// What shaders/passes/screen/convolve.glsl asks for, to the program in use: target.filled, all levels, and K in texture
+// What shaders/passes/screen_convolve.glsl asks for, to the program in use: target.filled, all levels, and K in texture
 // units 0 and 2.
 void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
                      const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius, Blur blur);

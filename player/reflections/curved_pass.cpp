@@ -33,8 +33,8 @@ gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
 
 Result<CurvedPass> CurvedPass::create(gpu::Dialect dialect) {
   CurvedPass pass;
-  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector/mask", dialect));
-  ORIEL_TRY(pass.light_, gpu::Program::create("curved/light", dialect));
+  ORIEL_TRY(pass.mask_, gpu::Program::create("reflector_mask", dialect));
+  ORIEL_TRY(pass.light_, gpu::Program::create("curved_light", dialect));
   return pass;
 }
 

@@ -4,9 +4,9 @@
 
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
+#include "player/navigation/view.h"
 #include "player/scene/frame_options.h"
 #include "player/scene/gpu_scene.h"
-#include "player/view/view.h"
 
 namespace oriel {
 

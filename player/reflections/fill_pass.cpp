@@ -28,8 +28,8 @@ void bind_all_levels(const gpu::Texture2d& texture, int unit, int levels) {
 
 Result<FillPass> FillPass::create(gpu::Dialect dialect) {
   FillPass pass;
-  ORIEL_TRY(pass.pull_, gpu::Program::create("screen/pull", dialect));
-  ORIEL_TRY(pass.push_, gpu::Program::create("screen/push", dialect));
+  ORIEL_TRY(pass.pull_, gpu::Program::create("screen_pull", dialect));
+  ORIEL_TRY(pass.push_, gpu::Program::create("screen_push", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

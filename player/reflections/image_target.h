@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "player/gpu/framebuffer.h"
-#include "player/view/view.h"
+#include "player/navigation/view.h"
 
 namespace oriel {
 

@@ -46,8 +46,8 @@ gpu::RasterState where(const ShownPixels& shown, GLenum equal_or_not) {
 Result<MarchPass> MarchPass::create(gpu::Dialect dialect) {
   MarchPass pass;
   ORIEL_TRY(pass.program_, gpu::Program::create("march", dialect));
-  ORIEL_TRY(pass.spread_, gpu::Program::create("screen/spread", dialect));
-  ORIEL_TRY(pass.spread_everywhere_, gpu::Program::create("screen/spread", dialect, "EVERYWHERE"));
+  ORIEL_TRY(pass.spread_, gpu::Program::create("screen_spread", dialect));
+  ORIEL_TRY(pass.spread_everywhere_, gpu::Program::create("screen_spread", dialect, "EVERYWHERE"));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
 }

@@ -1,6 +1,6 @@
 #include "player/scene/check.h"
 
-#include "player/maps/map_choice.h"
+#include "player/images/map_choice.h"
 
 namespace oriel {
 namespace {

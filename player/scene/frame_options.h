@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "formats/assets/mover.h"
-#include "player/maps/map_choice.h"
+#include "player/images/map_choice.h"
 #include "player/scene/kernel_taps.h"
 
 namespace oriel {

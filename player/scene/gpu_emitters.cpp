@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "formats/lobes/clipped_polygon.h"
+#include "formats/query/clipped_polygon.h"
 
 namespace oriel {
 namespace {

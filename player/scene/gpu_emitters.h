@@ -1,4 +1,4 @@
-// The emitters that a glossy reflector's maps leave out, as shaders/passes/reflector/emitters.glsl reads them.
+// The emitters that a glossy reflector's maps leave out, as shaders/passes/reflector_emitters.glsl reads them.
 #pragma once
 
 #include "formats/pack/pack.h"

@@ -4,10 +4,10 @@
 #include <functional>
 
 #include "formats/assets/mover.h"
-#include "formats/visibility/visible_sets.h"
+#include "formats/query/visible_sets.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/texture.h"
-#include "player/view/culling.h"
+#include "player/navigation/culling.h"
 
 namespace oriel {
 

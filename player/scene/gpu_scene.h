@@ -8,12 +8,12 @@
 
 #include "player/gpu/buffer.h"
 #include "player/gpu/device.h"
-#include "player/loading/scene_images.h"
+#include "player/images/scene_images.h"
+#include "player/navigation/view.h"
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
-#include "player/view/view.h"
 
 namespace oriel {
 

@@ -1,4 +1,4 @@
-// K as a few samples of equal energy by incidence, for a shader: the same maths as shaders/lib/lobe/kernel.glsl.
+// K as a few samples of equal energy by incidence, for a shader: the same maths as shaders/lib/kernel.glsl.
 #pragma once
 
 #include <vector>

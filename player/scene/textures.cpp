@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/lobes/lobe_light.h"
+#include "formats/query/lobe_light.h"
 
 namespace oriel {
 gpu::Texture2d upload_reflectance_tables(const std::vector<FresnelMap>& maps) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "formats/why/why.h"
-#include "player/poses/drag.h"
+#include "formats/analysis/why.h"
+#include "player/navigation/drag.h"
 
 namespace oriel {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "formats/camera/path.h"
-#include "player/paths/recorder.h"
+#include "formats/query/path.h"
+#include "player/navigation/recorder.h"
 
 namespace oriel {
 namespace {

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "formats/motion/mover_pose.h"
 #include "formats/pack/pack.h"
+#include "formats/query/mover_pose.h"
+#include "player/navigation/controller.h"
+#include "player/navigation/drag.h"
+#include "player/navigation/floors.h"
+#include "player/navigation/way.h"
 #include "player/passes/display_pass.h"
-#include "player/poses/drag.h"
 #include "player/scene/frame_options.h"
 #include "player/session/comparison.h"
 #include "player/session/keys.h"
 #include "player/session/pace.h"
-#include "player/walk/controller.h"
-#include "player/walk/floors.h"
-#include "player/walk/way.h"
 
 namespace oriel {
 

@@ -1,6 +1,6 @@
 #include "player/window/announce.h"
 
-#include "player/options/option_names.h"
+#include "player/session/option_names.h"
 
 namespace oriel {
 namespace {

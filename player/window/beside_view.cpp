@@ -1,6 +1,6 @@
 #include "player/window/beside_view.h"
 
-#include "player/comparison/split.h"
+#include "player/output/split.h"
 
 namespace oriel {
 namespace {

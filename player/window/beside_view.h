@@ -1,8 +1,8 @@
 // The window's frame beside another one.
 #pragma once
 
-#include "player/comparison/flip_watch.h"
-#include "player/comparison/other.h"
+#include "player/output/flip_watch.h"
+#include "player/output/other.h"
 #include "player/session/session.h"
 
 namespace oriel {

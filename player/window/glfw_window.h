@@ -1,6 +1,8 @@
 // GLFW and its window.
 #pragma once
 
+#include <epoxy/gl.h>  // before GLFW, which would include a GL header of its own
+
 #include <GLFW/glfw3.h>
 
 #include <memory>

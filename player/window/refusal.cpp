@@ -1,6 +1,6 @@
-#include "player/panel/gui.h"
-#include "player/panel/panel.h"
 #include "player/window/glfw_window.h"
+#include "player/window/gui.h"
+#include "player/window/panel.h"
 #include "player/window/window.h"
 
 namespace oriel {

@@ -4,21 +4,21 @@
 #include <filesystem>
 #include <thread>
 
-#include "formats/camera/camera_spec.h"
-#include "formats/camera/path.h"
-#include "player/loading/loading_watch.h"
+#include "formats/query/camera_spec.h"
+#include "formats/query/path.h"
+#include "player/images/loading_watch.h"
+#include "player/navigation/path_file.h"
+#include "player/navigation/poses.h"
+#include "player/navigation/zone.h"
 #include "player/output/frame_record.h"
 #include "player/output/picture.h"
-#include "player/panel/gui.h"
-#include "player/panel/panel.h"
-#include "player/paths/path_file.h"
-#include "player/poses/poses.h"
 #include "player/session/scene_name.h"
-#include "player/walk/zone.h"
 #include "player/window/announce.h"
 #include "player/window/beside_view.h"
 #include "player/window/glfw_window.h"
+#include "player/window/gui.h"
 #include "player/window/paced_frame.h"
+#include "player/window/panel.h"
 #include "player/window/window_input.h"
 
 namespace oriel {

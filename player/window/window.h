@@ -6,7 +6,7 @@
 #include <string>
 
 #include "formats/pack/deferred.h"
-#include "player/options/arguments.h"
+#include "player/session/arguments.h"
 
 namespace oriel {
 

@@ -1,5 +1,5 @@
 // Directions on a square, the same maths as formats/core/octahedral.h, and the levels of a map of it in one image with borders
-// (player/maps/surround_pyramid.h).
+// (player/images/surround_pyramid.h).
 
 // The point of [-1, 1]^2 of a direction of any length but 0.
 vec2 octahedral_from_direction(vec3 d) {

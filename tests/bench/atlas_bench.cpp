@@ -9,7 +9,7 @@
 #include "bake/atlas/atlas.h"
 #include "bake/atlas/polygon.h"
 #include "bake/atlas/texel_map.h"
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/image/png.h"
 #include "tests/bake/atlas/shapes.h"
 

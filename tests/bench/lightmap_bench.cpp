@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "bake/import/import.h"
 #include "bake/radiosity/radiosity.h"
-#include "bake/scene/import.h"
 
 namespace oriel {
 namespace {

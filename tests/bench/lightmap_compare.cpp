@@ -7,7 +7,7 @@
 #include <map>
 
 #include "bake/atlas/texel_map.h"
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/image/exr.h"
 
 namespace oriel {

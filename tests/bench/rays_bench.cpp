@@ -3,9 +3,9 @@
 #include <chrono>
 #include <cstdio>
 
+#include "bake/import/import.h"
 #include "bake/jobs/parallel.h"
 #include "bake/radiosity/gather/gather.h"
-#include "bake/scene/import.h"
 
 namespace oriel {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "bake/transfer/compress.h"
 
 namespace oriel {

@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "bake/import/import.h"
 #include "bake/material/materials.h"
-#include "bake/radiance/plan/planned_views.h"
-#include "bake/radiance/plan/residual.h"
-#include "bake/scene/import.h"
-#include "bake/walk/eye_region.h"
+#include "bake/radiance/planned_views.h"
+#include "bake/radiance/residual.h"
+#include "bake/visibility/eye_region.h"
 
 namespace oriel {
 namespace {

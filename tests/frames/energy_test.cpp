@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "bake/import/import.h"
 #include "bake/radiosity/radiosity.h"
-#include "bake/scene/import.h"
 #include "bake/scene/shade.h"
 #include "tests/frames/frames.h"
 

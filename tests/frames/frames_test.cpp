@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "bake/scene/import.h"
-#include "formats/camera/camera.h"
+#include "bake/import/import.h"
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
 #include "formats/metrics/display.h"
+#include "formats/query/camera.h"
 #include "tests/frames/frames.h"
 
 namespace oriel {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/core/file.h"
 #include "formats/image/exr.h"
 #include "formats/pack/reader.h"

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <random>
 
-#include "bake/scene/gltf/container.h"
-#include "bake/scene/import.h"
+#include "bake/import/container.h"
+#include "bake/import/import.h"
 #include "formats/core/check.h"
-#include "tests/bake/scene/gltf_maker.h"
+#include "tests/bake/import/gltf_maker.h"
 #include "tests/support/temporary_folder.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);

@@ -2,7 +2,7 @@
 // size, offset and checksum put right again. Of plain mutations all but a few end at the first checksum.
 #include <random>
 
-#include "tests/formats/forge.h"
+#include "tests/formats/pack/forge.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 

@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "formats/pack/writer.h"
-#include "tests/bake/scene/gltf_maker.h"
-#include "tests/formats/forge.h"
+#include "tests/bake/import/gltf_maker.h"
+#include "tests/formats/pack/forge.h"
 #include "tests/support/tiny_pack.h"
 
 namespace {

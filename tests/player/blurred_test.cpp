@@ -1,6 +1,6 @@
 // M as coarse as its blur allows: where it may be, and where it must not; and M beyond a reflector's edges, which blur
 // alone looks at.
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

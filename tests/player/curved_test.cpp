@@ -4,9 +4,9 @@
 #include <optional>
 #include <random>
 
-#include "formats/camera/camera.h"
 #include "formats/core/half.h"
 #include "formats/core/octahedral.h"
+#include "formats/query/camera.h"
 #include "tests/player/frame_fixture.h"
 #include "tests/player/twins/surround_march.h"
 
@@ -240,7 +240,7 @@ TEST_F(CurvedFrames, MarchAlikeOnBothSides) {
       "  o_hit = march_surroundings(u_distances, u_size, u_range, texelFetch(u_origins, at, 0).xyz,\n"
       "                             texelFetch(u_directions, at, 0).xyz);\n}\n";
   const auto program = gpu::Program::create_from(
-      "test", *gpu::assemble_shader("passes/screen/fullscreen.vert", gpu::Dialect::kDesktop330), fragment);
+      "test", *gpu::assemble_shader("passes/screen_fullscreen.vert", gpu::Dialect::kDesktop330), fragment);
   ASSERT_TRUE(program) << program.error().text();
   const gpu::Texture2d from(gpu::kRgba32f, kRays, 1, origins.data()), to(gpu::kRgba32f, kRays, 1, directions.data());
   const gpu::Texture2d out(gpu::kRgba32f, kRays, 1, nullptr);

@@ -1,4 +1,4 @@
-#include "player/textures/cutout_mips.h"
+#include "player/images/cutout_mips.h"
 
 #include <gtest/gtest.h>
 

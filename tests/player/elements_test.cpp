@@ -1,8 +1,8 @@
 // Reflector elements and their radiance maps on the device: several elements, many maps, maps of few pixels, coarse
 // levels.
-#include "formats/camera/camera.h"
 #include "formats/core/half.h"
-#include "player/maps/relief.h"
+#include "formats/query/camera.h"
+#include "player/images/relief.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

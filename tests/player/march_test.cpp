@@ -9,7 +9,7 @@
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
 #include "player/gpu/program.h"
-#include "player/maps/map_array.h"
+#include "player/images/map_array.h"
 
 namespace oriel {
 namespace {
@@ -240,7 +240,7 @@ TEST_F(March, TheShaderDoesTheSame) {
     starts.emplace_back(rays.back().on_plane, i % 2, 0);
     directions.emplace_back(rays.back().direction, 0);
   }
-  auto vertex = gpu::assemble_shader("passes/screen/fullscreen.vert", gpu::Dialect::kDesktop330);
+  auto vertex = gpu::assemble_shader("passes/screen_fullscreen.vert", gpu::Dialect::kDesktop330);
   gpu::ShaderText fragment;
   fragment.text = "#version 330 core\n" + std::string(gpu::shader_source("lib/march.glsl")) + R"(
 uniform sampler2D u_starts;

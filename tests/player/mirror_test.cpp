@@ -1,5 +1,5 @@
 // Reflections against closed-form geometry: a mirror at z = 0 before a wall at z = 3 with a red square on it.
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

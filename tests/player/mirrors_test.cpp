@@ -1,7 +1,7 @@
 // Mirrored geometry: mirrors in mirrors, a mirror over a polished floor, what moves and what is curved in mirrors.
 #include <cmath>
 
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

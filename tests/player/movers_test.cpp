@@ -1,12 +1,12 @@
 // Movers under known light, read back as cd/m², beside the same maths on the CPU.
 #include "bake/trace/sampler.h"
-#include "formats/camera/camera.h"
 #include "formats/core/octahedral.h"
-#include "formats/motion/mover_pose.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
+#include "formats/query/camera.h"
+#include "formats/query/mover_pose.h"
 #include "player/movers/light_samples.h"
 #include "player/movers/shadow_shaft.h"
-#include "player/poses/drag.h"
+#include "player/navigation/drag.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

@@ -1,7 +1,7 @@
 // What reflectors show besides their maps: mirrored geometry and emitters in closed form; and what is left at the
 // extremes.
-#include "formats/camera/camera.h"
-#include "formats/lobes/lobe_light.h"
+#include "formats/query/camera.h"
+#include "formats/query/lobe_light.h"
 #include "player/passes/mirrored_view.h"
 #include "tests/player/frame_fixture.h"
 

@@ -1,11 +1,11 @@
 // What the player decides without a GPU: views, culling, the choice of maps, taps of kernels.
 #include <gmock/gmock.h>
 
-#include "player/maps/map_choice.h"
+#include "player/images/map_choice.h"
+#include "player/navigation/culling.h"
+#include "player/navigation/view.h"
 #include "player/scene/check.h"
 #include "player/scene/kernel_taps.h"
-#include "player/view/culling.h"
-#include "player/view/view.h"
 
 namespace oriel {
 namespace {

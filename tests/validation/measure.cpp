@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/lux/illuminance.h"
+#include "bake/reference/illuminance.h"
 #include "bake/run/baked_light.h"
 #include "formats/core/check.h"
 

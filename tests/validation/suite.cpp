@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/core/check.h"
 
 namespace oriel::validation {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "formats/diff/error_bands.h"
-#include "formats/diff/texel_diff.h"
+#include "formats/analysis/error_bands.h"
+#include "formats/analysis/texel_diff.h"
 #include "formats/metrics/display.h"
 
 namespace oriel::trade {

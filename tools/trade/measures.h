@@ -23,7 +23,7 @@ struct TexelError {
   double rel_rmse = 0, n_rmse = 0;
   double bias = 0;   // signed
   double noise = 0;  // the reference's own relRMSE
-  // formats/diff/error_bands.h; 0 where nothing is drawn with the lightmap.
+  // formats/analysis/error_bands.h; 0 where nothing is drawn with the lightmap.
   double clouds = 0;   // of 4 to 32 texels, of the light around
   double visible = 0;  // 1 is just noticeable
 };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/camera/camera_spec.h"
+#include "formats/query/camera_spec.h"
 
 namespace oriel::trade {
 namespace {

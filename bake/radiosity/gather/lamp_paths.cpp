@@ -5,7 +5,7 @@
 #include "bake/jobs/units.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
-#include "bake/trace/particles/emission.h"
+#include "bake/trace/emission.h"
 #include "bake/trace/shading.h"
 #include "formats/core/color.h"
 

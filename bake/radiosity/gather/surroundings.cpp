@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/scene/light/sky.h"
+#include "bake/scene/sky.h"
 
 namespace oriel {
 namespace {

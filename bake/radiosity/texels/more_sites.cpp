@@ -1,8 +1,8 @@
 #include "bake/radiosity/texels/more_sites.h"
 
-#include "bake/direct/buried.h"
-#include "bake/direct/onlookers.h"
 #include "bake/radiosity/texels/seeds.h"
+#include "bake/trace/buried.h"
+#include "bake/trace/onlookers.h"
 
 namespace oriel {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "bake/direct/buried.h"
 #include "bake/radiosity/texels/seeds.h"
+#include "bake/trace/buried.h"
 
 namespace oriel {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bake/atlas/texel_map.h"
-#include "bake/direct/onlookers.h"
+#include "bake/trace/onlookers.h"
 #include "bake/trace/path.h"
 #include "formats/core/archive.h"
 

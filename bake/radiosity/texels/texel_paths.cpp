@@ -1,7 +1,7 @@
 #include "bake/radiosity/texels/texel_paths.h"
 
-#include "bake/direct/buried.h"
 #include "bake/radiosity/texels/texel_part.h"
+#include "bake/trace/buried.h"
 
 namespace oriel {
 

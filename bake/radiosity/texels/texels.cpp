@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "bake/direct/buried.h"
-#include "bake/direct/onlookers.h"
 #include "bake/jobs/units.h"
 #include "bake/radiosity/texels/more_sites.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/scene/shade.h"
+#include "bake/trace/buried.h"
+#include "bake/trace/onlookers.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {

@@ -7,10 +7,10 @@
 #include <unordered_map>
 
 #include "bake/atlas/texel_map.h"
-#include "bake/direct/polygon_light.h"
 #include "bake/radiosity/texels/diffuse_share.h"
 #include "bake/radiosity/texels/texel_part.h"
 #include "bake/trace/path.h"
+#include "bake/trace/polygon_light.h"
 
 namespace oriel {
 
@@ -54,7 +54,7 @@ struct Texels {
   std::vector<Vec3> albedo;  // diffuse, mean over the texel
   std::vector<DiffuseShare> diffuse_share;
 
-  std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (direct/onlookers.h)
+  std::vector<Vec3> eyes;  // that points must be in sight of; none: all are (trace/onlookers.h)
 
   std::size_t count() const { return page.size(); }
   std::vector<bool> has_light() const {

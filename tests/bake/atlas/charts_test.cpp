@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bake/atlas/chart/flatten.h"
-#include "bake/atlas/chart/lscm.h"
-#include "bake/atlas/chart/surface_mesh.h"
+#include "bake/atlas/flatten.h"
+#include "bake/atlas/lscm.h"
+#include "bake/atlas/surface_mesh.h"
 #include "tests/bake/atlas/checks.h"
 #include "tests/bake/atlas/shapes.h"
 

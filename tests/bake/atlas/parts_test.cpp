@@ -1,8 +1,8 @@
 // Polygons, packing and connectivity: the parts that the atlas is made of.
 #include <gtest/gtest.h>
 
-#include "bake/atlas/chart/surface_mesh.h"
 #include "bake/atlas/polygon.h"
+#include "bake/atlas/surface_mesh.h"
 #include "tests/bake/atlas/shapes.h"
 
 namespace oriel {

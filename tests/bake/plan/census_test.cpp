@@ -6,7 +6,7 @@
 
 #include "bake/plan/plan.h"
 #include "bake/run/pipeline.h"
-#include "tests/bake/scene/gltf_maker.h"
+#include "tests/bake/import/gltf_maker.h"
 
 namespace oriel {
 namespace {

@@ -6,7 +6,7 @@
 #include "bake/plan/doctor.h"
 #include "bake/plan/plan.h"
 #include "bake/trace/sampler.h"
-#include "tests/bake/scene/gltf_maker.h"
+#include "tests/bake/import/gltf_maker.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {

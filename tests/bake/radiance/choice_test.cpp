@@ -1,5 +1,5 @@
 // The greedy choice of viewpoints, on tables made by hand.
-#include "bake/radiance/plan/choice.h"
+#include "bake/radiance/choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Curved reflectors: what is one, and what is seen around it, against closed forms.
 #include <gmock/gmock.h>
 
-#include "bake/radiance/curved/surround_capture.h"
+#include "bake/radiance/surround_capture.h"
 #include "formats/core/octahedral.h"
 #include "tests/bake/radiance/mirror_room.h"
 

@@ -1,5 +1,5 @@
 // Lamps that glossy reflectors show in closed form: which, and from where they are seen.
-#include "bake/radiance/emitters/emitters.h"
+#include "bake/radiance/emitters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Maps after an edit: what stays, what is captured, and what is known of viewpoints.
-#include "bake/radiance/reuse/kept_maps.h"
+#include "bake/radiance/kept_maps.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <mutex>
 
-#include "bake/radiance/plan/planned_views.h"
+#include "bake/radiance/planned_views.h"
 #include "tests/bake/radiance/mirror_room.h"
 
 namespace oriel {

@@ -1,12 +1,12 @@
 // Planned viewpoints: what maps see and how sharp in rooms of closed form.
-#include "bake/radiance/plan/planned_views.h"
+#include "bake/radiance/planned_views.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "bake/radiance/plan/residual.h"
 #include "bake/radiance/reproject.h"
+#include "bake/radiance/residual.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/radiance/mirror_room.h"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "bake/radiance/capture.h"
-#include "bake/radiance/plan/residual.h"
-#include "bake/radiance/plan/samples.h"
+#include "bake/radiance/residual.h"
+#include "bake/radiance/samples.h"
 #include "bake/radiance/views.h"
 #include "tests/bake/support/scene_parts.h"
 

@@ -1,5 +1,5 @@
 // Which way each reflector is drawn: by the cost of its frames, or as asked.
-#include "bake/radiance/plan/ways.h"
+#include "bake/radiance/ways.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "tests/bake/radiosity/calibration.h"
 
 #include "bake/jobs/parallel.h"
-#include "bake/radiosity/frames/frame_error.h"
+#include "bake/radiosity/texels/frame_error.h"
 #include "bake/radiosity/texels/texel_paths.h"
 
 namespace oriel::test {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "bake/run/pipeline.h"
-#include "formats/light/light_at.h"
 #include "formats/pack/validate.h"
-#include "tests/bake/scene/gltf_maker.h"
+#include "formats/query/light_at.h"
+#include "tests/bake/import/gltf_maker.h"
 
 namespace oriel {
 namespace {

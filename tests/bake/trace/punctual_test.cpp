@@ -1,7 +1,7 @@
 // Point, spot and directional lights against closed forms.
 #include <gtest/gtest.h>
 
-#include "bake/scene/light/ies.h"
+#include "bake/scene/ies.h"
 #include "bake/trace/path.h"
 #include "bake/trace/warp.h"
 #include "tests/bake/support/scene_parts.h"

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "bake/scene/images.h"
+#include "bake/import/images.h"
 #include "bake/trace/path.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"

@@ -1,12 +1,12 @@
-// bake/transfer/probes.h and formats/light: against light that is known, behind walls and pillars, at the extremes.
+// bake/transfer/probes.h and formats/query: against light that is known, behind walls and pillars, at the extremes.
 #include "bake/transfer/probes.h"
 
 #include <gtest/gtest.h>
 
 #include "bake/trace/path.h"
 #include "formats/core/octahedral.h"
-#include "formats/light/light_at.h"
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
+#include "formats/query/light_at.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/sh/sh.h"
+#include "formats/core/sh.h"
 #include "tests/bake/support/scene_parts.h"
 
 namespace oriel {

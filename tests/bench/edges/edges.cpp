@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <map>
 
-#include "bake/lux/illuminance.h"
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
+#include "bake/reference/illuminance.h"
 #include "formats/assets/bilinear.h"
-#include "formats/camera/camera.h"
 #include "formats/core/color.h"
 #include "formats/pack/reader.h"
+#include "formats/query/camera.h"
 
 namespace oriel {
 namespace {

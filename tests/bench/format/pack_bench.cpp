@@ -12,7 +12,7 @@
 #include <map>
 
 #include "formats/core/file.h"
-#include "formats/core/threads/parallel.h"
+#include "formats/core/parallel.h"
 #include "formats/pack/deferred.h"
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"

@@ -9,15 +9,15 @@
 #include <map>
 #include <random>
 
-#include "formats/camera/camera.h"
 #include "formats/pack/reader.h"
+#include "formats/query/camera.h"
 #include "player/gpu/buffer.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
 #include "player/gpu/texture.h"
-#include "player/view/view.h"
+#include "player/navigation/view.h"
 
 namespace oriel {
 namespace {

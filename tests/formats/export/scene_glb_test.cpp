@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "bake/scene/import.h"
+#include "bake/import/import.h"
 #include "formats/assets/bilinear.h"
 #include "formats/core/color.h"
 #include "formats/core/file.h"

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "formats/core/half.h"
-#include "formats/image/bc6h/encode.h"
-#include "formats/image/bc6h/modes.h"
+#include "formats/image/encode.h"
+#include "formats/image/modes.h"
 #include "player/gpu/device.h"
 #include "player/gpu/headless.h"
 

@@ -9,7 +9,7 @@
 #include "formats/assets/lightmap.h"
 #include "formats/assets/normal_map.h"
 #include "formats/core/color.h"
-#include "formats/lobes/lobe_light.h"
+#include "formats/query/lobe_light.h"
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/headless.h"
 #include "player/scene/textures.h"
@@ -20,23 +20,23 @@ namespace {
 using gpu::Dialect;
 
 constexpr const char* kPasses[] = {"depth",
-                                   "reflector/mask",
-                                   "reflector/emitters",
-                                   "reflector/emitters_sharp",
+                                   "reflector_mask",
+                                   "reflector_emitters",
+                                   "reflector_emitters_sharp",
                                    "scene",
                                    "transparent",
                                    "reproject",
                                    "march",
-                                   "curved/light",
-                                   "screen/pull",
-                                   "screen/push",
-                                   "screen/convolve",
-                                   "reflector/compose",
-                                   "reflector/convolve",
-                                   "screen/luminance",
-                                   "screen/tonemap",
-                                   "mover/light",
-                                   "mover/bright_light"};
+                                   "curved_light",
+                                   "screen_pull",
+                                   "screen_push",
+                                   "screen_convolve",
+                                   "reflector_compose",
+                                   "reflector_convolve",
+                                   "screen_luminance",
+                                   "screen_tonemap",
+                                   "mover_light",
+                                   "mover_bright_light"};
 
 TEST(Headless, OpensWithoutADisplay) {
   const auto context = gpu::HeadlessContext::create();
@@ -82,7 +82,7 @@ TEST(Programs, CompileInBothDialects) {
       EXPECT_TRUE(program) << program.error().text();
     }
     if (dialect == Dialect::kEs300) continue;  // has no multisample textures
-    const auto sampled = gpu::Program::create("screen/tonemap", dialect, "MULTISAMPLED");
+    const auto sampled = gpu::Program::create("screen_tonemap", dialect, "MULTISAMPLED");
     EXPECT_TRUE(sampled) << sampled.error().text();
   }
 }
@@ -90,22 +90,22 @@ TEST(Programs, CompileInBothDialects) {
 TEST(Programs, ErrorsNameTheFileAndTheLine) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context);
-  auto vertex = gpu::assemble_shader("passes/screen/fullscreen.vert", Dialect::kDesktop330);
-  auto fragment = gpu::assemble_shader("passes/screen/tonemap.frag", Dialect::kDesktop330);
+  auto vertex = gpu::assemble_shader("passes/screen_fullscreen.vert", Dialect::kDesktop330);
+  auto fragment = gpu::assemble_shader("passes/screen_tonemap.frag", Dialect::kDesktop330);
   ASSERT_TRUE(vertex && fragment);
   // In the middle of an included file, and in the file itself after two inclusions.
   const auto broken_at = [&](const char* before, const char* expected) {
     gpu::ShaderText broken = *fragment;
     broken.text.insert(broken.text.find(before), "nothing_of_the_kind ");
-    const auto program = gpu::Program::create_from("screen/tonemap", *vertex, broken);
+    const auto program = gpu::Program::create_from("screen_tonemap", *vertex, broken);
     ASSERT_FALSE(program);
     EXPECT_EQ(program.error().code, ErrorCode::kRuntime);
     const std::string text = program.error().text();
-    EXPECT_NE(text.find("passes/screen/tonemap.frag: does not compile"), std::string::npos) << text;
+    EXPECT_NE(text.find("passes/screen_tonemap.frag: does not compile"), std::string::npos) << text;
     EXPECT_NE(text.find(expected), std::string::npos) << text;
   };
   broken_at("vec3 srgb_from_linear", "lib/color.glsl:6");
-  broken_at("void main()", "passes/screen/tonemap.frag:23");
+  broken_at("void main()", "passes/screen_tonemap.frag:23");
   EXPECT_FALSE(gpu::Program::create("no_such_pass", Dialect::kDesktop330));
 }
 
@@ -134,7 +134,7 @@ TEST(Framebuffers, AnImpossibleOneIsRefused) {
 // Runs `body`, which turns vec4 a, vec4 b of a row of inputs into o_value, on the GPU.
 std::vector<Vec4> run_shader(const std::string& library, const std::string& body, const std::vector<Vec4>& a,
                              const std::vector<Vec4>& b) {
-  const gpu::ShaderText vertex = *gpu::assemble_shader("passes/screen/fullscreen.vert", Dialect::kDesktop330);
+  const gpu::ShaderText vertex = *gpu::assemble_shader("passes/screen_fullscreen.vert", Dialect::kDesktop330);
   gpu::ShaderText fragment;
   fragment.text = "#version 330 core\n";
   EXPECT_FALSE(gpu::shader_source(library).empty()) << library;
@@ -226,7 +226,7 @@ TEST_F(SharedMaths, PolygonsInLobes) {
     matrices.emplace_back(1 / width, -tilt / width, random(0.5f, 1) / width, tilt);
     places.emplace_back(random(-1, 1), random(-1, 1), 0.5f * side + random(0, 1), side);
   }
-  const auto found = run_shader("lib/lobe/lobe_light.glsl",
+  const auto found = run_shader("lib/lobe_light.glsl",
                                 "vec3 v[4];\n"
                                 "v[0] = b.xyz + b.w * vec3(-1, -1, 0);\nv[1] = b.xyz + b.w * vec3(-1, 1, 0.5);\n"
                                 "v[2] = b.xyz + b.w * vec3(1, 1, 0);\nv[3] = b.xyz + b.w * vec3(1, -1, -0.5);\n"
@@ -254,8 +254,8 @@ TEST_F(SharedMaths, LobesBetweenIncidences) {
     below.emplace_back(1 / width, tilt / width, random(1, 3) / width, -tilt);
     above.emplace_back(below.back() * Vec4(0.9f, 0.8f, 0.7f, 0.6f));
   }
-  const auto found = run_shader("lib/lobe/lobe_light.glsl",
-                                "o_value = lobe_in_surface_frame(mix_lobes(a, b, 0.3), 0.6);\n", below, above);
+  const auto found =
+      run_shader("lib/lobe_light.glsl", "o_value = lobe_in_surface_frame(mix_lobes(a, b, 0.3), 0.6);\n", below, above);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const LobeFit cpu = in_surface_frame(mix_lobes(below[i], above[i], 0.3f), 0.6f, 1);
     expect_same(found[i], {cpu.m11, cpu.m13, cpu.m22, cpu.m31},
@@ -328,12 +328,12 @@ TEST_F(SharedMaths, LobeDirections) {
     places.emplace_back(random(-1, 1) * scale, random(-1, 1) * scale, i % 17 == 0 ? 1.0f : random(0, 1), 9);
   }
   // The frame of the shader: a helper axis makes it from the direction.
-  const auto found = run_shader("lib/lobe/kernel.glsl",
+  const auto found = run_shader("lib/kernel.glsl",
                                 "vec3 across = normalize(cross(a.xyz, vec3(0.31, 0.64, 0.7)));\n"
                                 "o_value = vec4(lobe_direction(a.xyz, across, cross(across, a.xyz), b.xy), 1.0);\n",
                                 views, places);
   const auto rows =
-      run_shader("lib/lobe/kernel.glsl", "o_value = vec4(kernel_row(b.z, int(b.w)), 0.0, 0.0);\n", views, places);
+      run_shader("lib/kernel.glsl", "o_value = vec4(kernel_row(b.z, int(b.w)), 0.0, 0.0);\n", views, places);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec3 mirror(views[i]), across = glm::normalize(glm::cross(mirror, Vec3(0.31f, 0.64f, 0.7f)));
     const Vec3 direction = lobe_direction(mirror, across, glm::cross(across, mirror), Vec2(places[i]));

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 
 namespace oriel {
 namespace {

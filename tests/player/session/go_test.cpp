@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "formats/camera/camera.h"
+#include "formats/query/camera.h"
 #include "player/session/session.h"
 
 namespace oriel {

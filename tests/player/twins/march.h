@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "player/maps/relief.h"
+#include "player/images/relief.h"
 
 namespace oriel {
 

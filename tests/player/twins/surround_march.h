@@ -6,7 +6,7 @@
 // (After the light field probes of McGuire et al. 2017, which follow straight pieces of the octahedral map.)
 #pragma once
 
-#include "player/maps/surround_pyramid.h"
+#include "player/images/surround_pyramid.h"
 
 namespace oriel {
 

@@ -1,12 +1,12 @@
 // Each line of the sheet of keys, pressed in a window: what it does is what it says.
 #include <map>
 
-#include "formats/camera/camera.h"
-#include "formats/camera/camera_notes.h"
 #include "formats/image/png.h"
-#include "player/paths/path_file.h"
+#include "formats/query/camera.h"
+#include "formats/query/camera_notes.h"
+#include "player/navigation/controller.h"
+#include "player/navigation/path_file.h"
 #include "player/session/keys.h"
-#include "player/walk/controller.h"
 #include "tests/support/play_program.h"
 
 namespace oriel {

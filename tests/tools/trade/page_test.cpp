@@ -4,10 +4,10 @@
 
 #include "formats/image/png.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/trade/page/html.h"
-#include "tools/trade/page/plot.h"
-#include "tools/trade/page/table.h"
-#include "tools/trade/page/thumbnails.h"
+#include "tools/trade/html.h"
+#include "tools/trade/plot.h"
+#include "tools/trade/table.h"
+#include "tools/trade/thumbnails.h"
 
 namespace oriel::trade {
 namespace {

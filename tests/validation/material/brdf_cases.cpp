@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "bake/scene/optics/fresnel.h"
-#include "bake/trace/brdf/compensation.h"
-#include "bake/trace/brdf/quadrature.h"
-#include "bake/trace/brdf/ward.h"
+#include "bake/brdf/compensation.h"
+#include "bake/brdf/fresnel.h"
+#include "bake/brdf/quadrature.h"
+#include "bake/brdf/ward.h"
 
 namespace oriel::validation {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/trace/brdf/compensation.h"
-#include "bake/trace/brdf/quadrature.h"
-#include "bake/trace/brdf/ward.h"
+#include "bake/brdf/compensation.h"
+#include "bake/brdf/quadrature.h"
+#include "bake/brdf/ward.h"
 #include "tests/validation/material/brdf_cases.h"
 
 namespace oriel::validation {

@@ -1,0 +1,204 @@
+#include "bake/atlas/flatten.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "bake/atlas/lscm.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kIsometry = 1.005;     // L2 stretch of a projection beyond which a conformal map is better
+constexpr double kFlatScale = 1e-4;     // a projection so near to scale is of something flat, and stays exact
+constexpr double kLeastCos = 0.2;       // of a projected triangle's normal to the direction of projection
+constexpr double kFlatRatio = 1e-9;     // twice the area over the longest side squared: a line, whatever its sign
+constexpr double kUprightSlack = 1.02;  // an upright box may be so much larger than the smallest
+constexpr std::size_t kMaxSides = 64;   // of the hull, the longest, are tried as a side of the box
+
+// Axes in the plane: x horizontal, y up the slope; for a floor x along the world's x.
+std::array<DVec3, 2> plane_axes(const DVec3& normal) {
+  const DVec3 side = std::abs(normal.y) > 0.9 ? DVec3(normal.y < 0 ? -1 : 1, 0, 0) : glm::cross(DVec3(0, 1, 0), normal);
+  const DVec3 x = glm::normalize(side - normal * glm::dot(side, normal));
+  return {x, glm::cross(normal, x)};
+}
+
+// Counter-clockwise convex hull; Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
+std::vector<DVec2> convex_hull(std::vector<DVec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<DVec2> hull;
+  const auto extend = [&](const DVec2& p, std::size_t keep) {
+    while (hull.size() >= keep + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+      hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const DVec2& p : points) extend(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], lower);
+  hull.pop_back();
+  return hull;
+}
+
+// x and y of p along the direction d (unit) and its left normal.
+DVec2 rotated(const DVec2& p, const DVec2& d) {
+  return {glm::dot(p, d), cross2(d, p)};
+}
+
+struct Box {
+  DVec2 lower{0}, size{0};
+  double cost() const { return size.x * size.y; }
+};
+
+Box box_along(std::span<const DVec2> hull, const DVec2& direction) {
+  DVec2 lower = rotated(hull[0], direction), upper = lower;
+  for (const DVec2& p : hull) {
+    const DVec2 q = rotated(p, direction);
+    lower = glm::min(lower, q), upper = glm::max(upper, q);
+  }
+  return {lower, upper - lower};
+}
+
+// The direction of the box's x axis: one side of the smallest box lies along the hull (Freeman and Shapira 1975).
+DVec2 best_direction(std::span<const DVec2> hull) {
+  std::vector<DVec2> sides;
+  for (std::size_t i = 0; i < hull.size(); ++i) sides.push_back(hull[(i + 1) % hull.size()] - hull[i]);
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const DVec2& a, const DVec2& b) { return glm::dot(a, a) > glm::dot(b, b); });
+  sides.resize(std::min(sides.size(), kMaxSides));
+  DVec2 best(1, 0);
+  double best_cost = box_along(hull, best).cost() / kUprightSlack;
+  for (const DVec2& side : sides) {
+    const double length = glm::length(side);
+    if (!(length > 0)) continue;
+    const double cost = box_along(hull, side / length).cost();
+    if (cost < best_cost * (1 - 1e-5)) best = side / length, best_cost = cost;
+  }
+  return best;
+}
+
+// Turns points upright or as their smallest box lies, its lowest corner to (0, 0); its size.
+DVec2 turn_into_box(std::span<Triangle2> points) {
+  std::vector<DVec2> all;
+  all.reserve(3 * points.size());
+  for (const Triangle2& t : points) all.insert(all.end(), t.begin(), t.end());
+  const std::vector<DVec2> hull = convex_hull(std::move(all));
+  DVec2 direction = best_direction(hull);
+  Box box = box_along(hull, direction);
+  if (box.size.y > box.size.x) {
+    direction = {-direction.y, direction.x};
+    box = box_along(hull, direction);
+  }
+  for (Triangle2& t : points)
+    for (DVec2& p : t) p = glm::clamp(rotated(p, direction) - box.lower, DVec2(0), box.size);
+  return box.size;
+}
+
+std::vector<Triangle2> project(std::span<const Triangle3> corners, const DVec3& normal) {
+  const auto [x_axis, y_axis] = plane_axes(normal);
+  const DVec3 origin = corners[0][0];
+  std::vector<Triangle2> points(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      points[i][k] = {glm::dot(corners[i][k] - origin, x_axis), glm::dot(corners[i][k] - origin, y_axis)};
+  return points;
+}
+
+// Turns points in the plane so that they lie as their projection does: upright.
+void align(std::span<const Triangle2> projected, std::span<Triangle2> points) {
+  DVec2 sum(0);  // of the projection's sides over the points', as complex numbers: its angle is the mean turn
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const DVec2 from = points[i][(k + 1) % 3] - points[i][k], to = projected[i][(k + 1) % 3] - projected[i][k];
+      sum += DVec2(glm::dot(from, to), cross2(to, from));
+    }
+  const double length = glm::length(sum);
+  if (!(length > 0)) return;
+  for (Triangle2& t : points)
+    for (DVec2& p : t) p = rotated(p, sum / length);
+}
+
+StretchSum stretch_of(std::span<const Triangle3> corners, std::span<const Triangle2> points) {
+  StretchSum sum;
+  for (std::size_t i = 0; i < points.size(); ++i) sum.add(corners[i], points[i]);
+  return sum;
+}
+
+// Scales the points so that the density of texels is right on average.
+void keep_area(const StretchSum& stretch, std::span<Triangle2> points) {
+  if (!(stretch.plane_area() > 0)) return;
+  const double scale = std::sqrt(stretch.surface_area() / stretch.plane_area());
+  if (std::abs(scale - 1) < kFlatScale) return;
+  for (Triangle2& t : points)
+    for (DVec2& p : t) p *= scale;
+}
+
+bool turns_over(const Triangle2& t) {
+  const DVec2 e = t[1] - t[0], f = t[2] - t[1], g = t[0] - t[2];
+  return 2 * signed_area(t) < -kFlatRatio * std::max({glm::dot(e, e), glm::dot(f, f), glm::dot(g, g)});
+}
+
+bool overlaps(const Patch& patch, std::span<const Triangle2> points, double length, double texel_m) {
+  if (patch.size() <= 2) return false;  // two triangles that share an edge cannot, unless one is turned over
+  bool turned_over = false;
+  for (const Triangle2& t : points) turned_over |= signed_area(t) < 0;
+  if (!turned_over && is_simple_outline(outline(patch, points))) return false;
+  const OverlapTolerance tolerance{1e-4 * texel_m * texel_m, std::max(1e-6 * length, 1e-3 * texel_m)};
+  return find_overlap(points, tolerance).has_value();
+}
+
+// True where no triangle is seen from its back or from too far aside.
+bool faces_forward(std::span<const Triangle3> corners, const DVec3& axis) {
+  for (const Triangle3& t : corners) {
+    const DVec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double length = glm::length(normal);
+    if (length > 0 && !(glm::dot(normal, axis) > kLeastCos * length)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+DVec3 mean_normal(std::span<const Triangle3> corners) {
+  DVec3 sum(0);
+  for (const Triangle3& t : corners) sum += glm::cross(t[1] - t[0], t[2] - t[0]);
+  const double length = glm::length(sum);
+  return length > 0 ? sum / length : DVec3(0, 1, 0);
+}
+
+std::optional<FlatChart> flatten(const Patch& patch, std::span<const Triangle3> corners, const FlattenLimits& limits) {
+  const DVec3 axis = mean_normal(corners);
+  std::vector<Triangle2> projected = project(corners, axis);
+  const bool forward = patch.size() == 1 || faces_forward(corners, axis);
+  const StretchSum stretch = stretch_of(corners, projected);
+  const auto accept = [&](std::vector<Triangle2>& points) -> std::optional<FlatChart> {
+    const DVec2 size = turn_into_box(points);
+    double area = 0;
+    for (const Triangle2& t : points) area += std::abs(signed_area(t));
+    if (patch.size() > 2 && area > limits.large_m2 && area < limits.box_fill * size.x * size.y) return std::nullopt;
+    if (overlaps(patch, points, size.x, limits.texel_m)) return std::nullopt;
+    return FlatChart{patch.faces, std::move(points), size};
+  };
+  const bool isometric = patch.size() == 1 || !limits.conformal || stretch.l2() <= kIsometry;
+  if (forward && isometric) {
+    std::vector<Triangle2> points = projected;
+    keep_area(stretch, points);
+    if (auto chart = accept(points)) return chart;
+  }
+  if (!limits.conformal) return std::nullopt;
+  std::vector<Triangle2> points = least_squares_conformal(patch, corners);
+  if (!points.empty() && std::none_of(points.begin(), points.end(), turns_over)) {
+    const StretchSum bent = stretch_of(corners, points);
+    if (bent.l2() <= limits.l2 && bent.linf() <= limits.linf) {
+      keep_area(bent, points);
+      align(projected, points);
+      if (auto chart = accept(points)) return chart;
+    }
+  }
+  if (!forward || isometric || !(stretch.l2() <= limits.l2 && stretch.linf() <= limits.linf)) return std::nullopt;
+  keep_area(stretch, projected);
+  return accept(projected);
+}
+
+}  // namespace oriel

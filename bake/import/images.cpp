@@ -1,0 +1,216 @@
+#include "bake/import/images.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <fstream>
+
+namespace oriel {
+namespace {
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view magic, std::size_t at = 0) {
+  return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+}
+
+std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint32_t>(bytes[at + i]);
+  return value;
+}
+
+// ISO 3309, as PNG's chunks carry it.
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+  static const auto table = [] {
+    std::array<std::uint32_t, 256> t{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      t[i] = i;
+      for (int k = 0; k < 8; ++k) t[i] = t[i] & 1 ? 0xEDB88320u ^ t[i] >> 1 : t[i] >> 1;
+    }
+    return t;
+  }();
+  std::uint32_t crc = ~0u;
+  for (const std::byte b : bytes) crc = table[(crc ^ static_cast<std::uint32_t>(b)) & 0xFF] ^ crc >> 8;
+  return ~crc;
+}
+
+// The PNG with the chunks that make its pixels and no others: glTF ignores colour profiles and gamma, and libpng would
+// print what it thinks of them, and of damage, to stderr. Damage is found here.
+Result<Bytes> essential_png(std::span<const std::byte> bytes, const std::string& name) {
+  Bytes out(bytes.begin(), bytes.begin() + 8);
+  for (std::size_t at = 8; at < bytes.size();) {
+    if (bytes.size() - at < 12)
+      return invalid(name, "found {} bytes at {} of a PNG, expected a chunk of at least 12", bytes.size() - at, at);
+    const std::uint64_t size = big_endian(bytes, at);
+    if (size > bytes.size() - at - 12)
+      return invalid(name, "found a PNG chunk of {} bytes at {}, expected at most {}", size, at,
+                     bytes.size() - at - 12);
+    const auto chunk = bytes.subspan(at + 4, size + 4);
+    if (crc32(chunk) != big_endian(bytes, at + 8 + size))
+      return invalid(name, "found a damaged PNG chunk at byte {}, expected its checksum to hold", at);
+    const bool header = starts_with(chunk, "IHDR"), end = starts_with(chunk, "IEND");
+    if (header != (at == 8) || (header && size != 13))
+      return invalid(name, "found a PNG that does not start with one IHDR chunk of 13 bytes, expected it to");
+    if (header || end || starts_with(chunk, "PLTE") || starts_with(chunk, "tRNS") || starts_with(chunk, "IDAT"))
+      out.insert(out.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + size + 12));
+    if (end) return out;
+    at += size + 12;
+  }
+  return invalid(name, "found a PNG without IEND, expected one");
+}
+
+// What else artists put there.
+const char* foreign_format(std::span<const std::byte> bytes) {
+  if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return "WebP";
+  if (starts_with(bytes, "\xABKTX 20\xBB")) return "KTX2";
+  if (starts_with(bytes, "\xABKTX 11\xBB")) return "KTX";
+  if (starts_with(bytes, "DDS ")) return "DDS";
+  if (starts_with(bytes, "GIF8")) return "GIF";
+  if (starts_with(bytes, "BM")) return "BMP";
+  if (starts_with(bytes, "II*") || starts_with(bytes, "MM")) return "TIFF";
+  return "an unknown format";
+}
+
+// Spreads 1 (grey), 2 (grey, alpha), 3 or 4 channels over RGBA.
+void spread(std::vector<std::uint8_t>& texels, std::size_t count, int channels) {
+  for (std::size_t i = count; i-- > 0;) {
+    std::uint8_t in[4] = {0, 0, 0, 255};
+    std::memcpy(in, texels.data() + i * static_cast<std::size_t>(channels), static_cast<std::size_t>(channels));
+    const std::uint8_t grey[4] = {in[0], in[0], in[0], channels == 2 ? in[1] : std::uint8_t{255}};
+    std::memcpy(texels.data() + 4 * i, channels < 3 ? grey : in, 4);
+  }
+}
+
+Status check_size(const OIIO::ImageSpec& spec, const std::string& name) {
+  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxImageSize) ||
+      spec.height > static_cast<int>(kMaxImageSize))
+    return invalid(name, "found {} x {} texels, expected 1 to {} a side", spec.width, spec.height, kMaxImageSize);
+  return {};
+}
+
+// An open reader and what it reads from.
+struct Reader {
+  explicit Reader(Bytes&& source) : bytes(std::move(source)), memory(bytes.data(), bytes.size()) {}
+  Bytes bytes;
+  OIIO::Filesystem::IOMemReader memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+Result<std::unique_ptr<Reader>> open(std::span<const std::byte> bytes, const std::string& name) {
+  const bool png = starts_with(bytes, "\x89PNG\r\n\x1A\n");
+  if (!png && !starts_with(bytes, "\xFF\xD8\xFF"))
+    return invalid(name, "found {}, expected PNG or JPEG", bytes.empty() ? "no data" : foreign_format(bytes));
+  Bytes source;
+  if (png) {
+    ORIEL_TRY(source, essential_png(bytes, name));
+  } else {
+    source.assign(bytes.begin(), bytes.end());
+  }
+  auto reader = std::make_unique<Reader>(std::move(source));
+  OIIO::ImageSpec config;
+  OIIO::Filesystem::IOProxy* proxy = &reader->memory;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  reader->input = OIIO::ImageInput::create(png ? "png" : "jpeg");
+  if (!reader->input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", png ? "PNG" : "JPEG");
+  const OIIO::ImageSpec& spec = reader->spec;
+  if (!reader->input->open(png ? "memory.png" : "memory.jpg", reader->spec, config))
+    return invalid(name, "found a corrupt {}: {}", png ? "PNG" : "JPEG", reader->input->geterror());
+  ORIEL_TRY_VOID(check_size(spec, name));
+  if (spec.nchannels < 1 || spec.nchannels > 4)
+    return invalid(name, "found {} channels, expected 1 to 4", spec.nchannels);
+  return reader;
+}
+
+// Not every reader of OpenImageIO reads from memory: this one opens the file itself.
+Result<std::unique_ptr<OIIO::ImageInput>> open_sky(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  char magic[4] = {};
+  std::ifstream(path, std::ios::binary).read(magic, sizeof(magic));
+  const std::string_view start(magic, sizeof(magic));
+  const bool exr = start == "\x76\x2f\x31\x01", hdr = start.starts_with("#?");
+  if (!exr && !hdr) {
+    if (!std::filesystem::is_regular_file(path)) return fail(ErrorCode::kIo, name, "cannot be read");
+    return invalid(name, "found {}, expected Radiance (.hdr) or OpenEXR",
+                   foreign_format(std::as_bytes(std::span(magic))));
+  }
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(exr ? "openexr" : "hdr");
+  if (!input) return fail(ErrorCode::kRuntime, name, "OpenImageIO has no reader for {}", exr ? "OpenEXR" : "Radiance");
+  OIIO::ImageSpec spec;
+  if (!input->open(name, spec))
+    return invalid(name, "found a corrupt {} file: {}", exr ? "OpenEXR" : "Radiance", input->geterror());
+  ORIEL_TRY_VOID(check_size(spec, name));
+  return input;
+}
+
+// OpenImageIO and what it calls may throw.
+template <class Work>
+auto guarded(const std::string& name, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, name, "not enough memory to decode the image");
+  } catch (const std::exception& e) {
+    return invalid(name, "the image cannot be decoded: {}", e.what());
+  }
+}
+
+}  // namespace
+
+Result<ImageSize> image_size(std::span<const std::byte> bytes, const std::string& name) {
+  return guarded(name, [&]() -> Result<ImageSize> {
+    ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
+    return ImageSize{static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height)};
+  });
+}
+
+Result<Image> decode_image(std::span<const std::byte> bytes, const std::string& name) {
+  return guarded(name, [&]() -> Result<Image> {
+    ORIEL_TRY(const std::unique_ptr<Reader> reader, open(bytes, name));
+    const int channels = reader->spec.nchannels;
+    Image image{
+        name, static_cast<std::uint32_t>(reader->spec.width), static_cast<std::uint32_t>(reader->spec.height), {}};
+    const std::size_t count = std::size_t{image.width} * image.height;
+    image.texels.resize(count * 4);
+    if (!reader->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.texels.data()))
+      return invalid(name, "found a corrupt image: {}", reader->input->geterror());
+    spread(image.texels, count, channels);
+    return image;
+  });
+}
+
+Result<ImageSize> sky_image_size(const std::filesystem::path& path) {
+  return guarded(path.string(), [&]() -> Result<ImageSize> {
+    ORIEL_TRY(const auto input, open_sky(path));
+    return ImageSize{static_cast<std::uint32_t>(input->spec().width), static_cast<std::uint32_t>(input->spec().height)};
+  });
+}
+
+Result<SkyImage> read_sky_image(const std::filesystem::path& path) {
+  return guarded(path.string(), [&]() -> Result<SkyImage> {
+    ORIEL_TRY(const auto input, open_sky(path));
+    const OIIO::ImageSpec& spec = input->spec();
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::array<int, 3> rgb = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+    if (channels == 1 || spec.channelindex("Y") == 0) rgb = {0, 0, 0};
+    if (std::min({rgb[0], rgb[1], rgb[2]}) < 0)
+      return invalid(path.string(), "found {} channels without R, G and B, expected them, or Y alone", channels);
+    SkyImage image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}, 0};
+    std::vector<float> row(image.width * channels);
+    image.texels.reserve(std::size_t{image.width} * image.height);
+    for (int y = 0; y < spec.height; ++y) {
+      if (!input->read_scanlines(0, 0, spec.y + y, spec.y + y + 1, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                                 row.data()))
+        return invalid(path.string(), "found a corrupt image at row {}: {}", y, input->geterror());
+      for (std::size_t x = 0; x < image.width; ++x) {
+        const float* in = row.data() + x * channels;
+        image.texels.emplace_back(in[rgb[0]], in[rgb[1]], in[rgb[2]]);
+      }
+    }
+    return image;
+  });
+}
+
+}  // namespace oriel

@@ -1,0 +1,230 @@
+#include "bake/import/import.h"
+
+#include <array>
+#include <set>
+
+#include "bake/import/images.h"
+#include "bake/import/lighting.h"
+#include "bake/import/movers.h"
+#include "bake/import/repair.h"
+#include "bake/import/viewpoints.h"
+#include "bake/import/warning_group.h"
+#include "bake/jobs/parallel.h"
+#include "formats/core/file.h"
+#include "formats/core/hash.h"
+
+namespace oriel {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::vector<std::uint32_t>> find_roots(const gltf::Document& document, int wanted, Context& context) {
+  const int count = static_cast<int>(document.scenes.size());
+  if (wanted >= count)
+    return fail(ErrorCode::kUsage, document.file, "scene {} was asked for, the file has {}", wanted, count);
+  if (count > 0)
+    return document.scenes[static_cast<std::size_t>(wanted >= 0 ? wanted : std::max(0, document.default_scene))].nodes;
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t i = 0; i < document.nodes.size(); ++i)
+    if (document.nodes[i].parent < 0) roots.push_back(i);
+  if (!roots.empty()) context.warning("the file has no scene: all of its nodes are taken");
+  return roots;
+}
+
+// Puts all that is shown below a node that scales it, and returns that node.
+std::uint32_t scale_document(double unit_m, const std::vector<std::uint32_t>& roots, gltf::Document& document) {
+  const auto unit = static_cast<std::uint32_t>(document.nodes.size());
+  for (const std::uint32_t root : roots) document.nodes[root].parent = static_cast<std::int32_t>(unit);
+  gltf::NodeDesc node;
+  node.has_matrix = true;
+  for (int axis = 0; axis < 3; ++axis) node.matrix[axis][axis] = unit_m;
+  node.children = roots;
+  document.nodes.push_back(std::move(node));
+  for (Light& light : document.lights)
+    if (light.type != LightType::kDirectional)
+      light.intensity *= static_cast<float>(unit_m * unit_m), light.color *= static_cast<float>(unit_m * unit_m);
+  for (gltf::CameraDesc& camera : document.cameras) camera.half_height *= unit_m;
+  return unit;
+}
+
+// Loads the images that the placed surfaces' materials use, in the order of the document.
+class ImageLoader {
+ public:
+  ImageLoader(const gltf::Document& document, const gltf::BufferStore& buffers, const fs::path& folder,
+              gltf::MemoryBudget& budget, ImportedScene& out)
+      : document_(document), buffers_(buffers), folder_(folder), budget_(budget), out_(out) {}
+
+  Status load(Context& context) {
+    find_used();
+    ORIEL_TRY_VOID(read(context));
+    std::vector<Result<Image>> decoded(sources_.size(), tl::unexpected<Error>(Error{}));
+    if (!sources_.empty())
+      ORIEL_TRY_VOID(parallel_for(context, "images", sources_.size(), [&](std::size_t i) {
+        decoded[i] = decode_image(sources_[i].bytes, sources_[i].name);
+      }));
+    std::vector<std::int32_t> scene_image(document_.images.size(), -1);
+    for (std::size_t i = 0; i < decoded.size(); ++i) {
+      if (!decoded[i] && decoded[i].error().code != ErrorCode::kInvalid)
+        return tl::unexpected<Error>(decoded[i].error());
+      if (!decoded[i]) {
+        warn(decoded[i].error(), context);
+        continue;
+      }
+      scene_image[sources_[i].image] = static_cast<std::int32_t>(out_.scene.images.size());
+      out_.scene.images.push_back(std::move(*decoded[i]));
+    }
+    for (SceneMaterial& material : out_.scene.materials)
+      for (TextureSlot* slot : texture_slots(material))
+        if (slot->image >= 0) slot->image = scene_image[static_cast<std::size_t>(slot->image)];
+    return {};
+  }
+
+ private:
+  struct Source {
+    std::size_t image;  // of the document
+    std::string name;
+    std::span<const std::byte> bytes;
+  };
+
+  void find_used() {
+    used_.assign(document_.images.size(), false);
+    for (const Surface& surface : out_.scene.surfaces)
+      for (const TextureSlot* slot : texture_slots(out_.scene.materials[surface.material]))
+        if (slot->image >= 0) used_[static_cast<std::size_t>(slot->image)] = true;
+  }
+
+  void warn(const Error& error, Context& context) const { context.warning(error.text() + ": the texture is left out"); }
+
+  // The bytes of each image, and the memory that it will need.
+  Status read(Context& context) {
+    storage_.reserve(document_.images.size());  // sources point into it
+    for (std::size_t i = 0; i < document_.images.size(); ++i) {
+      if (!used_[i]) continue;
+      const gltf::ImageDesc& desc = document_.images[i];
+      const std::string where = fmt::format("{}: images[{}]", document_.file, i);
+      Result<std::span<const std::byte>> bytes = bytes_of(desc, where);
+      if (bytes) {
+        const auto size = image_size(*bytes, where);
+        if (size) ORIEL_TRY_VOID(budget_.take(std::uint64_t{4} * size->width * size->height, where));
+        if (!size) bytes = tl::unexpected<Error>(size.error());
+      }
+      if (!bytes)
+        warn(bytes.error(), context);
+      else
+        sources_.push_back({i, desc.name.empty() ? fmt::format("image {}", i) : desc.name, *bytes});
+    }
+    return {};
+  }
+
+  Result<std::span<const std::byte>> bytes_of(const gltf::ImageDesc& desc, const std::string& where) {
+    if (desc.view >= 0) return buffers_.view(desc.view);
+    if (!desc.uri) return invalid(where, "found neither uri nor bufferView, expected one of them");
+    auto loaded = gltf::is_data_uri(*desc.uri) ? gltf::decode_data_uri(*desc.uri, where)
+                                               : gltf::read_external(*desc.uri, folder_, where, budget_, out_.inputs);
+    if (!loaded) return tl::unexpected<Error>(std::move(loaded).error());
+    return std::span<const std::byte>(storage_.emplace_back(std::move(*loaded)));
+  }
+
+  const gltf::Document& document_;
+  const gltf::BufferStore& buffers_;
+  const fs::path& folder_;
+  gltf::MemoryBudget& budget_;
+  ImportedScene& out_;
+  std::vector<bool> used_;  // by image of the document
+  std::vector<Bytes> storage_;
+  std::vector<Source> sources_;
+};
+
+// Advice about meshes in the scene; each mesh once, however often it is placed.
+void warn_of_topology(const Scene& scene, Context& context) {
+  std::set<std::string> seen;
+  WarningGroup odd(context,
+                   "surfaces with edges of more than two triangles or triangles that face against their neighbours");
+  for (const Surface& surface : scene.surfaces) {
+    if (!seen.insert(fmt::format("{}\n{}\n{}", surface.mesh_name, surface.material, surface.triangle_count)).second)
+      continue;
+    if (context.stopped()) return;
+    if (surface.triangle_count > kMaxSoupTriangles) {
+      context.warning(fmt::format("surface \"{}\" has {} triangles: its orientation was not checked", surface.name,
+                                  surface.triangle_count));
+      continue;
+    }
+    std::vector<UVec3> triangles(scene.triangles.begin() + surface.first_triangle,
+                                 scene.triangles.begin() + surface.first_triangle + surface.triangle_count);
+    for (UVec3& t : triangles) t -= UVec3(surface.first_vertex);
+    const SoupReport report =
+        inspect_soup(std::span(scene.positions).subspan(surface.first_vertex, surface.vertex_count), triangles);
+    const bool back_matters = !scene.materials[surface.material].double_sided && report.misoriented_triangles > 0;
+    if (!back_matters && report.non_manifold_edges == 0) continue;
+    std::string text;
+    if (back_matters)
+      text = fmt::format("{} of {} triangles face against their neighbours and show their back",
+                         report.misoriented_triangles, surface.triangle_count);
+    if (report.non_manifold_edges > 0)
+      text += fmt::format("{}{} edges are shared by more than two triangles", text.empty() ? "" : ", ",
+                          report.non_manifold_edges);
+    odd.add(fmt::format("surface \"{}\": {}", surface.name, text));
+  }
+  odd.finish();
+}
+
+Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes) {
+  std::error_code ec;
+  const auto status = fs::status(path, ec);
+  // Pipes and devices could block for ever.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    return fail(ErrorCode::kIo, path.string(), "is no regular file, expected a .gltf or .glb");
+  return read_file(path, max_bytes);
+}
+
+Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& options, Context& context) {
+  ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes));
+  gltf::MemoryBudget budget(options.max_bytes);
+  const std::string file = path.filename().string();
+  ORIEL_TRY_VOID(budget.take(bytes.size(), file));
+  ImportedScene out;
+  out.inputs.emplace_back(file, hash128_hex(bytes));
+  ORIEL_TRY(const gltf::Container container, gltf::split_container(bytes, file));
+  ORIEL_TRY(gltf::JsonDocument json, gltf::JsonDocument::parse(container.json, file));
+  ORIEL_TRY(gltf::Document document, gltf::parse_document(json));
+  for (const std::string& warning : document.warnings) context.warning(warning);
+  const fs::path folder = path.parent_path();
+  ORIEL_TRY(const gltf::BufferStore buffers, gltf::BufferStore::load(document, container, folder, budget, out.inputs));
+  gltf::AccessorReader accessors(document, buffers, budget);
+  ORIEL_TRY(const std::vector<gltf::LoadedMesh> meshes,
+            gltf::load_meshes(document, buffers, accessors, budget, context));
+  ORIEL_TRY_VOID(accessors.check_unread());
+  ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
+  if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
+  ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
+  out.scene.materials = document.materials;
+  ORIEL_TRY(const MoverNodes movers, find_movers(document, poses, options.movers, context));
+  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, movers.of_node, accessors, budget, out.scene, context));
+  if (options.double_sided)
+    for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
+  std::vector<std::uint32_t> moving = movers.nodes;
+  for (const NodePose& pose : poses)
+    if (document.nodes[pose.node].camera >= 0) moving.push_back(pose.node);
+  ORIEL_TRY(const std::vector<Animation> animations, load_animations(document, moving, accessors, context));
+  ORIEL_TRY_VOID(place_viewpoints(document, poses, animations, out.scene, context));
+  ORIEL_TRY_VOID(place_movers(document, poses, movers, animations, out.scene, context));
+  ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
+  ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(context));
+  warn_of_topology(out.scene, context);
+  if (context.stopped()) return fail(ErrorCode::kStopped, file, "stopped");
+  return out;
+}
+
+}  // namespace
+
+Result<ImportedScene> import_gltf(const fs::path& path, const ImportOptions& options, Context& context) {
+  try {
+    return import_checked(path, options, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, path.string(), "not enough memory to import the scene");
+  } catch (const std::exception& e) {
+    return fail(ErrorCode::kRuntime, path.string(), "the import failed: {}", e.what());
+  }
+}
+
+}  // namespace oriel

@@ -1,0 +1,201 @@
+#include "bake/import/json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace oriel::gltf {
+namespace {
+
+// Brackets outside of strings. nlohmann's parser copes with any depth, but what walks its values later recurses.
+bool nested_deeper_than(std::string_view text, int limit) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > limit) return true;
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+// What nlohmann says, without its own code in brackets.
+std::string reason(const nlohmann::json::exception& e) {
+  const std::string_view text = e.what();
+  const std::size_t bracket = text.find("] ");
+  return std::string(bracket == std::string_view::npos ? text : text.substr(bracket + 2));
+}
+
+std::string shown(const nlohmann::json& value) {
+  if (value.is_object()) return value.empty() ? "{}" : "an object";
+  if (value.is_array()) return fmt::format("an array of {}", value.size());
+  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
+}  // namespace
+
+void JsonDocument::Delete::operator()(nlohmann::json* value) const {
+  delete value;
+}
+
+Result<JsonDocument> JsonDocument::parse(std::span<const std::byte> bytes, const std::string& file) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\xEF\xBB\xBF"))
+    return invalid(file, "found a UTF-8 byte order mark, expected JSON without one");
+  if (nested_deeper_than(text, kMaxJsonDepth))
+    return invalid(file, "found JSON nested deeper than {} levels, expected less", kMaxJsonDepth);
+  JsonDocument document;
+  document.file_ = file;
+  try {
+    document.value_.reset(new nlohmann::json(nlohmann::json::parse(text.begin(), text.end())));
+  } catch (const nlohmann::json::parse_error& e) {
+    return invalid(file, "found invalid JSON at byte {} of {}: {}", e.byte, text.size(), reason(e));
+  } catch (const nlohmann::json::exception& e) {
+    return invalid(file, "found invalid JSON: {}", reason(e));
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, file, "not enough memory for {} bytes of JSON", text.size());
+  }
+  if (!document.value_->is_object()) return invalid(file, "found {}, expected a JSON object", shown(*document.value_));
+  return document;
+}
+
+Json JsonDocument::root() {
+  return Json(this, value_.get(), "");
+}
+
+Status JsonDocument::status() const {
+  if (first_error_) return tl::unexpected<Error>(*first_error_);
+  return {};
+}
+
+void JsonDocument::add_error(const std::string& path, std::string message) {
+  if (!first_error_)
+    first_error_ = Error{ErrorCode::kInvalid, std::move(message), path.empty() ? file_ : file_ + ": " + path};
+}
+
+Json Json::operator[](const char* key) const {
+  std::string path = path_.empty() ? std::string(key) : path_ + "." + key;
+  if (!value_) return Json(document_, nullptr, std::move(path));
+  if (!value_->is_object()) {
+    expected("an object");
+    return Json(document_, nullptr, std::move(path));
+  }
+  const auto found = value_->find(key);
+  return Json(document_, found == value_->end() ? nullptr : &*found, std::move(path));
+}
+
+Json Json::need(const char* key) const {
+  Json member = (*this)[key];
+  if (value_ && value_->is_object() && !member.present()) error(fmt::format("found no \"{}\", expected one", key));
+  return member;
+}
+
+Json Json::extension(const char* name) const {
+  return (*this)["extensions"][name];
+}
+
+Json Json::extra(const char* name) const {
+  const Json extras = (*this)["extras"];
+  if (extras.present() && !extras.value_->is_object()) return Json(document_, nullptr, extras.path_);
+  return extras[name];
+}
+
+std::vector<std::string> Json::keys() const {
+  std::vector<std::string> names;
+  if (!value_) return names;
+  if (!value_->is_object()) {
+    expected("an object");
+    return names;
+  }
+  for (const auto& item : value_->items()) names.push_back(item.key());
+  return names;
+}
+
+std::size_t Json::size() const {
+  if (!value_) return 0;
+  if (value_->is_array()) return value_->size();
+  expected("an array");
+  return 0;
+}
+
+Json Json::at(std::size_t i) const {
+  const bool inside = value_ && value_->is_array() && i < value_->size();
+  return Json(document_, inside ? &(*value_)[i] : nullptr, fmt::format("{}[{}]", path_, i));
+}
+
+double Json::number(double fallback, double lowest, double highest) const {
+  if (!value_) return fallback;
+  const double value = value_->is_number() ? value_->get<double>() : std::nan("");
+  if (value >= lowest && value <= highest) return value;
+  expected(lowest <= -1e300 && highest >= 1e300 ? "a number"
+           : highest >= 1e300                   ? fmt::format("a number of at least {}", lowest)
+                                                : fmt::format("a number from {} to {}", lowest, highest));
+  return fallback;
+}
+
+std::uint64_t Json::integer(std::uint64_t fallback, std::uint64_t highest) const {
+  if (!value_) return fallback;
+  if (value_->is_number_unsigned()) {
+    const auto value = value_->get<std::uint64_t>();
+    if (value <= highest) return value;
+  } else if (value_->is_number_float()) {
+    const double value = value_->get<double>();
+    if (value >= 0 && value <= static_cast<double>(highest) && std::floor(value) == value)
+      return static_cast<std::uint64_t>(value);
+  }
+  expected(fmt::format("a whole number from 0 to {}", highest));
+  return fallback;
+}
+
+int Json::index(std::size_t count) const {
+  if (!value_) return -1;
+  if (value_->is_number_unsigned()) {
+    const auto value = value_->get<std::uint64_t>();
+    if (value < count && value < std::uint64_t{1} << 31) return static_cast<int>(value);
+  }
+  expected(count == 0 ? "no index: there are none" : fmt::format("an index below {}", count));
+  return -1;
+}
+
+bool Json::boolean(bool fallback) const {
+  if (!value_) return fallback;
+  if (value_->is_boolean()) return value_->get<bool>();
+  expected("true or false");
+  return fallback;
+}
+
+std::string Json::text(std::string fallback) const {
+  if (!value_) return fallback;
+  if (value_->is_string()) return value_->get<std::string>();
+  expected("a string");
+  return fallback;
+}
+
+std::string Json::name() const {
+  std::string printable = text();
+  for (char& c : printable)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return printable;
+}
+
+void Json::numbers(std::span<double> values) const {
+  if (!value_) return;
+  if (!value_->is_array() || value_->size() != values.size())
+    return expected(fmt::format("an array of {} numbers", values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = at(i).number(values[i]);
+}
+
+void Json::expected(std::string_view what) const {
+  error(fmt::format("found {}, expected {}", value_ ? shown(*value_) : "nothing", what));
+}
+
+}  // namespace oriel::gltf

@@ -1,0 +1,267 @@
+#include "bake/import/movers.h"
+
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+
+#include "formats/core/text.h"
+#include "formats/query/mover_pose.h"
+
+namespace oriel {
+namespace {
+
+using gltf::Document;
+
+std::string mover_name(const Document& document, std::uint32_t node) {
+  const std::string& name = document.nodes[node].name;
+  return name.empty() ? fmt::format("node {}", node) : name;
+}
+
+std::vector<std::string> node_names(const Document& document, std::span<const NodePose> poses) {
+  std::vector<std::string> names;
+  for (const NodePose& pose : poses) names.push_back(document.nodes[pose.node].name);
+  return names;
+}
+
+// By node: 0 no mover, 1 because it moves, 2 because it was asked for.
+Result<std::vector<char>> mark(const Document& document, std::span<const NodePose> poses,
+                               std::span<const std::string> names) {
+  std::vector<char> marks(document.nodes.size());
+  for (const gltf::AnimationDesc& animation : document.animations)
+    for (const gltf::AnimationDesc::Channel& channel : animation.channels)
+      if (is_motion(document, channel) && channel.target != "scale")
+        if (const auto node = static_cast<std::size_t>(channel.node); document.nodes[node].camera < 0) marks[node] = 1;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (document.nodes[i].mover) marks[i] = 2;
+  for (const std::string& name : names) {
+    bool found = false;
+    for (const NodePose& pose : poses) {
+      if (document.nodes[pose.node].name != name) continue;
+      marks[pose.node] = 2;
+      found = true;
+    }
+    if (!found)
+      return fail(ErrorCode::kUsage, "mover", "found the node \"{}\", expected one of the scene's: {}", name,
+                  names_like(name, node_names(document, poses)));
+  }
+  return marks;
+}
+
+MoverPose pose_of(const DMat4& world_from_node, const DVec3& origin) {
+  const glm::dquat q = glm::normalize(glm::quat_cast(rotation_of(world_from_node)));
+  return {Vec3(DVec3(world_from_node[3]) - origin), Vec4(q.x, q.y, q.z, q.w)};
+}
+
+Result<std::vector<MoverKey>> mover_keys(const Document& document, std::uint32_t node,
+                                         std::span<const Animation> animations, const DVec3& origin, Context& context) {
+  std::vector<MoverKey> keys;
+  std::size_t moving = 0;
+  for (const Animation& animation : animations) {
+    ORIEL_TRY(const std::vector<MotionKey> motion, motion_of(document, node, animation));
+    if (motion.empty() || ++moving > 1) continue;
+    for (const MotionKey& m : motion)
+      keys.push_back({static_cast<float>(m.time_s), pose_of(m.world_from_node, origin)});
+  }
+  if (moving > 1)
+    context.warning(
+        fmt::format("mover \"{}\": the first of {} animations is taken", mover_name(document, node), moving));
+  return keys;
+}
+
+// Movers that shine become part of the scene that stands still.
+void keep_emitters(Scene& scene, Context& context) {
+  std::vector<char> shines(scene.movers.size());
+  for (const Surface& surface : scene.surfaces) {
+    const SceneMaterial& material = scene.materials[surface.material];
+    if (surface.mover >= 0 && !material.unlit && max_component(material.emission) > 0)
+      shines[static_cast<std::size_t>(surface.mover)] = 1;
+  }
+  std::vector<std::int32_t> renamed(scene.movers.size(), -1);
+  std::vector<SceneMover> kept;
+  for (std::size_t i = 0; i < scene.movers.size(); ++i) {
+    if (shines[i]) {
+      context.warning(
+          fmt::format("mover \"{}\" has an emissive material: its light is baked where it is, so it stands still",
+                      scene.movers[i].name));
+      continue;
+    }
+    renamed[i] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(std::move(scene.movers[i]));
+  }
+  scene.movers = std::move(kept);
+  for (Surface& surface : scene.surfaces)
+    if (surface.mover >= 0) surface.mover = renamed[static_cast<std::size_t>(surface.mover)];
+}
+
+template <class T>
+void append(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to) {
+  if (from.empty()) return;
+  const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+  to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+}
+
+// Appends a surface with its triangles and vertices.
+void copy_surface(const Scene& from, const Surface& surface, Scene& to) {
+  Surface added = surface;
+  added.mover = -1;
+  added.first_triangle = static_cast<std::uint32_t>(to.triangles.size());
+  added.first_vertex = static_cast<std::uint32_t>(to.positions.size());
+  append(from.positions, surface.first_vertex, surface.vertex_count, to.positions);
+  append(from.normals, surface.first_vertex, surface.vertex_count, to.normals);
+  append(from.uv0, surface.first_vertex, surface.vertex_count, to.uv0);
+  append(from.uv1, surface.first_vertex, surface.vertex_count, to.uv1);
+  append(from.colors, surface.first_vertex, surface.vertex_count, to.colors);
+  append(from.tangents, surface.first_vertex, surface.vertex_count, to.tangents);
+  for (std::uint32_t t = surface.first_triangle; t < surface.first_triangle + surface.triangle_count; ++t) {
+    to.triangles.push_back(from.triangles[t] - surface.first_vertex + added.first_vertex);
+    to.triangle_surface.push_back(static_cast<std::uint32_t>(to.surfaces.size()));
+  }
+  to.surfaces.push_back(std::move(added));
+}
+
+void find_bounds(Scene& scene) {
+  scene.lower = scene.upper = scene.positions.front();
+  for (const Vec3& p : scene.positions) {
+    scene.lower = glm::min(scene.lower, p);
+    scene.upper = glm::max(scene.upper, p);
+  }
+}
+
+// Only with the bytes of the images that its surfaces use.
+std::vector<Image> images_of(const Scene& scene, const std::vector<Image>& all) {
+  std::vector<Image> images(all.size());
+  for (const Surface& surface : scene.surfaces)
+    for (const TextureSlot* slot : texture_slots(scene.materials[surface.material]))
+      if (slot->image >= 0) images[static_cast<std::size_t>(slot->image)] = all[static_cast<std::size_t>(slot->image)];
+  return images;
+}
+
+// Gives movers copies of the materials that they share with what stands still: later stages change those.
+void part_materials(Scene& scene) {
+  std::vector<char> stands(scene.materials.size());
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover < 0) stands[surface.material] = 1;
+  std::map<std::uint32_t, std::uint32_t> copies;
+  for (Surface& surface : scene.surfaces) {
+    if (surface.mover < 0 || !stands[surface.material]) continue;
+    const auto [copy, added] = copies.try_emplace(surface.material, static_cast<std::uint32_t>(scene.materials.size()));
+    if (added) scene.materials.push_back(SceneMaterial(scene.materials[surface.material]));
+    surface.material = copy->second;
+  }
+}
+
+Scene object_scene(const Scene& scene, std::size_t mover) {
+  Scene object;
+  object.materials = scene.materials;
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover == static_cast<std::int32_t>(mover)) copy_surface(scene, surface, object);
+  const DMat4 scene_from = pack_from_object(scene.movers[mover].rest);
+  const DMat3 object_from(glm::transpose(DMat3(scene_from)));
+  const auto turned = [&](const Vec3& v) { return Vec3(object_from * DVec3(v)); };
+  for (Vec3& p : object.positions) p = Vec3(object_from * (DVec3(p) - DVec3(scene_from[3])));
+  for (Vec3& n : object.normals) n = normalize_or(turned(n), Vec3(0, 0, 1));
+  for (Vec4& t : object.tangents) t = Vec4(turned(Vec3(t)), t.w);
+  object.images = images_of(object, scene.images);
+  find_bounds(object);
+  return object;
+}
+
+}  // namespace
+
+Result<MoverNodes> find_movers(const Document& document, std::span<const NodePose> poses,
+                               std::span<const std::string> names, Context& context) {
+  ORIEL_TRY(const std::vector<char> marks, mark(document, poses, names));
+  MoverNodes movers;
+  movers.of_node.assign(document.nodes.size(), -1);
+  std::vector<std::int32_t> nearest(document.nodes.size(), -1);  // by node: the marked node that it goes with
+  std::vector<char> shown(document.nodes.size());
+  for (const NodePose& pose : poses) {  // parents come first
+    const gltf::NodeDesc& node = document.nodes[pose.node];
+    nearest[pose.node] = marks[pose.node] != 0 ? static_cast<std::int32_t>(pose.node)
+                         : node.parent >= 0    ? nearest[static_cast<std::size_t>(node.parent)]
+                                               : -1;
+    if (nearest[pose.node] >= 0 && node.mesh >= 0) shown[static_cast<std::size_t>(nearest[pose.node])] = 1;
+  }
+  for (const NodePose& pose : poses) {
+    if (shown[pose.node]) {
+      movers.of_node[pose.node] = static_cast<std::int32_t>(movers.nodes.size());
+      movers.nodes.push_back(pose.node);
+    } else if (marks[pose.node] == 2) {
+      context.warning(fmt::format("mover \"{}\" shows no mesh: it is none", mover_name(document, pose.node)));
+    }
+  }
+  for (const NodePose& pose : poses)
+    if (const std::int32_t top = nearest[pose.node]; top >= 0)
+      movers.of_node[pose.node] = movers.of_node[static_cast<std::size_t>(top)];
+  return movers;
+}
+
+Status place_movers(const Document& document, std::span<const NodePose> poses, const MoverNodes& movers,
+                    std::span<const Animation> animations, Scene& scene, Context& context) {
+  scene.movers.resize(movers.nodes.size());
+  for (const NodePose& pose : poses) {
+    const std::int32_t mover = movers.of_node[pose.node];
+    if (mover < 0) continue;
+    SceneMover& out = scene.movers[static_cast<std::size_t>(mover)];
+    if (movers.nodes[static_cast<std::size_t>(mover)] == pose.node) {
+      out.name = mover_name(document, pose.node);
+      out.rest = pose_of(pose.world_from_node, scene.origin);
+      ORIEL_TRY(out.keys, mover_keys(document, pose.node, animations, scene.origin, context));
+    }
+    if (document.nodes[pose.node].light >= 0)
+      context.warning(fmt::format("mover \"{}\" carries the light \"{}\": that stays where it is", out.name,
+                                  mover_name(document, pose.node)));
+  }
+  keep_emitters(scene, context);
+  return {};
+}
+
+void move_mover(Scene& scene, std::size_t mover, const MoverPose& pose) {
+  SceneMover& moving = scene.movers[mover];
+  const DMat4 change = pack_from_object(pose) * glm::inverse(pack_from_object(moving.rest));
+  const DMat3 turn(change);
+  const auto turned = [&](const Vec3& v) { return normalize_or(Vec3(turn * DVec3(v)), Vec3(0, 0, 1)); };
+  for (const Surface& surface : scene.surfaces) {
+    if (surface.mover != static_cast<std::int32_t>(mover)) continue;
+    for (std::uint32_t v = surface.first_vertex; v < surface.first_vertex + surface.vertex_count; ++v) {
+      scene.positions[v] = Vec3(change * DVec4(DVec3(scene.positions[v]), 1));
+      scene.normals[v] = turned(scene.normals[v]);
+      if (!scene.tangents.empty()) scene.tangents[v] = Vec4(turned(Vec3(scene.tangents[v])), scene.tangents[v].w);
+    }
+  }
+  moving.rest = pose;
+  scene.face_normals.clear();
+  find_bounds(scene);
+}
+
+Result<std::vector<TakenMover>> take_movers(Scene& scene) {
+  std::vector<TakenMover> taken;
+  if (scene.movers.empty()) return taken;
+  if (std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.mover >= 0; }))
+    return invalid("scene",
+                   "found movers only, expected something that stands still: light is baked for that; mark fewer nodes "
+                   "as movers");
+  part_materials(scene);
+  for (std::size_t i = 0; i < scene.movers.size(); ++i) taken.push_back({scene.movers[i], object_scene(scene, i)});
+  Scene rest;
+  for (const Surface& surface : scene.surfaces)
+    if (surface.mover < 0) copy_surface(scene, surface, rest);
+  scene.positions = std::move(rest.positions);
+  scene.normals = std::move(rest.normals);
+  scene.uv0 = std::move(rest.uv0);
+  scene.uv1 = std::move(rest.uv1);
+  scene.colors = std::move(rest.colors);
+  scene.tangents = std::move(rest.tangents);
+  scene.triangles = std::move(rest.triangles);
+  scene.triangle_surface = std::move(rest.triangle_surface);
+  scene.surfaces = std::move(rest.surfaces);
+  scene.face_normals.clear();
+  std::vector<Vec3> normals;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
+  scene.face_normals = std::move(normals);
+  scene.movers.clear();
+  find_bounds(scene);
+  return taken;
+}
+
+}  // namespace oriel

@@ -1,0 +1,273 @@
+// Meshes, nodes, scenes, cameras, lights and animations.
+#include <array>
+#include <cmath>
+
+#include "bake/import/document.h"
+
+namespace oriel::gltf {
+namespace {
+
+PrimitiveDesc parse_primitive(const Json& value, std::size_t materials, const Document& document) {
+  PrimitiveDesc p;
+  p.path = value.path();
+  p.mode = static_cast<int>(value["mode"].integer(4, 6));
+  p.indices = value["indices"].index(document.accessors.size());
+  p.material = value["material"].index(materials);
+  const Json attributes = value.need("attributes");
+  for (const std::string& name : attributes.keys())
+    p.attributes[name] = attributes[name.c_str()].index(document.accessors.size());
+  const Json draco = value.extension("KHR_draco_mesh_compression");
+  if (draco.present()) {
+    p.draco.emplace();
+    p.draco->view = draco.need("bufferView").index(document.views.size());
+    const Json ids = draco.need("attributes");
+    for (const std::string& name : ids.keys())
+      p.draco->attributes[name] = static_cast<std::uint32_t>(ids[name.c_str()].integer(0, ~0u));
+    if (p.mode != 4 && p.mode != 5) value["mode"].expected("4 or 5 with KHR_draco_mesh_compression");
+  }
+  return p;
+}
+
+// A matrix that is no translation, rotation and scale (glTF-Validator: NODE_MATRIX_NON_TRS).
+bool decomposable(const DMat4& m) {
+  if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return false;
+  const DVec3 axes[3] = {DVec3(m[0]), DVec3(m[1]), DVec3(m[2])};
+  double lengths[3];
+  for (int i = 0; i < 3; ++i) {
+    lengths[i] = std::hypot(axes[i].x, axes[i].y, axes[i].z);
+    if (!(lengths[i] > 0) || !std::isfinite(lengths[i])) return false;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3;
+    if (std::abs(glm::dot(axes[i] / lengths[i], axes[k] / lengths[k])) > 1e-4) return false;
+  }
+  return true;
+}
+
+void parse_transform(const Json& value, NodeDesc& node) {
+  const Json matrix = value["matrix"];
+  std::array<double, 3> t{0, 0, 0}, s{1, 1, 1};
+  std::array<double, 4> r{0, 0, 0, 1};
+  value["translation"].numbers(t);
+  value["rotation"].numbers(r);
+  value["scale"].numbers(s);
+  node.translation = {t[0], t[1], t[2]};
+  node.scale = {s[0], s[1], s[2]};
+  const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
+  if (!(length > 0) || !std::isfinite(length)) return value["rotation"].expected("a unit quaternion");
+  node.rotation = DVec4(r[0], r[1], r[2], r[3]) / length;
+  node.matrix = matrix_from_trs(node.translation, node.rotation, node.scale);
+  if (!matrix.present()) return;
+  if (value["translation"].present() || value["rotation"].present() || value["scale"].present())
+    return value.error("found both a matrix and translation, rotation or scale, expected one of them");
+  node.has_matrix = true;
+  std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  matrix.numbers(m);
+  for (std::size_t i = 0; i < 16; ++i) node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = m[i];
+  if (!decomposable(node.matrix))
+    matrix.error("found a matrix that shears or is singular, expected a translation, rotation and scale");
+}
+
+// Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
+float angular_radius(const Json& value, double fallback) {
+  return static_cast<float>(value.extra("oriel")["angular_diameter_deg"].number(fallback * 360 / kPiD, 0, 180) * kPiD /
+                            360);
+}
+
+NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, const Document& document) {
+  NodeDesc node;
+  node.name = value["name"].name();
+  node.mesh = value["mesh"].index(document.meshes.size());
+  node.camera = value["camera"].index(document.cameras.size());
+  value["skin"].index(skins);
+  node.light = value.extension("KHR_lights_punctual")["light"].index(document.lights.size());
+  node.angular_radius_rad = angular_radius(value, -1);
+  node.metal = parse_metal(value);
+  node.mover = value.extra("oriel")["mover"].boolean(false);
+  parse_transform(value, node);
+  const Json children = value["children"];
+  for (std::size_t i = 0; i < children.size(); ++i)
+    if (const int child = children.at(i).index(count); child >= 0)
+      node.children.push_back(static_cast<std::uint32_t>(child));
+  const Json instancing = value.extension("EXT_mesh_gpu_instancing");
+  if (instancing.present() && node.mesh >= 0) {
+    const Json attributes = instancing.need("attributes");
+    for (const std::string& name : attributes.keys())
+      if (const int accessor = attributes[name.c_str()].index(document.accessors.size()); accessor >= 0)
+        node.instance_attributes[name] = accessor;
+    node.instanced = !node.instance_attributes.empty();
+  }
+  return node;
+}
+
+CameraDesc parse_camera(const Json& value, std::size_t i) {
+  CameraDesc camera;
+  camera.name = value["name"].name();
+  if (camera.name.empty()) camera.name = fmt::format("camera {}", i);
+  const std::string type = value.need("type").text();
+  if (type == "perspective") {
+    camera.vertical_fov_rad = value.need("perspective").need("yfov").number(1, 1e-6, kPiD - 1e-6);
+  } else if (type == "orthographic") {
+    camera.perspective = false;
+    camera.half_height = std::abs(value.need("orthographic").need("ymag").number(1, -1e30, 1e30));
+    if (camera.half_height == 0) value["orthographic"]["ymag"].expected("another number than 0");
+  } else {
+    value["type"].expected("perspective or orthographic");
+  }
+  return camera;
+}
+
+Light parse_light(const Json& value, std::size_t i, Document& document) {
+  Light light;
+  light.name = value["name"].name();
+  if (light.name.empty()) light.name = fmt::format("light {}", i);
+  const std::string type = value.need("type").text();
+  if (type == "spot")
+    light.type = LightType::kSpot;
+  else if (type == "directional")
+    light.type = LightType::kDirectional;
+  else if (type != "point")
+    value["type"].expected("point, spot or directional");
+  light.angular_radius_rad = angular_radius(value, 0);
+  std::array<double, 3> color{1, 1, 1};
+  value["color"].numbers(color);
+  const double intensity = value["intensity"].number(1, 0);
+  for (int c = 0; c < 3; ++c) {
+    const double product = color[static_cast<std::size_t>(c)] * intensity;
+    light.color[c] = static_cast<float>(color[static_cast<std::size_t>(c)]);
+    light.intensity[c] = static_cast<float>(product);
+    if (!(product >= 0 && product <= 1e30))
+      value.error(fmt::format("found color * intensity {}, expected 0 to 1e30", product));
+    if (!(light.color[c] >= 0 && light.color[c] <= 1e30f))
+      value.error(fmt::format("found color {}, expected 0 to 1e30", light.color[c]));
+  }
+  if (value["range"].present())
+    document.warnings.push_back(fmt::format("{}: range {} is ignored: light falls off with the square of the distance",
+                                            value.path(), value["range"].number(0)));
+  if (light.type == LightType::kSpot) {
+    const Json spot = value["spot"];
+    light.inner_cone_rad = static_cast<float>(spot["innerConeAngle"].number(0, 0, kPiD / 2));
+    light.outer_cone_rad = static_cast<float>(spot["outerConeAngle"].number(kPiD / 4, 0, kPiD / 2 + 1e-6));
+    if (light.inner_cone_rad >= light.outer_cone_rad)
+      spot.error(fmt::format("found innerConeAngle {}, expected less than outerConeAngle {}", light.inner_cone_rad,
+                             light.outer_cone_rad));
+  }
+  return light;
+}
+
+AnimationDesc parse_animation(const Json& value, const Document& document) {
+  AnimationDesc animation;
+  animation.name = value["name"].name();
+  const Json samplers = value["samplers"], channels = value["channels"];
+  for (std::size_t i = 0; i < samplers.size(); ++i) {
+    const Json s = samplers.at(i);
+    AnimationDesc::Sampler sampler;
+    sampler.input = s.need("input").index(document.accessors.size());
+    sampler.output = s.need("output").index(document.accessors.size());
+    const std::string kind = s["interpolation"].text("LINEAR");
+    using Interpolation = AnimationDesc::Sampler::Interpolation;
+    if (kind == "STEP")
+      sampler.interpolation = Interpolation::kStep;
+    else if (kind == "CUBICSPLINE")
+      sampler.interpolation = Interpolation::kCubicSpline;
+    else if (kind != "LINEAR")
+      s["interpolation"].expected("LINEAR, STEP or CUBICSPLINE");
+    animation.samplers.push_back(sampler);
+  }
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Json c = channels.at(i);
+    AnimationDesc::Channel channel;
+    channel.file_path = c.path();
+    channel.sampler = c.need("sampler").index(animation.samplers.size());
+    channel.node = c.need("target")["node"].index(document.nodes.size());
+    channel.target = c["target"].need("path").text();
+    animation.channels.push_back(channel);
+  }
+  return animation;
+}
+
+// Parents, double parents and cycles.
+void check_tree(const Json& nodes, Document& document) {
+  std::vector<std::uint32_t> reached;
+  for (std::size_t i = 0; i < document.nodes.size(); ++i)
+    for (const std::uint32_t child : document.nodes[i].children) {
+      int& parent = document.nodes[child].parent;
+      if (parent >= 0)
+        return nodes.at(i)["children"].error(
+            fmt::format("found node {} to be a child of node {} too, expected one parent", child, parent));
+      parent = static_cast<int>(i);
+    }
+  std::vector<char> seen(document.nodes.size());
+  for (std::uint32_t i = 0; i < document.nodes.size(); ++i)
+    if (document.nodes[i].parent < 0) reached.push_back(i);
+  while (!reached.empty()) {
+    const std::uint32_t node = reached.back();
+    reached.pop_back();
+    seen[node] = 1;
+    reached.insert(reached.end(), document.nodes[node].children.begin(), document.nodes[node].children.end());
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (!seen[i]) return nodes.at(i).error("found a node that is its own ancestor, expected a tree");
+}
+
+void parse_scenes(const Json& root, Document& document) {
+  const Json scenes = root["scenes"];
+  std::vector<std::size_t> taken(document.nodes.size(), scenes.size());  // by node: the last scene that lists it
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    SceneDesc scene;
+    scene.name = scenes.at(i)["name"].name();
+    const Json nodes = scenes.at(i)["nodes"];
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const int node = nodes.at(k).index(document.nodes.size());
+      if (node < 0) continue;
+      const auto n = static_cast<std::size_t>(node);
+      if (document.nodes[n].parent >= 0)
+        nodes.at(k).error(
+            fmt::format("found node {}, a child of node {}, expected a root node", node, document.nodes[n].parent));
+      if (taken[n] == i) nodes.at(k).error(fmt::format("found node {} twice, expected it once", node));
+      taken[n] = i;
+      scene.nodes.push_back(static_cast<std::uint32_t>(node));
+    }
+    document.scenes.push_back(std::move(scene));
+  }
+  document.default_scene = root["scene"].index(document.scenes.size());
+}
+
+}  // namespace
+
+void parse_meshes(const Json& root, std::size_t materials, Document& document) {
+  const Json meshes = root["meshes"];
+  bool morphs = false;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    MeshDesc mesh;
+    mesh.name = meshes.at(i)["name"].name();
+    const Json primitives = meshes.at(i).need("primitives");
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+      mesh.primitives.push_back(parse_primitive(primitives.at(k), materials, document));
+      morphs |= primitives.at(k)["targets"].size() > 0;
+    }
+    document.meshes.push_back(std::move(mesh));
+  }
+  if (morphs) document.warnings.push_back("morph targets are left out: meshes stand in their base shape");
+}
+
+void parse_nodes(const Json& root, Document& document) {
+  const Json cameras = root["cameras"], lights = root.extension("KHR_lights_punctual")["lights"], nodes = root["nodes"];
+  for (std::size_t i = 0; i < cameras.size(); ++i) document.cameras.push_back(parse_camera(cameras.at(i), i));
+  for (std::size_t i = 0; i < lights.size(); ++i) document.lights.push_back(parse_light(lights.at(i), i, document));
+  const std::size_t skins = root["skins"].size();
+  bool skinned = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    document.nodes.push_back(parse_node(nodes.at(i), nodes.size(), skins, document));
+    skinned |= nodes.at(i)["skin"].present();
+  }
+  if (skinned) document.warnings.push_back("skins are left out: meshes stand in their bind pose");
+  check_tree(nodes, document);
+  if (!root.document().status()) return;
+  parse_scenes(root, document);
+  const Json animations = root["animations"];
+  for (std::size_t i = 0; i < animations.size(); ++i)
+    document.animations.push_back(parse_animation(animations.at(i), document));
+}
+
+}  // namespace oriel::gltf

@@ -1,0 +1,346 @@
+#include "bake/import/place.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "bake/import/warning_group.h"
+
+namespace oriel {
+namespace {
+
+using gltf::Document;
+using gltf::LoadedMesh;
+using gltf::TriangleMesh;
+
+constexpr double kLargestScene = 1e9, kSmallestScene = 1e-9;  // metres
+constexpr double kWarnShare = 0.01;                           // of corners with a normal on the wrong side
+
+struct Instance {
+  std::uint32_t node = 0;
+  DMat4 world_from_mesh{1};
+};
+
+bool finite(const DMat4& m) {
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k)
+      if (!(std::abs(m[i][k]) < 1e150)) return false;  // so that products of three stay finite
+  return true;
+}
+
+std::string node_path(const Document& document, std::uint32_t node) {
+  return fmt::format("{}: nodes[{}]", document.file, node);
+}
+
+// EXT_mesh_gpu_instancing: one matrix an instance.
+Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint32_t index,
+                                             gltf::AccessorReader& accessors, gltf::MemoryBudget& budget) {
+  const gltf::NodeDesc& node = document.nodes[index];
+  const std::string where = node_path(document, index) + ".extensions.EXT_mesh_gpu_instancing";
+  std::map<std::string, std::span<const float>> values;
+  std::optional<std::uint64_t> count;
+  for (const auto& [name, accessor] : node.instance_attributes) {
+    const std::uint32_t components = name == "ROTATION" ? 4 : 3;
+    if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE") continue;
+    const gltf::AccessorDesc& desc = accessors.desc(accessor);
+    if (desc.components != components || desc.matrix)
+      return invalid(where, "found {1} components in {0}, expected {2}", name, desc.components, components);
+    if (count && *count != desc.count)
+      return invalid(where, "found {1} elements in {0}, expected {2} as in the others", name, desc.count, *count);
+    count = desc.count;
+    ORIEL_TRY(values[name], accessors.floats(accessor));
+  }
+  if (!count) return std::vector<DMat4>{DMat4(1)};
+  ORIEL_TRY_VOID(budget.take(*count * sizeof(DMat4) * 2, where));
+  std::vector<DMat4> matrices;
+  for (std::size_t i = 0; i < *count; ++i) {
+    DVec3 t(0), s(1);
+    DVec4 r(0, 0, 0, 1);
+    if (const auto v = values.find("TRANSLATION"); v != values.end())
+      t = {v->second[3 * i], v->second[3 * i + 1], v->second[3 * i + 2]};
+    if (const auto v = values.find("SCALE"); v != values.end())
+      s = {v->second[3 * i], v->second[3 * i + 1], v->second[3 * i + 2]};
+    if (const auto v = values.find("ROTATION"); v != values.end()) {
+      r = {v->second[4 * i], v->second[4 * i + 1], v->second[4 * i + 2], v->second[4 * i + 3]};
+      if (!(glm::dot(r, r) > 0)) return invalid(where, "found zero as rotation {}, expected a unit quaternion", i);
+      r /= std::sqrt(glm::dot(r, r));
+    }
+    matrices.push_back(gltf::matrix_from_trs(t, r, s));
+  }
+  return matrices;
+}
+
+Result<std::vector<Instance>> find_instances(const Document& document, std::span<const LoadedMesh> meshes,
+                                             std::span<const NodePose> poses, gltf::AccessorReader& accessors,
+                                             gltf::MemoryBudget& budget) {
+  std::vector<Instance> instances;
+  for (const NodePose& pose : poses) {
+    const gltf::NodeDesc& node = document.nodes[pose.node];
+    if (node.mesh < 0 || meshes[static_cast<std::size_t>(node.mesh)].primitives.empty()) continue;
+    if (!node.instanced) {
+      instances.push_back({pose.node, pose.world_from_node});
+      continue;
+    }
+    ORIEL_TRY(const std::vector<DMat4> matrices, instance_matrices(document, pose.node, accessors, budget));
+    for (const DMat4& node_from_instance : matrices) {
+      instances.push_back({pose.node, pose.world_from_node * node_from_instance});
+      if (!finite(instances.back().world_from_mesh))
+        return invalid(node_path(document, pose.node),
+                       "found an instance's transform that overflows, expected a finite one");
+    }
+  }
+  return instances;
+}
+
+// Appends the surfaces of instances to a scene whose origin is known.
+class Placer {
+ public:
+  Placer(Scene& scene, Context& context, bool with_colors, bool with_tangents)
+      : scene_(scene),
+        with_colors_(with_colors),
+        with_tangents_(with_tangents),
+        normals_wrong_(context, "surfaces with normals on the back of their triangles"),
+        collapsed_(context, "surfaces with triangles too small or thin for where they stand"),
+        texcoords_missing_(context, "surfaces without texture coordinates that their material wants") {}
+
+  void place(const TriangleMesh& mesh, const DMat4& world_from_mesh, Surface surface) {
+    surface.first_triangle = static_cast<std::uint32_t>(scene_.triangles.size());
+    surface.first_vertex = static_cast<std::uint32_t>(scene_.positions.size());
+    surface.has_uv1 = !mesh.uv1.empty();
+    transform(mesh, world_from_mesh);
+    shared_.assign(mesh.positions.size(), kNone);
+    std::size_t turned = 0, collapsed = 0;
+    for (const UVec3& t : mesh.triangles) {
+      const UVec3 corners = flipped_ ? UVec3(t.x, t.z, t.y) : t;
+      const Vec3 &a = positions_[corners.x], &b = positions_[corners.y], &c = positions_[corners.z];
+      if (gltf::degenerate(a, b, c)) {
+        ++collapsed;
+        continue;
+      }
+      const DVec3 cross = glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
+      const Vec3 front(cross / std::sqrt(glm::dot(cross, cross)));
+      UVec3 out;
+      for (int k = 0; k < 3; ++k) out[k] = vertex(mesh, corners[k], front, turned);
+      scene_.triangles.push_back(out);
+      scene_.triangle_surface.push_back(static_cast<std::uint32_t>(scene_.surfaces.size()));
+    }
+    surface.triangle_count = static_cast<std::uint32_t>(scene_.triangles.size()) - surface.first_triangle;
+    surface.vertex_count = static_cast<std::uint32_t>(scene_.positions.size()) - surface.first_vertex;
+    warn(mesh, surface, turned, collapsed);
+    if (surface.triangle_count > 0) scene_.surfaces.push_back(std::move(surface));
+  }
+
+  void finish() {
+    normals_wrong_.finish();
+    collapsed_.finish();
+    texcoords_missing_.finish();
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+
+  void transform(const TriangleMesh& mesh, const DMat4& world_from_mesh) {
+    const DMat3 linear(world_from_mesh);
+    const DVec3 offset = DVec3(world_from_mesh[3]) - scene_.origin;
+    // det(M) times the inverse transpose: exists for singular M too, and its sign cancels below.
+    const DMat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                          glm::cross(linear[0], linear[1]));
+    flipped_ = glm::dot(linear[0], cofactors[0]) < 0;
+    positions_.resize(mesh.positions.size());
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      positions_[i] = Vec3(linear * DVec3(mesh.positions[i]) + offset);
+    normals_.resize(mesh.normals.size());
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      const DVec3 n = cofactors * DVec3(mesh.normals[i]);
+      const double scale = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+      normals_[i] =
+          scale > 0 && std::isfinite(scale) ? Vec3(glm::normalize(n / scale) * (flipped_ ? -1.0 : 1.0)) : Vec3(0);
+    }
+    tangents_.resize(mesh.tangents.size());
+    for (std::size_t i = 0; i < tangents_.size(); ++i) {
+      const Vec3 t = normalize_or(Vec3(linear * DVec3(mesh.tangents[i])), Vec3(0));
+      // A mirrored cross product points the other way.
+      const float side = (mesh.tangents[i].w < 0) == flipped_ ? 1.0f : -1.0f;
+      tangents_[i] = Vec4(t, t == Vec3(0) ? 0 : side);
+    }
+  }
+
+  // The scene's vertex for a corner: shared between triangles where the stored normal serves, else with the triangle's
+  // own.
+  std::uint32_t vertex(const TriangleMesh& mesh, std::uint32_t corner, const Vec3& front, std::size_t& turned) {
+    const bool serves = !normals_.empty() && glm::dot(normals_[corner], front) > 0;
+    if (serves && shared_[corner] != kNone) return shared_[corner];
+    if (!serves && !normals_.empty()) ++turned;
+    const auto added = static_cast<std::uint32_t>(scene_.positions.size());
+    scene_.positions.push_back(positions_[corner]);
+    scene_.normals.push_back(serves ? normals_[corner] : front);
+    scene_.uv0.push_back(mesh.uv0.empty() ? Vec2(0) : mesh.uv0[corner]);
+    scene_.uv1.push_back(mesh.uv1.empty() ? Vec2(0) : mesh.uv1[corner]);
+    if (with_tangents_) scene_.tangents.push_back(serves && !tangents_.empty() ? tangents_[corner] : Vec4(0));
+    if (with_colors_) scene_.colors.push_back(mesh.colors.empty() ? ~0u : mesh.colors[corner]);
+    if (serves) shared_[corner] = added;
+    return added;
+  }
+
+  void warn(const TriangleMesh& mesh, const Surface& surface, std::size_t turned, std::size_t collapsed) {
+    const std::size_t corners = std::size_t{surface.triangle_count} * 3;
+    if (static_cast<double>(turned) > kWarnShare * static_cast<double>(corners) &&
+        warned_.insert("n" + mesh.path).second)
+      normals_wrong_.add(
+          fmt::format("surface \"{}\": {:.1f} % of the corners have a normal that is zero or on the back of its "
+                      "triangle; the triangle's own is used",
+                      surface.name, 100.0 * static_cast<double>(turned) / static_cast<double>(corners)));
+    if (collapsed > 0 && warned_.insert("c" + mesh.path).second)
+      collapsed_.add(
+          fmt::format("surface \"{}\": {} triangles are too small or thin for where they stand and were dropped",
+                      surface.name, collapsed));
+    const SceneMaterial& material = scene_.materials[surface.material];
+    for (const TextureSlot* slot : texture_slots(material))
+      if (slot->image >= 0 && (slot->texcoord == 0 ? mesh.uv0 : mesh.uv1).empty() &&
+          warned_.insert("t" + mesh.path).second)
+        texcoords_missing_.add(
+            fmt::format("surface \"{}\" has no TEXCOORD_{}, which a texture of \"{}\" wants; 0, 0 is used",
+                        surface.name, slot->texcoord, material.name));
+  }
+
+  Scene& scene_;
+  bool with_colors_, with_tangents_, flipped_ = false;
+  std::vector<Vec3> positions_, normals_;  // of the mesh at hand, scene space
+  std::vector<Vec4> tangents_;
+  std::vector<std::uint32_t> shared_;
+  WarningGroup normals_wrong_, collapsed_, texcoords_missing_;
+  std::set<std::string> warned_;
+};
+
+// The centre of the world bounds; also refuses what would overflow.
+Result<DVec3> find_origin(const Document& document, std::span<const LoadedMesh> meshes,
+                          std::span<const Instance> instances) {
+  DVec3 lower(std::numeric_limits<double>::max()), upper(-lower);
+  for (const Instance& instance : instances)
+    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
+      for (const Vec3& p : mesh.positions) {
+        const DVec3 world(instance.world_from_mesh * DVec4(DVec3(p), 1));
+        lower = glm::min(lower, world);
+        upper = glm::max(upper, world);
+      }
+  const DVec3 size = upper - lower;
+  const double largest = std::max({size.x, size.y, size.z});
+  if (!(largest <= kLargestScene))
+    return invalid(document.file, "found a scene of {} m, expected at most {} m", largest, kLargestScene);
+  if (largest < kSmallestScene)
+    return invalid(document.file, "found a scene of {} m, expected at least {} m", largest, kSmallestScene);
+  return lower + 0.5 * size;
+}
+
+Status reserve(const Document& document, std::span<const LoadedMesh> meshes, std::span<const Instance> instances,
+               gltf::MemoryBudget& budget, Scene& scene) {
+  std::uint64_t triangles = 0, vertices = 0, vertex_bytes = 44;
+  for (const Instance& instance : instances)
+    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives) {
+      triangles += mesh.triangles.size();
+      vertices += mesh.normals.empty() ? 3 * mesh.triangles.size() : mesh.positions.size();
+      if (!mesh.tangents.empty()) vertex_bytes = 44 + sizeof(Vec4);
+    }
+  if (triangles == 0)
+    return invalid(document.file, "found no mesh with a triangle in the scene, expected at least one");
+  if (triangles > (1u << 30))
+    return invalid(document.file, "found {} triangles with all instances, expected at most {}", triangles, 1u << 30);
+  ORIEL_TRY_VOID(budget.take(
+      triangles * (sizeof(UVec3) + sizeof(Vec3) + sizeof(std::uint32_t)) + vertices * vertex_bytes, document.file));
+  scene.triangles.reserve(triangles);
+  scene.triangle_surface.reserve(triangles);
+  scene.positions.reserve(vertices);
+  scene.normals.reserve(vertices);
+  scene.uv0.reserve(vertices);
+  scene.uv1.reserve(vertices);
+  return {};
+}
+
+std::uint32_t material_of(const TriangleMesh& mesh, std::optional<std::uint32_t>& default_material, Scene& scene) {
+  if (mesh.material >= 0) return static_cast<std::uint32_t>(mesh.material);
+  if (!default_material) {
+    default_material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.emplace_back().name = "default";
+  }
+  return *default_material;
+}
+
+// The material with another metal (extras.oriel_metal of the node): a copy of its own, shared between nodes that ask
+// for the same.
+std::uint32_t of_metal(std::uint32_t material, Metal metal,
+                       std::map<std::pair<std::uint32_t, Metal>, std::uint32_t>& copies, Scene& scene) {
+  if (metal == Metal::kNone || scene.materials[material].metal == metal) return material;
+  const auto [found, is_new] = copies.try_emplace({material, metal}, scene.materials.size());
+  if (is_new) {
+    SceneMaterial copy = scene.materials[material];
+    copy.name += fmt::format(" ({})", constants_of(metal).name);
+    copy.metal = metal;
+    scene.materials.push_back(std::move(copy));
+  }
+  return found->second;
+}
+
+}  // namespace
+
+Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
+  std::vector<NodePose> poses, waiting;
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, DMat4(1)});
+  while (!waiting.empty()) {
+    NodePose pose = waiting.back();  // holds the parent's matrix so far
+    waiting.pop_back();
+    const gltf::NodeDesc& node = document.nodes[pose.node];
+    pose.world_from_node = pose.world_from_node * node.matrix;
+    if (!finite(pose.world_from_node))
+      return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+      waiting.push_back({*child, pose.world_from_node});
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes, std::span<const NodePose> poses,
+                    std::span<const std::int32_t> mover_of_node, gltf::AccessorReader& accessors,
+                    gltf::MemoryBudget& budget, Scene& scene, Context& context) {
+  ORIEL_TRY(const std::vector<Instance> instances, find_instances(document, meshes, poses, accessors, budget));
+  ORIEL_TRY_VOID(reserve(document, meshes, instances, budget, scene));
+  ORIEL_TRY(scene.origin, find_origin(document, meshes, instances));
+  bool with_colors = false, with_tangents = false;
+  for (const Instance& instance : instances)
+    for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
+      with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
+  Placer placer(scene, context, with_colors, with_tangents);
+  std::optional<std::uint32_t> default_material;
+  std::map<std::pair<std::uint32_t, Metal>, std::uint32_t> metal_copies;
+  for (const Instance& instance : instances) {
+    if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
+    const gltf::NodeDesc& node = document.nodes[instance.node];
+    const LoadedMesh& mesh = meshes[static_cast<std::size_t>(node.mesh)];
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+      Surface surface;
+      surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
+      surface.mesh_name = mesh.name;
+      surface.mover = mover_of_node[instance.node];
+      surface.material =
+          of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
+      placer.place(mesh.primitives[i], instance.world_from_mesh, std::move(surface));
+    }
+  }
+  placer.finish();
+  if (scene.triangles.empty())
+    return invalid(document.file,
+                   "found only triangles too small or thin for the scene's size, expected at least one that is not");
+  scene.lower = scene.upper = scene.positions.front();
+  for (const Vec3& p : scene.positions) {
+    scene.lower = glm::min(scene.lower, p);
+    scene.upper = glm::max(scene.upper, p);
+  }
+  std::vector<Vec3> normals;
+  normals.reserve(scene.triangles.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) normals.push_back(geometric_normal(scene, t));
+  scene.face_normals = std::move(normals);
+  return {};
+}
+
+}  // namespace oriel

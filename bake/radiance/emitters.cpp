@@ -1,0 +1,310 @@
+#include "bake/radiance/emitters.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "bake/jobs/parallel.h"
+#include "bake/radiance/reproject.h"
+#include "bake/trace/polygon_light.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kStraight = 1e-4;              // sine of the angle at a corner that is none
+constexpr double kLeastShare = 1e-4;            // of a reflector's light from lamps: less is not worth an emitter
+constexpr double kMostParted = 0.25;            // see LightOnReflector, of its worth
+constexpr double kMostPartedOfGeometry = 0.02;  // an image as fine as the screen shows what is hidden
+constexpr float kInwards = 0.02f;  // by which border nodes move in, in cells: off the walls around a reflector
+
+// The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
+std::vector<Vec3> outline(const PolygonLight& light) {
+  const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::map<Vec3, Vec3, decltype(less)> next(less);
+  for (const auto& edge : light.boundary) next[edge[0]] = edge[1];
+  if (light.boundary.empty() || next.size() != light.boundary.size()) return {};
+  std::vector<Vec3> loop;
+  for (Vec3 at = light.boundary[0][0]; loop.size() < next.size(); at = next[at]) {
+    if (!next.contains(at) || (!loop.empty() && at == loop[0])) return {};
+    loop.push_back(at);
+  }
+  std::vector<Vec3> corners;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const DVec3 here(loop[i]), before(loop[(i + loop.size() - 1) % loop.size()]), after(loop[(i + 1) % loop.size()]);
+    const DVec3 in = here - before, out = after - here;
+    if (glm::length(glm::cross(in, out)) > kStraight * glm::length(in) * glm::length(out)) corners.push_back(loop[i]);
+  }
+  return corners;
+}
+
+bool is_convex(const std::vector<Vec3>& corners, const Vec3& normal) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (glm::dot(glm::cross(corners[(i + 1) % n] - corners[i], corners[(i + 2) % n] - corners[(i + 1) % n]), normal) <
+        0)
+      return false;
+  return true;
+}
+
+// One polygon where the outline is a convex triangle or quadrangle, else the triangles.
+std::vector<Emitter> polygons_of(const PolygonLight& light) {
+  std::vector<Vec3> corners = outline(light);
+  if ((corners.size() == 3 || corners.size() == 4) && is_convex(corners, light.normal))
+    return {{std::move(corners), light.radiance, light.double_sided}};
+  std::vector<Emitter> out;
+  for (const auto& t : light.corners) out.push_back({{t[0], t[1], t[2]}, light.radiance, light.double_sided});
+  return out;
+}
+
+// The grid of nodes over a reflector's bounds, on its plane.
+struct Nodes {
+  std::uint32_t x = 2, y = 2;
+  std::vector<Vec3> points;   // scene space, just over the plane
+  std::vector<bool> covered;  // by the reflector
+};
+
+Nodes lay_out(const Accel& accel, const FoundReflector& found, float node_m, std::uint32_t max_nodes) {
+  const Reflector& r = found.reflector;
+  const Vec2 size = r.upper - r.lower;
+  Nodes nodes;
+  const auto count = [&](float side) {
+    const float cells = std::ceil(side / node_m);
+    return 1 + static_cast<std::uint32_t>(std::clamp(cells, 1.0f, static_cast<float>(max_nodes - 1)));
+  };
+  nodes.x = count(size.x);
+  nodes.y = count(size.y);
+  const Vec3 normal(r.pack_from_reflector[2]);
+  const float lift =
+      r.flatness_m + 1e-5f * (glm::length(size) + max_component(glm::abs(Vec3(r.pack_from_reflector[3]))));
+  const Vec2 last(nodes.x - 1, nodes.y - 1);
+  for (std::uint32_t j = 0; j < nodes.y; ++j)
+    for (std::uint32_t i = 0; i < nodes.x; ++i) {
+      const Vec2 at = glm::clamp(Vec2(i, j), Vec2(kInwards), last - kInwards) / last;
+      nodes.points.push_back(pack_from_reflector(r, Vec3(r.lower + at * size, 0)) + lift * normal);
+      const Hit below = accel.intersect({nodes.points.back(), -normal, 4 * lift});
+      nodes.covered.push_back(below &&
+                              std::binary_search(found.triangles.begin(), found.triangles.end(), below.triangle));
+    }
+  return nodes;
+}
+
+struct LightOnReflector {
+  std::size_t light = 0;
+  std::vector<Emitter> polygons;
+  double worth = 0;   // luminous irradiance on the covered nodes, visibility counted
+  double parted = 0;  // of it, what lobes that see less than the whole lamp may get wrong
+};
+
+Vec3 point_of(const Emitter& polygon, Vec2 u) {
+  const auto& c = polygon.corners;
+  std::size_t second = 1;
+  if (c.size() == 4) {  // the two triangles of the quadrangle by their areas
+    const float a = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
+                b = glm::length(glm::cross(c[2] - c[0], c[3] - c[0]));
+    const float first = a / (a + b);
+    if (u.x >= first) second = 2;
+    u.x = std::clamp(second == 1 ? u.x / first : (u.x - first) / (1 - first), 0.0f, 1.0f);
+  }
+  const Vec2 t = square_to_triangle(u);
+  return c[0] + t.x * (c[second] - c[0]) + t.y * (c[second + 1] - c[0]);
+}
+
+class VisibilityBaker {
+ public:
+  VisibilityBaker(const Accel& accel, const EmitterOptions& options, std::uint64_t seed)
+      : accel_(accel), options_(options), seed_(seed) {}
+
+  // Share of the polygon's points over the plane that a point of the plane sees.
+  float share(const Emitter& polygon, const Vec3& node, const Vec3& normal, std::uint64_t stream) const {
+    const Vec3 front = glm::cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]);
+    if (!polygon.two_sided && glm::dot(node - polygon.corners[0], front) <= 0) return 0;
+    double seen = 0;
+    std::uint32_t over = 0;
+    for (std::uint32_t i = 0; i < options_.samples; ++i) {
+      Sampler sampler(seed_, stream, i);
+      const Vec3 way = point_of(polygon, sampler.next2()) - node;
+      const float distance = glm::length(way);
+      if (!(glm::dot(way, normal) > 0)) continue;
+      ++over;
+      seen += luminance(glm::min(accel_.transmittance({node, way / distance, distance * (1 - 1e-4f)}), Vec3(1)));
+    }
+    return over > 0 ? static_cast<float>(seen / over) : 0;
+  }
+
+  // By node. stream: the light's polygon, below kMaxReflectorEmitters times the number of lights.
+  std::vector<float> shares(const Emitter& polygon, const Nodes& nodes, const Vec3& normal,
+                            std::uint64_t stream) const {
+    std::vector<float> shares;
+    stream *= nodes.points.size();
+    for (const Vec3& node : nodes.points) shares.push_back(share(polygon, node, normal, stream++));
+    return shares;
+  }
+
+  // lobe_width: α of the reflector's lobe.
+  void weigh(const Nodes& nodes, const Vec3& normal, const PolygonLight& light, double lobe_width,
+             LightOnReflector& on) const {
+    std::vector<double> mean(nodes.points.size(), 0.0);
+    for (std::size_t p = 0; p < on.polygons.size(); ++p) {
+      const std::vector<float> seen = shares(on.polygons[p], nodes, normal, on.light * kMaxReflectorEmitters + p);
+      for (std::size_t i = 0; i < seen.size(); ++i) mean[i] += seen[i] / static_cast<double>(on.polygons.size());
+    }
+    // Of the mirror direction at normal incidence: one over the lobe's density there, D / 4 = 1 / (4 π α²).
+    const double lobe = 4 * std::numbers::pi * lobe_width * lobe_width;
+    for (std::size_t i = 0; i < nodes.points.size(); ++i) {
+      if (!nodes.covered[i]) continue;
+      const Vec3& node = nodes.points[i];
+      const double light_here = luminance(light.radiance) * polygon_irradiance(light, {node, normal, normal});
+      on.worth += mean[i] * light_here;
+      const Vec3 towards = glm::normalize(light.center - node);
+      const double lamp = polygon_irradiance(light, {node, towards, towards});
+      // A lobe that the lamp fills sees all or nothing of it: with the share m as its mean that is 2 m (1 - m) off on
+      // average. A lobe that holds the lamp averages over it as the share does.
+      if (lamp > 0) on.parted += 2 * mean[i] * (1 - mean[i]) * light_here * lamp / (lamp + lobe);
+    }
+  }
+
+ private:
+  const Accel& accel_;
+  const EmitterOptions& options_;
+  std::uint64_t seed_;
+};
+
+// Nodes that the reflector does not cover take the mean of their neighbours that have a value, ring by ring: what lies
+// there may be the inside of a wall.
+void fill_uncovered(const Nodes& nodes, std::vector<float>& shares) {
+  std::vector<bool> known = nodes.covered;
+  if (std::find(known.begin(), known.end(), true) == known.end()) return;
+  while (std::find(known.begin(), known.end(), false) != known.end()) {
+    const std::vector<bool> before = known;
+    for (std::uint32_t j = 0; j < nodes.y; ++j)
+      for (std::uint32_t i = 0; i < nodes.x; ++i) {
+        const std::size_t at = std::size_t{j} * nodes.x + i;
+        if (before[at]) continue;
+        float sum = 0, count = 0;
+        for (std::uint32_t y = j > 0 ? j - 1 : 0; y <= std::min(j + 1, nodes.y - 1); ++y)
+          for (std::uint32_t x = i > 0 ? i - 1 : 0; x <= std::min(i + 1, nodes.x - 1); ++x)
+            if (before[std::size_t{y} * nodes.x + x]) sum += shares[std::size_t{y} * nodes.x + x], count += 1;
+        if (count == 0) continue;
+        shares[at] = sum / count;
+        known[at] = true;
+      }
+  }
+}
+
+// Lamps that stay in a reflector's maps, by what keeps them there.
+struct LeftIn {
+  std::size_t too_fine = 0;   // of more triangles than a reflector may list polygons
+  std::size_t too_faint = 0;  // beyond those that light it most, whose visibility is computed
+  std::size_t parted = 0;     // of which narrow lobes see other shares than the points do
+  std::size_t too_many = 0;   // beyond the polygons that it may list
+
+  std::size_t total() const { return too_fine + too_faint + parted + too_many; }
+};
+
+// The lights that would light the reflector most if nothing were in the way, by what they are worth.
+Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
+                                                const Nodes& nodes, const Vec3& normal, double lobe_width,
+                                                const EmitterOptions& options, Context& context, LeftIn& left_in) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    double sum = 0;
+    for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights[l], {node, normal, normal});
+    if (sum > 0) order.emplace_back(-sum * luminance(lights[l].radiance), l);
+  }
+  left_in.too_fine = std::erase_if(
+      order, [&](const auto& entry) { return lights[entry.second].triangles.size() > kMaxReflectorEmitters; });
+  std::sort(order.begin(), order.end());
+  left_in.too_faint = order.size() - std::min<std::size_t>(order.size(), options.max_lights);
+  order.resize(order.size() - left_in.too_faint);
+  std::vector<LightOnReflector> out(order.size());
+  const VisibilityBaker baker(accel, options, context.seed);
+  ORIEL_TRY_VOID(parallel_for(context, "", order.size(), [&](std::size_t i) {
+    const PolygonLight& light = lights[order[i].second];
+    out[i].light = order[i].second;
+    out[i].polygons = polygons_of(light);
+    baker.weigh(nodes, normal, light, lobe_width, out[i]);
+  }));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
+  return out;
+}
+
+// What the reflector's emitters are seen of, on the fine grid. polygons: of all lights, with their streams.
+Status bake_visibility(const Accel& accel, const FoundReflector& found,
+                       std::span<const std::pair<Emitter, std::uint64_t>> polygons, const EmitterOptions& options,
+                       Context& context, Reflector& r) {
+  const Nodes nodes = lay_out(accel, found, options.node_m, options.max_nodes);
+  const VisibilityBaker baker(accel, options, context.seed);
+  std::vector<std::vector<float>> seen(polygons.size());
+  ORIEL_TRY_VOID(parallel_for(context, "", polygons.size(), [&](std::size_t p) {
+    seen[p] = baker.shares(polygons[p].first, nodes, Vec3(r.pack_from_reflector[2]), polygons[p].second);
+    fill_uncovered(nodes, seen[p]);
+  }));
+  for (const std::vector<float>& shares : seen)
+    for (const float share : shares)
+      r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
+  r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+  return {};
+}
+
+}  // namespace
+
+Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
+                          Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
+                          std::vector<std::string>& omitted) {
+  const std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
+  std::map<std::size_t, std::uint32_t> first_emitter;  // of a light that is listed
+  for (FoundReflector& found : reflectors) {
+    Reflector& r = found.reflector;
+    const double lobe_width = lobe_widths[r.material];
+    if (!(lobe_width > 0)) continue;
+    const Nodes nodes = lay_out(accel, found, options.choice_node_m, options.max_choice_nodes);
+    LeftIn left_in;
+    ORIEL_TRY(std::vector<LightOnReflector> on,
+              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), lobe_width, options, context, left_in));
+    const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
+    double total = 0;
+    for (const LightOnReflector& l : on) total += l.worth;
+    std::vector<std::pair<Emitter, std::uint64_t>> chosen;
+    for (const LightOnReflector& l : on) {
+      if (!(l.worth > kLeastShare * total)) continue;
+      if (l.parted > most_parted * l.worth) {
+        ++left_in.parted;
+        continue;
+      }
+      if (r.emitters.size() + l.polygons.size() > kMaxReflectorEmitters) {
+        ++left_in.too_many;
+        continue;
+      }
+      const auto [at, is_new] = first_emitter.try_emplace(l.light, static_cast<std::uint32_t>(emitters.size()));
+      if (is_new) emitters.insert(emitters.end(), l.polygons.begin(), l.polygons.end());
+      for (std::uint32_t p = 0; p < l.polygons.size(); ++p) {
+        r.emitters.push_back(at->second + p);
+        chosen.emplace_back(l.polygons[p], l.light * kMaxReflectorEmitters + p);
+      }
+      const auto& triangles = lights[l.light].triangles;
+      found.emitters.insert(found.emitters.end(), triangles.begin(), triangles.end());
+    }
+    std::sort(found.emitters.begin(), found.emitters.end());
+    if (!chosen.empty()) ORIEL_TRY_VOID(bake_visibility(accel, found, chosen, options, context, r));
+    if (left_in.total() > 0)
+      omitted.push_back(fmt::format(
+          "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
+          "their light is the same): {} have more than {} triangles, {} are fainter than the {} brightest, {} are "
+          "hidden "
+          "in part and large, {} came after its {} polygons",
+          r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
+          left_in.parted, left_in.too_many, kMaxReflectorEmitters));
+  }
+  const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
+                                      [&](const FoundReflector& f) { return lobe_widths[f.reflector.material] > 0; });
+  if (any_glossy && !all_emission_is_plain(accel.scene()))
+    omitted.emplace_back(
+        "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");
+  return {};
+}
+
+}  // namespace oriel

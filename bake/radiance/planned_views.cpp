@@ -1,0 +1,329 @@
+#include "bake/radiance/planned_views.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/radiance/reproject.h"
+
+namespace oriel {
+namespace {
+
+constexpr double kWholeView_sr = 1;           // of a screen of 60 degrees
+constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
+constexpr double kWorthDividing = 0.02;       // by which all must be worth more, of the samples' weight
+constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory,
+constexpr double kLeastPrice = 1e-12;         // from this at least
+constexpr std::uint32_t kMostShares = 4;      // of options.samples for one reflector
+// A known plan is kept where what it shows now, as shares, is less by no more than that.
+constexpr double kSeenLess = 0.002, kSharpLess = 0.01;
+
+std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const Element& window,
+                                 std::span<const ReflectedSample> samples, const PlannedViewOptions& options) {
+  const Vec3 centre(0.5f * (window.lower + window.upper), 0);
+  const float radius = 0.5f * glm::length(window.upper - window.lower);
+  std::vector<Vec3> out;
+  for (const Vec3& direction : hemisphere_directions(options.hemisphere)) {
+    const Vec3 eye = centre + radius * direction;
+    if (is_inside(scene, pack_from_reflector(r, mirrored(eye)), radius)) out.push_back(eye);
+  }
+  for (const float nearer : {0.5f, 0.25f, 0.125f})
+    for (const Vec3& direction : hemisphere_directions(16)) out.push_back(centre + nearer * radius * direction);
+  const std::size_t hemisphere = out.size();
+  for (const ReflectedSample& s : samples) {
+    if (out.size() >= hemisphere + options.mirrored_eyes) break;
+    if (std::find(out.begin(), out.end(), mirrored(s.eye)) == out.end()) out.push_back(mirrored(s.eye));
+  }
+  return out;
+}
+
+bool is_inside(const Element& window, const ReflectedSample& s) {
+  return glm::all(glm::greaterThanEqual(Vec2(s.on_plane), window.lower)) &&
+         glm::all(glm::lessThanEqual(Vec2(s.on_plane), window.upper));
+}
+
+double pixels_of(const Element& window, std::uint32_t resolution) {
+  return static_cast<double>(map_bytes(window, resolution) / kMapBytesPerPixel);
+}
+
+// Of a pixel, in weight of the reflector's samples.
+double price_for(const FoundReflector& found, double price) {
+  return found.reflectance > 0 ? price / double{found.reflectance} : std::numeric_limits<double>::infinity();
+}
+
+class Planner {
+ public:
+  Planner(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
+          Context& context)
+      : surroundings_(surroundings), eyes_(eyes), options_(options), context_(context) {
+    if (options.map_resolution > 0) options_.choice.resolutions = {options.map_resolution};
+  }
+
+  Result<ReflectorPlan> plan(std::uint32_t reflector) {
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    ORIEL_TRY(const auto samples, samples_of(reflector));
+    const double price = price_for(surroundings_.reflectors()[reflector], options_.pixel_price);
+    ReflectorPlan best;
+    ElementGrid grid;
+    for (;;) {
+      ORIEL_TRY(ReflectorPlan plan, plan_on(reflector, grid, samples));
+      if (!best.elements.empty() && !(plan.value(price) > best.value(price) + kWorthDividing * plan.weight()))
+        return best;
+      best = std::move(plan);
+      const double most = kMostGain * best.weight();
+      if (most - best.value(price) <= kWorthDividing * best.weight() || 2 * grid.x * grid.y > options_.max_elements)
+        return best;
+      const Vec2 side = (r.upper - r.lower) / Vec2(grid.x, grid.y);
+      (side.x >= side.y ? grid.x : grid.y) *= 2;
+    }
+  }
+
+  // Whether the views that are known still show what they showed, as far as eyes see it now.
+  Result<bool> holds(std::uint32_t reflector, const ReflectorPlan& known) {
+    ORIEL_TRY(const auto samples, samples_of(reflector));
+    std::vector<std::uint8_t> shown(samples.size());  // 1: seen, 2: sharp
+    ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+      for (const ElementPlan& element : known.elements)
+        for (const Pick& pick : element.choice.picks) {
+          if (shown[i] == 2 || !is_inside(element.window, samples[i])) break;
+          const float needed = needed_resolution(surroundings_, reflector, element.candidates[pick.candidate],
+                                                 element.window, samples[i]);
+          const bool sharp = needed <= static_cast<float>(element.choice.resolution);
+          if (std::isfinite(needed)) shown[i] = std::max<std::uint8_t>(shown[i], sharp ? 2 : 1);
+        }
+    }));
+    double total = 0, seen = 0, sharp = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      total += samples[i].weight;
+      seen += shown[i] > 0 ? samples[i].weight : 0;
+      sharp += shown[i] > 1 ? samples[i].weight : 0;
+    }
+    return seen >= (known.seen() - kSeenLess) * total && sharp >= (known.sharp() - kSharpLess) * total;
+  }
+
+ private:
+  Result<std::vector<ReflectedSample>> samples_of(std::uint32_t reflector) {
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
+    return sample_reflections(surroundings_, reflector, eyes_, options_.samples * shares.x * shares.y, context_.seed,
+                              context_);
+  }
+
+  Result<ReflectorPlan> plan_on(std::uint32_t reflector, const ElementGrid& grid,
+                                std::span<const ReflectedSample> samples) {
+    const FoundReflector& found = surroundings_.reflectors()[reflector];
+    ReflectorPlan plan{grid, {}};
+    for (const Element& window : covered_elements(surroundings_.accel().scene(), found, grid)) {
+      std::vector<ReflectedSample> inside;
+      for (const ReflectedSample& s : samples)
+        if (is_inside(window, s)) inside.push_back(s);
+      if (inside.empty()) continue;
+      ORIEL_TRY(ElementPlan element, plan_element(reflector, window, inside));
+      plan.elements.push_back(std::move(element));
+    }
+    return plan;
+  }
+
+  Result<ElementPlan> plan_element(std::uint32_t reflector, const Element& window,
+                                   const std::vector<ReflectedSample>& samples) {
+    const Scene& scene = surroundings_.accel().scene();
+    const Reflector& r = surroundings_.reflectors()[reflector].reflector;
+    ElementPlan element{window, candidates_for(scene, r, window, samples, options_), {}, {}, 0};
+    NeedTable table;
+    for (const ReflectedSample& s : samples) {
+      table.weights.push_back(s.weight);
+      element.weight += s.weight;
+    }
+    table.needed.resize(element.candidates.size() * samples.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", element.candidates.size(), [&](std::size_t c) {
+      for (std::size_t s = 0; s < samples.size() && !context_.stopped(); ++s)
+        table.needed[c * samples.size() + s] =
+            needed_resolution(surroundings_, reflector, element.candidates[c], window, samples[s]);
+    }));
+    const ElementGrid grid = element_grid(window.upper - window.lower, options_.element_m, options_.max_elements);
+    constexpr std::uint32_t kMost = kMostMapsPerElement - 1;  // leaves a place for a residual
+    const std::uint32_t most = std::min(std::min(options_.choice.max_maps, kMost) * grid.x * grid.y, kMost);
+    const double price = price_for(surroundings_.reflectors()[reflector], options_.pixel_price);
+    for (const std::uint32_t resolution : options_.choice.resolutions)
+      element.choices.push_back(choose_views(table, most, resolution, pixels_of(window, resolution), price));
+    element.choice = best_value(element.choices, price);
+    return element;
+  }
+
+  const ReflectedSurroundings& surroundings_;
+  std::span<const Vec3> eyes_;
+  PlannedViewOptions options_;
+  Context& context_;
+};
+
+std::size_t map_count(std::span<const ReflectorPlan> plans) {
+  std::size_t count = 0;
+  for (const ReflectorPlan& plan : plans)
+    for (const ElementPlan& e : plan.elements) count += e.choice.picks.size();
+  return count;
+}
+
+std::uint64_t total_bytes(std::span<const ReflectorPlan> plans) {
+  std::uint64_t bytes = 0;
+  for (const ReflectorPlan& plan : plans)
+    for (const ElementPlan& e : plan.elements)
+      bytes += map_bytes(e.window, e.choice.resolution) * e.choice.picks.size();
+  return bytes;
+}
+
+// Pixels get dearer until all fit: what is worth least for its pixels is left out or gets coarser first.
+void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit, double price,
+                std::vector<ReflectorPlan>& plans, std::vector<std::string>& omitted) {
+  const std::uint64_t wanted = total_bytes(plans);
+  const std::size_t maps = map_count(plans);
+  if (wanted <= limit) return;
+  while (total_bytes(plans) > limit) {
+    price = std::max(price, kLeastPrice) * kPriceStep;
+    for (std::size_t r = 0; r < plans.size(); ++r)
+      for (ElementPlan& e : plans[r].elements) e.choice = best_value(e.choices, price_for(reflectors[r], price));
+  }
+  omitted.push_back(memory_line(wanted, limit) +
+                    fmt::format("{} of {} maps, some of them coarser", map_count(plans), maps));
+}
+
+// What plans are functions of, beside the stage's inputs.
+void add_inputs(std::uint32_t reflector, std::span<const Vec3> eyes, const PlannedViewOptions& options, Archive& key) {
+  key(reflector, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
+      options.max_elements, options.map_resolution, options.pixel_price);
+}
+
+// The plan that is known of the reflector, where it holds still. Whether it does.
+Result<bool> take_known(Planner& planner, std::uint32_t reflector, const Hash128& identity, std::span<const Vec3> eyes,
+                        const PlannedViewOptions& options, std::span<const KnownPlan> known, Context& context,
+                        ReflectorPlan& plan) {
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const KnownPlan& k) { return k.reflector == identity; });
+  if (found == known.end()) return false;
+  bool holds = false;
+  ORIEL_TRY_VOID(one_unit(
+      context, "known views",
+      [&](Archive& key) {
+        add_inputs(reflector, eyes, options, key);
+        key(*found);
+      },
+      [&]() -> Status {
+        ORIEL_TRY(holds, planner.holds(reflector, found->plan));
+        return {};
+      },
+      [&](Archive& archive) { archive(holds); }));
+  if (holds) plan = found->plan;
+  return holds;
+}
+
+// The plan without the candidates that were not picked.
+ReflectorPlan picked_only(ReflectorPlan plan) {
+  for (ElementPlan& element : plan.elements) {
+    std::vector<Vec3> picked;
+    for (Pick& pick : element.choice.picks) {
+      picked.push_back(element.candidates[pick.candidate]);
+      pick.candidate = static_cast<std::uint32_t>(picked.size() - 1);
+    }
+    element.candidates = std::move(picked);
+    element.choices = {element.choice};
+  }
+  return plan;
+}
+
+void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector<RadianceMap>& maps) {
+  for (const ElementPlan& e : plan.elements)
+    for (const Pick& pick : e.choice.picks)
+      maps.push_back(blank_map(reflector, e.candidates[pick.candidate], e.window, e.choice.resolution));
+}
+
+// That a reflector fills for the eyes of the samples, as far as it fits into a view.
+float solid_angle_shown(float area_m2, std::span<const ReflectedSample> samples) {
+  double sum = 0;
+  for (const ReflectedSample& s : samples) {
+    const double away = glm::distance(s.eye, s.on_plane);
+    sum += std::min(area_m2 * double{s.eye.z} / (away * away * away), kWholeView_sr);
+  }
+  return samples.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(samples.size()));
+}
+
+}  // namespace
+
+Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
+                            FoundReflectors& found) {
+  const std::vector<FoundReflector> all = std::move(found.reflectors);
+  const ReflectedSurroundings surroundings(accel, all, {});
+  std::vector<std::pair<double, std::uint32_t>> seen;
+  std::vector<float> shown(all.size());
+  for (std::uint32_t r = 0; r < all.size(); ++r) {
+    double angle = 0;
+    ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, kTrialSamples, context.seed, context));
+    for (const ReflectedSample& s : samples) angle += s.weight;
+    shown[r] = solid_angle_shown(all[r].reflector.area_m2, samples);
+    if (angle > 0)
+      seen.emplace_back(-angle * all[r].reflectance, r);
+    else
+      found.omitted.push_back(
+          fmt::format("'{}' ({:.3g} m²): no radiance maps, from nowhere where people walk is anything "
+                      "seen in it; --eyes tells of other places",
+                      all[r].reflector.name, all[r].reflector.area_m2));
+  }
+  std::sort(seen.begin(), seen.end());
+  found.reflectors.clear();
+  for (const auto& [worth, r] : seen) {
+    if (found.reflectors.size() < limit) {
+      found.reflectors.push_back(all[r]);
+      found.reflectors.back().shown_sr = shown[r];
+    } else {
+      found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
+                                          all[r].reflector.name, all[r].reflector.area_m2, limit));
+    }
+  }
+  return {};
+}
+
+Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes,
+                                     const PlannedViewOptions& options, Context& context,
+                                     std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known,
+                                     std::vector<KnownPlan>* now) {
+  Planner planner(surroundings, eyes, options, context);
+  ViewPlan out;
+  std::vector<ReflectorPlan> plans;
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    if (reflectors[r].way == ReflectorWay::kGeometry) {
+      plans.emplace_back();
+      continue;
+    }
+    const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
+    ReflectorPlan plan;
+    ORIEL_TRY(const bool kept, take_known(planner, r, identity, eyes, options, known, context, plan));
+    out.kept += kept;
+    if (!kept) {
+      ORIEL_TRY_VOID(one_unit(
+          context, "views", [&](Archive& key) { add_inputs(r, eyes, options, key); },
+          [&]() -> Status {
+            ORIEL_TRY(plan, planner.plan(r));
+            return {};
+          },
+          [&](Archive& archive) { archive(plan); }));
+    }
+    if (map_count({&plan, 1}) == 0 && !plan.elements.empty())
+      out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): shows too little to be worth a map",
+                                        reflectors[r].reflector.name, reflectors[r].reflector.area_m2));
+    if (now) now->push_back({identity, picked_only(plan)});
+    plans.push_back(std::move(plan));
+    context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
+  }
+  fit_memory(reflectors, options.memory_bytes, options.pixel_price, plans, out.omitted);
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    Reflector& reflector = reflectors[r].reflector;
+    reflector.elements_x = plans[r].grid.x;
+    reflector.elements_y = plans[r].grid.y;
+    reflector.first_map = static_cast<std::uint32_t>(out.maps.size());
+    append_maps(r, plans[r], out.maps);
+    reflector.map_count = static_cast<std::uint32_t>(out.maps.size()) - reflector.first_map;
+  }
+  out.views_per_element = options.choice.max_maps;
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,278 @@
+#include "bake/radiance/residual.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/radiance/reproject.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kLeastResolution = 16;
+constexpr int kMaxHidden = 16;         // surfaces in front of a missing one
+constexpr float kSameSurface = 0.03f;  // relative distance from a missing sample's tangent plane
+
+bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
+  const Vec2 pixel = map_pixel(map, s);
+  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(map.width) &&
+         pixel.y < static_cast<float>(map.height);
+}
+
+bool sees(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
+  return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
+}
+
+// The map of the reflector in whose window most of the samples' weight lies; null where none has any.
+const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
+  const RadianceMap* best = nullptr;
+  double most = 0;
+  for (const RadianceMap& map : maps) {
+    double weight = 0;
+    for (const ReflectedSample& s : missing) weight += is_in_window(map, s) ? s.weight : 0;
+    if (weight > most) best = &map, most = weight;
+  }
+  return best;
+}
+
+class ResidualCapture {
+ public:
+  ResidualCapture(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                  std::span<const RadianceMap> others, RadianceMap& map, std::atomic<std::uint64_t>* rays)
+      : surroundings_(surroundings),
+        reflector_(surroundings.reflectors()[map.reflector].reflector),
+        outgoing_(outgoing),
+        others_(others),
+        map_(map),
+        rays_(rays) {}
+
+  // The samples by pixel: each pixel's own first, then those of neighbours, ring by ring.
+  std::vector<const ReflectedSample*> aims(std::span<const ReflectedSample> missing, std::uint32_t spread) const {
+    std::vector<const ReflectedSample*> aim(map_.valid.size());
+    for (int ring = 0; ring <= static_cast<int>(spread); ++ring)
+      for (const ReflectedSample& s : missing) {
+        if (!is_in_window(map_, s)) continue;
+        const IVec2 centre(map_pixel(map_, s));
+        for (int y = std::max(centre.y - ring, 0); y <= std::min(centre.y + ring, static_cast<int>(map_.height) - 1);
+             ++y)
+          for (int x = std::max(centre.x - ring, 0); x <= std::min(centre.x + ring, static_cast<int>(map_.width) - 1);
+               ++x)
+            if (auto& at = aim[static_cast<std::size_t>(y) * map_.width + static_cast<std::size_t>(x)]; !at) at = &s;
+      }
+    return aim;
+  }
+
+  // The surface along the pixel's ray that lies where the sample's goes on, or the sky that it shows, if there is one
+  // that no other map sees.
+  void capture(std::size_t at, const ReflectedSample& aim) {
+    const Vec3 q(map_point(map_, Vec2(at % map_.width, at / map_.width) + 0.5f), 0);
+    const Vec3 along = glm::normalize(q - map_.eye);
+    const bool sky = aim.image.w == 0;
+    const float expected = sky ? std::numeric_limits<float>::max()
+                               : glm::dot(Vec3(aim.image) - q, aim.normal) / glm::dot(along, aim.normal);
+    if (!(expected > 0) || !std::isfinite(expected)) return;
+    const Vec3 direction = glm::normalize(Mat3(reflector_.pack_from_reflector) * along);
+    Vec3 from = pack_from_reflector(reflector_, q);
+    float passed = 0;
+    for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
+      const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
+      if (rays_) *rays_ += seen.rays;
+      const auto is_shown = [&](const ReflectedSample& found) {
+        const auto shown = [&](const RadianceMap& map) { return sees(surroundings_, map, found); };
+        return std::any_of(others_.begin(), others_.end(), shown);
+      };
+      if (sky && seen.sight.state == Sight::kSky) {
+        ReflectedSample found = aim;
+        found.on_plane = q;
+        found.image = Vec4(along, 0);
+        if (!is_shown(found)) map_.radiance[at] = seen.radiance, map_.valid[at] = 2;
+        return;
+      }
+      const float step = glm::length(seen.sight.offset);
+      if (!(step > 0)) return;
+      passed += step;
+      if (!sky && seen.sight.state == Sight::kSurface && seen.sight.backdrop == aim.sky &&
+          std::abs(passed - expected) <= kSameSurface * expected) {
+        ReflectedSample found = aim;
+        found.image = Vec4(q + passed * along, 1);
+        if (is_shown(found)) return;
+        map_.radiance[at] = seen.radiance;
+        map_.disparity[at] = disparity_of(map_, found.image.z);
+        map_.valid[at] = 1;
+        return;
+      }
+      if (seen.sight.mirrored) return;  // straight on is the room behind the mirror
+      from += direction * (step * (1 + 1e-5f));
+      passed += step * 1e-5f;
+    }
+  }
+
+ private:
+  const ReflectedSurroundings& surroundings_;
+  const Reflector& reflector_;
+  const OutgoingRadiance& outgoing_;
+  std::span<const RadianceMap> others_;
+  RadianceMap& map_;
+  std::atomic<std::uint64_t>* rays_;
+};
+
+// The longer side of a map of the element that takes no more than those bytes, halved from `wanted` until it does; 0:
+// none worth having.
+std::uint32_t fitting_resolution(const Element& element, std::uint32_t wanted, std::uint64_t bytes) {
+  for (std::uint32_t resolution = wanted; resolution >= kLeastResolution; resolution /= 2)
+    if (map_bytes(element, resolution) <= bytes) return resolution;
+  return 0;
+}
+
+class ResidualMaker {
+ public:
+  ResidualMaker(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
+                const ResidualOptions& options, Context& context, std::atomic<std::uint64_t>* rays)
+      : surroundings_(surroundings),
+        outgoing_(outgoing),
+        eyes_(eyes),
+        options_(options),
+        context_(context),
+        rays_(rays) {}
+
+  // What is missing in the reflector's maps, in no more than `bytes`; none where that is little. Counts what it had to
+  // make smaller or leave out.
+  Result<std::optional<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> maps,
+                                          std::uint64_t bytes) {
+    ORIEL_TRY(const auto missing, find_missing(reflector, maps));
+    const RadianceMap* host = best_host(maps, missing);
+    if (!host) return std::nullopt;
+    const Element element{host->lower, host->upper, host->element};
+    const std::uint32_t wanted = std::min(options_.max_resolution, std::max(host->width, host->height));
+    const std::uint32_t resolution = fitting_resolution(element, wanted, bytes);
+    reduced += resolution < wanted;
+    if (resolution == 0) return std::nullopt;
+    RadianceMap map = blank_map(reflector, host->eye, element, resolution);
+    map.has_emission = host->has_emission;
+    map.residual = true;
+    const std::size_t pixels = std::size_t{map.width} * map.height;
+    map.radiance.assign(pixels, Vec3(0));
+    map.disparity.assign(pixels, 0);
+    map.valid.assign(pixels, 0);
+    ResidualCapture capture(surroundings_, outgoing_, maps, map, rays_);
+    const auto aims = capture.aims(missing, options_.spread);
+    ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
+      if (aims[i]) capture.capture(i, *aims[i]);
+    }));
+    if (std::all_of(map.valid.begin(), map.valid.end(), [](std::uint8_t v) { return v == 0; })) return std::nullopt;
+    return map;
+  }
+
+  std::uint32_t reduced = 0;
+
+ private:
+  // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
+  Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed + 2, context_));
+    std::vector<std::uint8_t> is_missing(samples.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+      is_missing[i] = std::none_of(maps.begin(), maps.end(),
+                                   [&](const RadianceMap& map) { return sees(surroundings_, map, samples[i]); });
+    }));
+    std::vector<ReflectedSample> missing;
+    double total = 0, lost = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      total += samples[i].weight;
+      if (is_missing[i]) missing.push_back(samples[i]), lost += samples[i].weight;
+    }
+    if (!(lost > options_.least_missing * total)) missing.clear();
+    return missing;
+  }
+
+  const ReflectedSurroundings& surroundings_;
+  const OutgoingRadiance& outgoing_;
+  std::span<const Vec3> eyes_;
+  const ResidualOptions& options_;
+  Context& context_;
+  std::atomic<std::uint64_t>* rays_;
+};
+
+// The reflector's maps with the residual behind those of its element.
+void append_with_residual(std::span<RadianceMap> maps, std::vector<RadianceMap> residual,
+                          std::vector<RadianceMap>& all) {
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const bool ends_element = i + 1 == maps.size() || maps[i].element != maps[i + 1].element;
+    const bool is_next = !residual.empty() && ends_element && maps[i].element == residual[0].element;
+    all.push_back(std::move(maps[i]));
+    if (is_next) all.push_back(std::move(residual[0])), residual.clear();
+  }
+}
+
+struct Residual {
+  std::vector<RadianceMap> map;  // one or none
+  std::uint32_t reduced = 0;     // whether it had to be smaller or left out
+  std::uint64_t rays = 0;
+};
+
+// Of one reflector, as a unit of work.
+Result<Residual> residual_of(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                             std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                             std::uint32_t reflector, std::span<const RadianceMap> maps, std::uint64_t bytes) {
+  Residual made;
+  const auto inputs = [&](Archive& key) {
+    // More memory than the largest map takes changes nothing.
+    key(reflector, eyes, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
+        options.spread, options.max_resolution, options.least_missing);
+    for (const RadianceMap& map : maps) key(frame_of(map));
+  };
+  const auto compute = [&]() -> Status {
+    std::atomic<std::uint64_t> rays{0};
+    ResidualMaker maker(surroundings, outgoing, eyes, options, context, &rays);
+    ORIEL_TRY(auto map, maker.make(reflector, maps, bytes));
+    if (map) made.map.push_back(std::move(*map));
+    made.reduced = maker.reduced;
+    made.rays = rays;
+    return {};
+  };
+  ORIEL_TRY_VOID(one_unit(context, "residual", inputs, compute,
+                          [&](Archive& archive) { archive(made.map, made.reduced, made.rays); }));
+  return made;
+}
+
+}  // namespace
+
+Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
+  std::uint64_t used = 0;
+  std::uint32_t reduced = 0;
+  for (const RadianceMap& map : plan.maps) used += map_bytes(map.width, map.height);
+  std::vector<Residual> residuals;
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    const Reflector& reflector = reflectors[r].reflector;
+    const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
+    if (own.empty()) {
+      residuals.emplace_back();
+      continue;
+    }
+    const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
+    ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
+    for (const RadianceMap& map : made.map) used += map_bytes(map.width, map.height);
+    reduced += made.reduced;
+    if (rays) *rays += made.rays;
+    residuals.push_back(std::move(made));
+  }
+  if (reduced > 0)
+    plan.omitted.push_back(fmt::format("radiance maps: {} residuals are smaller or left out to stay within {:.1f} MiB",
+                                       reduced, static_cast<double>(options.memory_bytes) / (1 << 20)));
+  std::vector<RadianceMap> all;
+  for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    Reflector& reflector = reflectors[r].reflector;
+    const auto own = std::span(plan.maps).subspan(reflector.first_map, reflector.map_count);
+    reflector.first_map = static_cast<std::uint32_t>(all.size());
+    append_with_residual(own, std::move(residuals[r].map), all);
+    reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
+  }
+  plan.maps = std::move(all);
+  return {};
+}
+
+}  // namespace oriel

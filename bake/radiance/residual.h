@@ -1,0 +1,28 @@
+// What no planned map shows: second surfaces along a map's rays, kept in a map of their own.
+#pragma once
+
+#include "bake/radiance/capture.h"
+#include "bake/radiance/samples.h"
+#include "bake/radiance/views.h"
+
+namespace oriel {
+
+struct ResidualOptions {
+  std::uint32_t samples = 32768;                   // of a reflector, by which what is missing is found
+  double least_missing = 2e-4;                     // share of their weight that is worth a residual
+  std::uint32_t max_resolution = 512;              // of its longer side
+  std::uint32_t spread = 4;                        // pixels around a missing sample that are looked at too
+  std::uint64_t memory_bytes = ~std::uint64_t{0};  // of all maps, kMapBytesPerPixel each
+};
+
+// Adds a residual map to each reflector whose maps (captured) miss some of what eyes (scene space) see in it: with the
+// eye and element of that map of its from which most of the missing is in line, valid only where it holds it. It is
+// put behind that element's other maps, and the reflectors' maps are numbered anew. Where memory_bytes does not
+// suffice, those of the least important reflectors are made smaller or left out, as plan.omitted says. Adds to `rays`
+// (may be null). The same for any number of threads. Error kStopped.
+Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
+                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan,
+                     std::atomic<std::uint64_t>* rays = nullptr);
+
+}  // namespace oriel

@@ -1,0 +1,172 @@
+#include "bake/radiance/surround_capture.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bake/jobs/units.h"
+#include "bake/scene/sky.h"
+#include "bake/trace/albedo.h"
+#include "formats/core/octahedral.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kMaxLayers = 64;             // of surfaces before the first opaque one
+constexpr float kSeeThrough = 0.5f;        // transmittance from which distance is that of what lies behind
+constexpr float kNearest = 1e-3f;          // of the object's size: a surface through the very centre has no distance
+constexpr float kStep = 1.0f / (1 << 20);  // by which rays leave surfaces, relative to the size of coordinates
+
+// A surface on the way, and the share of its light that comes through what is before it.
+struct Layer {
+  Hit hit;
+  Vec3 share{0};
+};
+
+// What a ray has seen so far.
+struct SurroundSight {
+  std::vector<Layer> layers;
+  Vec3 throughput{1};
+  float inverse_distance = 0;
+  std::uint8_t valid = 2;
+  bool ended = false;
+};
+
+constexpr double kRaysARow = 2048;  // about
+
+class SurroundCapture {
+ public:
+  SurroundCapture(const Accel& accel, const CurvedObject& object, const OutgoingRadiance& outgoing, const Vec3& centre)
+      : accel_(accel),
+        scene_(accel.scene()),
+        object_(object),
+        outgoing_(outgoing),
+        centre_(centre),
+        nearest_(std::max(kNearest * glm::length(object.upper - object.lower), 1e-12f)) {}
+
+  // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
+  // leaves some bodies through dozens of surfaces.
+  SurroundSight look(const Vec3& direction, Vec3& radiance) {
+    SurroundSight sight = walk(direction);
+    radiance = Vec3(0);
+    for (const Layer& layer : sight.layers)
+      radiance += layer.share * usable_light(outgoing_({.hit = layer.hit, .towards_eye = -direction, .rays = &rays_}));
+    if (!sight.ended && sight.valid != 0) radiance += sight.throughput * usable_light(sky_radiance(scene_, direction));
+    return sight;
+  }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  SurroundSight walk(const Vec3& direction) {
+    const float bounds_end = leaves_bounds(direction);
+    Ray ray{centre_, direction};
+    SurroundSight sight;
+    std::uint32_t last = ~0u;
+    for (int layer = 0; layer < kMaxLayers; ++layer) {
+      const Hit hit = accel_.intersect(ray);
+      ++rays_;
+      if (!hit) return sight;
+      const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
+      if (own(hit.triangle)) {
+        if (!hit.front) sight = {};  // all before lies inside
+      } else if (!sight.ended && hit.triangle != last) {
+        meet(hit, p, direction, sight);
+      }
+      if (sight.ended && glm::length(p - centre_) >= bounds_end) return sight;
+      last = hit.triangle;
+      ray.origin = p + direction * (kStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
+    }
+    if (!sight.ended) sight.valid = 0;  // nothing opaque within reason
+    return sight;
+  }
+
+  bool own(std::uint32_t triangle) const {
+    const auto listed = [&](std::uint32_t t) {
+      return std::binary_search(object_.triangles.begin(), object_.triangles.end(), t);
+    };
+    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
+  }
+
+  // The distance at which a ray from the centre leaves the object's bounds.
+  float leaves_bounds(const Vec3& direction) const {
+    float nearest = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] == 0) continue;
+      const float side = direction[axis] > 0 ? object_.upper[axis] : object_.lower[axis];
+      nearest = std::min(nearest, (side - centre_[axis]) / direction[axis]);
+    }
+    return nearest;
+  }
+
+  // Adds what a surface shows; the ray ends there unless it lets light pass.
+  void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) {
+    const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    Vec3 through(0);
+    float coverage = 1;
+    if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them
+      const ShadePoint point = shade_point(scene_, hit.triangle, hit.barycentric);
+      coverage = point.coverage;
+      through = straight_transmittance(point, std::abs(glm::dot(geometric_normal(scene_, hit.triangle), direction)));
+    }
+    const bool back = !hit.front && !material.double_sided;
+    if (coverage > 0 && !back) sight.layers.push_back({hit, sight.throughput * coverage});
+    sight.throughput *= through;
+    if (max_component(through) >= kSeeThrough) return;
+    sight.ended = true;
+    sight.inverse_distance = 1 / std::max(glm::length(p - centre_), nearest_);
+    sight.valid = back ? 0 : 1;
+    if (back) sight.layers.clear();
+  }
+
+  const Accel& accel_;
+  const Scene& scene_;
+  const CurvedObject& object_;
+  const OutgoingRadiance& outgoing_;
+  Vec3 centre_;
+  float nearest_;  // m
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace
+
+Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
+                            Context& context, std::atomic<std::uint64_t>* rays) {
+  std::vector<UVec2> rows;  // map, row
+  for (std::uint32_t i = 0; i < found.maps.size(); ++i) {
+    SurroundMap& map = found.maps[i];
+    const std::size_t texels = std::size_t{map.size} * map.size;
+    map.radiance.resize(texels);
+    map.inverse_distance.resize(texels);
+    map.valid.resize(texels);
+    for (std::uint32_t y = 0; y < map.size; ++y) rows.emplace_back(i, y);
+  }
+  UnitLoop loop{.stage = "surroundings", .count = rows.size(), .rays = kRaysARow};
+  loop.inputs = [&](std::size_t row, Archive& key) {
+    const SurroundMap& map = found.maps[rows[row].x];
+    key(map.centre, map.size, rows[row].y, found.objects[found.reflectors[rows[row].x].object].triangles);
+  };
+  loop.compute = [&](std::size_t row) {
+    SurroundMap& map = found.maps[rows[row].x];
+    const CurvedObject& object = found.objects[found.reflectors[rows[row].x].object];
+    SurroundCapture capture(accel, object, outgoing, map.centre);
+    const std::uint32_t y = rows[row].y;
+    for (std::uint32_t x = 0; x < map.size; ++x) {
+      const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;
+      Vec3 radiance;
+      const SurroundSight sight = capture.look(glm::normalize(direction_from_octahedral(at)), radiance);
+      const std::size_t texel = std::size_t{y} * map.size + x;
+      map.radiance[texel] = usable_light(radiance);
+      map.inverse_distance[texel] = sight.inverse_distance;
+      map.valid[texel] = sight.valid;
+    }
+    return capture.rays();
+  };
+  loop.results = [&](std::size_t row, Archive& archive) {
+    SurroundMap& map = found.maps[rows[row].x];
+    const std::size_t first = std::size_t{rows[row].y} * map.size;
+    archive(std::span(map.radiance).subspan(first, map.size), std::span(map.inverse_distance).subspan(first, map.size),
+            std::span(map.valid).subspan(first, map.size));
+  };
+  return parallel_units(context, loop, rays);
+}
+
+}  // namespace oriel

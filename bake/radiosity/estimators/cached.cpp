@@ -1,0 +1,398 @@
+#include "bake/radiosity/estimators/cached.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "bake/radiosity/estimators/direct_light.h"
+#include "bake/radiosity/estimators/filter.h"
+#include "bake/radiosity/estimators/lamp_light.h"
+#include "bake/radiosity/estimators/part.h"
+#include "bake/radiosity/estimators/patches.h"
+#include "bake/radiosity/estimators/reuse.h"
+#include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/gather/survival.h"
+#include "bake/radiosity/texels/frame_error.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFirstDirect = 2;               // samples a half, texel and light, before any refinement
+constexpr std::uint32_t kCrowdedDirect = 16;            // where something is close by
+constexpr int kDirectRounds = 2;                        // of four times the samples, where that leaves doubt
+constexpr float kUncertain = 0.1f;                      // of the direct light
+constexpr std::uint32_t kFirstGather = 4;               // rays a half and texel
+constexpr std::uint32_t kFirstCrowded = 32;             // where something is close by
+constexpr std::uint32_t kMostDark = 512;                // the same, where these find next to no light:
+constexpr float kDark = 0.002f;                         // of the mean
+constexpr double kLittleSeen = 0.1;                     // of the squared error asked for
+constexpr double kDirectTime = 0.3;                     // of what is left (RadiosityOptions::left)
+constexpr float kCoarseError = 0.25f;                   // of bounces that no gather ray refined
+constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
+constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
+
+class CachedEstimator : public LightEstimator {
+ public:
+  CachedEstimator(const RadiosityTask& task, Texels texels)
+      : task_(task),
+        options_(task.options),
+        context_(task.context),
+        rays_(task.rays),
+        quick_rays_(task.quick_rays),
+        texels_(std::move(texels)),
+        order_(coherent_order(texels_)),
+        sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
+        direct_light_(task.transport, texels_, sites_, task.context.seed),
+        around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
+        direct_(texels_.count(), options_.directional),
+        gathered_(texels_.count(), options_.directional),
+        lamps_(texels_.count(), options_.directional),
+        keep_beside_(texels_.count()),
+        frames_(task.pixels, task.map, texels_.has_light()) {}
+
+  Status refine(const Goal& goal) override {
+    if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
+    if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
+    ORIEL_TRY_VOID(refine_to(goal.error));
+    // What took light from elsewhere is not passed on: errors would add up from edit to edit.
+    if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
+    return {};
+  }
+
+  void write(Radiosity& light) const override {
+    RadiosityReport& report = light.report;
+    report.sweeps = sweeps_.count, report.sweep_tail = sweeps_.tail, report.sweep_growth = sweeps_.growth;
+    report.bounded_patches = sweeps_.bounded;
+    report.filter_drift = std::max(std::fabs(smooth_direct_.energy_drift), std::fabs(estimate_.energy_drift));
+    report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
+    report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
+    const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      LightmapPage& page = light.pages[texels_.page[i]];
+      const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
+      light.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
+      page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
+      if (texels_.visible[i] == 0) continue;
+      if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
+      page.irradiance[texel] = glm::max(smooth_direct_.value[i] + estimate_.value[i], Vec3(0));
+      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
+      page.standard_error[texel] = glm::sqrt(smooth_direct_.variance[i] + estimate_.variance[i] + edited * edited);
+    }
+  }
+
+  std::optional<TexelLight> texel_light() const override {
+    return TexelLight{texels_, around_, cached_, smooth_beside(lamps_, texels_, graph_, gathered_, context_), shares_};
+  }
+
+ private:
+  // Direct light, its bounces on coarse patches, and the first rays that gather these.
+  Status begin(const Goal& goal) {
+    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    beside_ = with_chart_neighbours(graph_, texels_);
+    shares_ = typical_errors(beside_, frames_.shares(), context_);
+    little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
+    recall();
+    ORIEL_TRY_VOID(first_direct());
+    // Bakes that count bounces leave it to the rays, which do.
+    if (options_.bounces == 0)
+      ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
+    irradiance_ = coarse_ = direct_.value;
+    for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
+    const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
+    for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
+      irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
+    cached_ = cache_light(texels_, graph_, irradiance_, context_);
+    take_known();
+    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
+    ORIEL_TRY_VOID(first_gather());
+    first_work_ = task_.work(), first_rays_ = rays_ + quick_rays_;
+    return {};
+  }
+
+  // Where time ends meanwhile, those that came count; without any, rays look for that light.
+  Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
+    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, context_, lamps, rays_); }));
+    if (lamps.particles == 0) return {};
+    put_beside(lamps, keep_beside_, sums);
+    around_.leave_out_lamps();
+    return {};
+  }
+
+  void remember() {
+    KnownLight known = known_now_;
+    known.page = texels_.page, known.x = texels_.x, known.y = texels_.y, known.chart = texels_.chart;
+    known.near = around_.near(), known.lamps = lamps_.particles > 0;
+    known.coarse = coarse_, known.direct = direct_, known.gathered = gathered_;
+    remember_light(context_, known_name_, std::move(known));
+  }
+
+  // Something is close to it, and people look there.
+  bool is_crowded(std::size_t i) const { return texels_.has_many[i] && !little_seen_[i]; }
+
+  void recall() {
+    known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
+                                      context_.seed);
+    // With one bounce nothing is known of gathered light before the gather.
+    if (options_.reuse_error <= 0 || options_.bounces == 1) return;
+    if (auto known = recall_light(context_, known_name_, options_.directional)) {
+      around_.set_near(known->near);  // what paths found in its light, particles must not bring
+      reuse_.emplace(texels_, std::move(*known));
+    }
+  }
+
+  // Direct light that looks the same at a glance is taken as it was.
+  void take_known_direct() {
+    known_direct_ = reuse_->same_glance(graph_, direct_.value);
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if (known_direct_[i]) direct_.value[i] = reuse_->known().first_direct[reuse_->before(i)];
+  }
+
+  // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
+  void take_known() {
+    if (!reuse_) return;
+    reuse_->compare(texels_, order_, coarse_, lamps_.particles > 0, options_.reuse_error);
+    for (std::size_t i = 0; i < texels_.count(); ++i) {
+      const std::uint32_t k = reuse_->before(i);
+      if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
+      if (reuse_->keeps(i)) gathered_.take(i, reuse_->known().gathered, k);
+    }
+  }
+  bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
+  std::vector<std::uint32_t> not_kept() const {
+    std::vector<std::uint32_t> list = order_;
+    std::erase_if(list, [&](std::uint32_t i) { return keeps(i); });
+    return list;
+  }
+
+  // A few samples everywhere, then more wherever a neighbour sees the lights otherwise: an edge of a shadow is near,
+  // though the few samples met none.
+  Status first_direct() {
+    // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
+    const bool few_tell = options_.directional || direct_light_.samples_lights();
+    const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
+    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, quick_rays_));
+    // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
+    std::vector<std::uint32_t> crowded = order_;
+    std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
+    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, quick_rays_));
+    known_now_.glance = direct_.value;
+    if (reuse_) take_known_direct();
+    // Bounces start from it: what is uncertain by more than a few percent would tint them all.
+    std::uint32_t per_half = first;
+    const double least = options_.left ? (1 - kDirectTime) * options_.left() : 0;
+    for (int round = 0; round < kDirectRounds && !(options_.left && options_.left() < least); ++round) {
+      per_half *= 4;
+      // A fixed number of gather rays brings a fixed number of shadow rays with it.
+      if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
+      std::vector<std::uint32_t> list = order_;
+      std::erase_if(list, [&](std::uint32_t i) {
+        return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
+      });
+      keep_uncertain(direct_, beside_, round == 0 ? 0 : kUncertain, context_, list);
+      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, quick_rays_));
+    }
+    known_now_.first_direct = direct_.value;
+    return {};
+  }
+
+  bool out_of_rays() const {
+    const std::uint64_t most = std::max(options_.most_rays, kMostTexelMean * texels_.count());
+    return options_.most_rays > 0 && task_.work() - first_work_ >= most;
+  }
+  bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
+
+  // Runs a refinement, which each texel gets whole or not at all, until there is enough.
+  Status refine(const std::function<Status()>& refinement) {
+    const Interruptible until(context_, options_.enough);
+    if (const Status status = refinement(); status || context_.stop) return status;
+    ended_early_ = true;
+    return {};
+  }
+
+  // The refinement of a list's texels, those that have the same number of samples at a time.
+  template <class Work>
+  Status by_samples(const std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& samples,
+                    const Work& work) {
+    for (const SameSamples& group : groups_of(list, samples))
+      if (!ended_early_) ORIEL_TRY_VOID(refine([&] { return work(group.texels, group.samples); }));
+    return {};
+  }
+
+  void update_direct() {
+    // Its noise lies in penumbrae, which are no wider than the first scale's kernel.
+    FilterOptions narrow = options_.filter;
+    narrow.scales = std::min(narrow.scales, 1);
+    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow, context_);
+  }
+
+  void update_estimate() {
+    estimate_ = filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_);
+    mean_luminance_ = mean_luminance(texels_, direct_.value, estimate_.value);
+  }
+
+  std::vector<Vec3> light() const {
+    std::vector<Vec3> light(smooth_direct_.value);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += estimate_.value[i];
+    return light;
+  }
+
+  // Measured over texels that are baked: what others keep is not theirs to make up for.
+  Part part(Part part) const {
+    part.measure(not_kept(), frames_.shares());
+    return part;
+  }
+
+  bool is_dark(std::size_t i) const {
+    return luminance(direct_.value[i] + estimate_.value[i]) < kDark * mean_luminance_;
+  }
+
+  std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
+
+  // Texels that time leaves none of the first rays keep the light of the bounces.
+  Status first_gather() {
+    const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
+    std::vector<std::uint32_t> list = not_kept();
+    const auto gather_list = [&](std::uint32_t n) {
+      return refine([&] { return gather(texels_, sites_, around_, list, n, cached_, context_, gathered_, rays_); });
+    };
+    ORIEL_TRY_VOID(gather_list(per_half));
+    for (const std::uint32_t i : list)
+      if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
+        gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError);
+    std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
+    if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
+      ORIEL_TRY_VOID(gather_list(more));
+    update_estimate();
+    // In a gap few rays find any light: none of a handful says nothing.
+    for (std::uint32_t more = 2 * kFirstCrowded; more <= std::min(most_gathered(), kMostDark); more *= 2) {
+      std::erase_if(list, [&](std::uint32_t i) { return !is_dark(i) || gathered_.samples[i] >= more; });
+      if (list.empty() || ended_early_) break;
+      ORIEL_TRY_VOID(gather_list(more));
+      update_estimate();
+    }
+    return {};
+  }
+
+  // More samples where they take most of the error away for what they cost, direct light's or the gather's. What texels
+  // that have all their samples add may miss the goal alone: others cannot make up for it, and are refined to the goal
+  // among themselves.
+  Status refine_to(double error) {
+    update_direct();
+    if (error <= 0) return {};
+    if (options_.enough) context_.finishable = true;
+    const double goal = error * error;
+    for (;;) {
+      const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
+                                static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
+      const Part gathered = part({gathered_.samples, most_gathered(), kGatherGain,
+                                  RadiosityTask::kQuickRays * static_cast<double>(gather_rays_),
+                                  frames_.squares(light(), estimate_.variance)});
+      double now = direct.mean + gathered.mean;
+      if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
+      if (now <= goal) return {};
+      if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
+      const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };
+      std::vector<std::uint32_t> list;
+      if (direct.pays_more_than(gathered) && !(list = worst(direct)).empty()) {
+        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+      } else if (particles_pay(lamps_, gathered_, light(), frames_)) {
+        ORIEL_TRY_VOID(follow_lamps(2 * lamps_.particles, lamps_, gathered_));
+        update_estimate();
+      } else if (!(list = worst(gathered)).empty()) {
+        ORIEL_TRY_VOID(refine_gathered(list));
+      } else if (!(list = worst(direct)).empty()) {
+        ORIEL_TRY_VOID(refine_direct(list, direct.most));
+      } else {
+        return {};
+      }
+    }
+  }
+
+  Status refine_gathered(const std::vector<std::uint32_t>& list) {
+    const std::uint64_t before = rays_;
+    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+      const std::uint32_t per_half = std::min(most_gathered(), 2 * std::max(1u, samples));
+      return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
+    }));
+    update_estimate();
+    gather_rays_ += rays_ - before;
+    return {};
+  }
+
+  Status refine_direct(const std::vector<std::uint32_t>& list, std::uint32_t most) {
+    const std::uint64_t before = quick_rays_;
+    ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
+      return direct_light_.estimate(same, std::min(most, 2 * samples), context_, direct_, quick_rays_);
+    }));
+    update_direct();
+    direct_rays_ += quick_rays_ - before;
+    return {};
+  }
+
+  // Gathers as many samples anew, with paths that go on from further away. Where time ends meanwhile the old ones stay.
+  Status gather_from_further() {
+    const float before = around_.near();
+    if (before >= kFurther) return {};  // as the bake before did, whose light is known
+    around_.set_near(kFurther);
+    HalfSums anew = gathered_;
+    const std::vector<std::uint32_t> list = not_kept();
+    for (const std::uint32_t i : list) anew.forget(i);
+    LampLight lamps(texels_.count(), options_.directional);
+    if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
+    ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
+      return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
+    }));
+    if (ended_early_) {
+      around_.set_near(before);
+      return {};
+    }
+    for (std::size_t i = 0; i < texels_.count(); ++i)
+      if ((keep_beside_[i] = keeps(i))) anew.take_beside(i, gathered_);
+    gathered_ = std::move(anew), lamps_ = std::move(lamps);
+    update_estimate();
+    return {};
+  }
+
+  const RadiosityTask& task_;
+  const RadiosityOptions& options_;
+  Context& context_;
+  std::atomic<std::uint64_t>&rays_, &quick_rays_;  // RadiosityTask
+  const Texels texels_;
+  std::vector<std::uint32_t> order_;
+  MoreSites sites_;
+  DirectLight direct_light_;
+  Surroundings around_;
+  TexelGraph graph_, beside_;  // texels that smooth each other; and those that tell of each other's errors
+  Sweeps sweeps_;              // bounces on patches
+  DirectSums direct_;
+  HalfSums gathered_;
+  LampLight lamps_;
+  std::vector<bool> keep_beside_;   // by texel: its rays have the light of other particles than now follow the lamps
+  Estimate smooth_direct_;          // of the direct light
+  Estimate estimate_;               // of the gathered light
+  std::vector<Vec3> irradiance_;    // what gather rays find at a texel
+  std::vector<Vec3> coarse_;        // of it what is no particles'
+  CachedLight cached_;              // the same, as it varies over texels
+  std::optional<Reuse> reuse_;      // of the bake before
+  std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
+  Hash128 known_name_;
+  KnownLight known_now_;  // for the next bake
+  FrameError frames_;
+  std::vector<float> shares_;                        // of frames that a texel fills, as its surroundings tell
+  std::vector<bool> little_seen_;                    // by texel
+  float mean_luminance_ = 0;                         // of the light of texels that see any, lux
+  std::uint64_t direct_rays_ = 0, gather_rays_ = 0;  // of refinements
+  std::uint64_t first_work_ = 0, first_rays_ = 0;  // RadiosityTask::work, and rays, of what comes before any refinement
+  bool ended_early_ = false, out_of_rays_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
+  ORIEL_TRY(Texels texels,
+            list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays, task.options.eyes));
+  return std::make_unique<CachedEstimator>(task, std::move(texels));
+}
+
+}  // namespace oriel

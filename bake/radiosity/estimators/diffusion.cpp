@@ -1,0 +1,75 @@
+#include "bake/radiosity/estimators/diffusion.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+constexpr float kPlainSteps = 8;
+
+}  // namespace
+
+Conductance conductances(const Texels& texels, const TexelGraph& graph, const Guide& smoothed, const Guide& raw,
+                         float strength, Context& context) {
+  constexpr float kNoiseAlone = 3;  // standard deviations
+  Conductance c(texels.count());
+  each_texel(context, texels.count(), [&](std::size_t i) {
+    const auto own = graph.of(i);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::uint32_t j = own[k];
+      if (texels.visible[i] < 1 || texels.visible[j] < 1 || texels.area_m2[i] <= 0) continue;
+      const bool tells = raw.everywhere || texels.has_many[i] || texels.has_many[j];
+      const float beyond = tells ? std::max(0.0f, std::sqrt(raw.distance2(i, j, 1)) - kNoiseAlone) : 0;
+      const float likeness = std::exp(-0.5f * (smoothed.distance2(i, j, strength) + beyond * beyond));
+      const float both = std::min(texels.area_m2[i], texels.area_m2[j]) / texels.area_m2[i];
+      c[i][k] = both / (kMaxNeighbours + 1) * likeness;
+    }
+  });
+  return c;
+}
+
+std::vector<float> diffusion_steps(float time) {
+  if (time <= kPlainSteps) return std::vector<float>(static_cast<std::size_t>(std::ceil(time)), time / std::ceil(time));
+  // Of a cycle the least n with (n² + n) / 3 >= its time, its steps shortened alike.
+  const double cycle = 0.5 * double{time};
+  const double n = std::ceil(std::sqrt(3 * cycle + 0.25) - 0.5 - 1e-6), shortened = 3 * cycle / (n * n + n);
+  std::vector<double> rate, product;  // 1 / step; of its differences to those chosen before
+  for (int i = 0; i < static_cast<int>(n); ++i) {
+    const double c = std::cos(kPi * (2 * i + 1) / (4 * n + 2));
+    rate.push_back(2 * c * c), product.push_back(1);
+  }
+  std::vector<float> steps;
+  while (!rate.empty()) {
+    const auto next = std::max_element(product.begin(), product.end()) - product.begin();
+    const double chosen = rate[static_cast<std::size_t>(next)];
+    steps.push_back(static_cast<float>(shortened / chosen));
+    rate.erase(rate.begin() + next), product.erase(product.begin() + next);
+    for (std::size_t k = 0; k < rate.size(); ++k) product[k] *= std::fabs(rate[k] - chosen);
+  }
+  const std::vector<float> first = steps;
+  steps.insert(steps.end(), first.begin(), first.end());
+  return steps;
+}
+
+Flow further_flow(const TexelGraph& graph, const Conductance& conductance, std::vector<Vec3> values, float time,
+                  Context& context) {
+  Flow flow(values.size());
+  std::vector<Vec3> next(values.size());
+  const std::vector<float> steps = diffusion_steps(time);
+  for (const float sign : {1.0f, -1.0f})
+    for (const float step : steps) {
+      each_texel(context, values.size(), [&](std::size_t i) {
+        Vec3 gain(0);
+        const auto own = graph.of(i);
+        for (std::size_t k = 0; k < own.size(); ++k) {
+          const Vec3 moved = step * conductance[i][k] * (values[own[k]] - values[i]);
+          gain += moved, flow[i][k] += sign * moved;
+        }
+        next[i] = values[i] + gain;
+      });
+      values.swap(next);
+    }
+  return flow;
+}
+
+}  // namespace oriel

@@ -1,0 +1,317 @@
+#include "bake/radiosity/estimators/direct_light.h"
+
+#include <algorithm>
+#include <array>
+
+#include "bake/jobs/units.h"
+#include "bake/radiosity/estimators/filter.h"
+#include "bake/radiosity/gather/moments.h"
+#include "bake/radiosity/texels/seeds.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kMaxPolygons = 128;
+constexpr std::size_t kMaxPunctual = 256;    // that are asked one by one; of more,
+constexpr std::uint64_t kPicks = 16;         // so many are chosen for each point, by how bright they are from there
+constexpr std::uint32_t kSamplesAPoint = 4;  // beyond those that texels keep: to find one takes more rays than these
+constexpr int kTries = 16;                   // for a point of a light that is above the horizon
+constexpr std::size_t kGroup = 64;           // texels whose shadow rays to one light are traced together
+
+}  // namespace
+
+// A group of texels, light by light.
+class DirectGroup {
+ public:
+  DirectGroup(const DirectLight& direct, std::span<const std::uint32_t> list, std::uint32_t per_half)
+      : d_(direct), list_(list), per_half_(per_half), tallies_(list.size()) {
+    for (std::uint32_t i = 0; i < list.size(); ++i)
+      if (d_.texels_.visible[list[i]] > 0) add_points(i);
+  }
+
+  void run(DirectSums& sums) {
+    for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
+      aim_at_polygon(l);
+      finish_light(d_.polygons_[l].radiance);
+    }
+    for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
+      aim_at_punctual(l);
+      finish_light(Vec3(1));
+    }
+    const auto any = [&](const Point& p, Sampler& sampler) {
+      const float u = sampler.next1();
+      return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
+    };
+    if (d_.many_punctual_) sample_punctual(any);
+    if (!d_.closed_form_) {
+      sample_lights(any);
+    } else if (d_.t_.lights.samples_sky()) {
+      sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
+    }
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      sums.value[list_[i]] = tallies_[i].total;
+      sums.difference[list_[i]] = tallies_[i].difference;
+      sums.variance[list_[i]] = tallies_[i].variance;
+      sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
+      sums.per_half[list_[i]] = per_half_;
+      if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
+    }
+  }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  struct Point {
+    TexelSite site;
+    std::uint32_t texel = 0;  // of the list
+    int half = 0;
+    std::uint32_t k = 0;
+  };
+  struct Shot {  // a shadow ray
+    std::uint32_t point = 0;
+    Vec3 weight{0};
+    Vec3 direction{0};
+  };
+  // By texel. Of the light at hand, by half: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
+  struct Tally {
+    std::array<Vec3, kHalves> open{}, weight{}, passed{};
+    Vec4 from{0};                // Σ moments of weights * transmittance, by luminance
+    Vec3 total{0}, variance{0};  // of all lights so far
+    Vec4 moments{0};
+    Vec3 difference{0};  // of the halves' light
+    Vec3 uneven{0};      // what the halves' points differ by, all lights together
+  };
+
+  std::uint64_t stream_of(std::uint32_t texel, int half) const {
+    const Texels& t = d_.texels_;
+    return (std::uint64_t{t.page[texel]} << 32 | t.index[texel]) * kHalves + static_cast<std::uint64_t>(half);
+  }
+
+  void add_points(std::uint32_t i) {
+    // What casts sharp shadows sends the same ray from the same point.
+    const std::uint32_t samples_a_point = d_.t_.accel.scene().lights.empty() ? kSamplesAPoint : 1;
+    for (int half = 0; half < kHalves; ++half) {
+      const std::uint32_t kept = d_.sites_.known(list_[i], half);
+      for (std::uint32_t k = 0; k < per_half_; ++k) {
+        const bool again = k > kept && (k - kept) % samples_a_point != 0;
+        const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
+        points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k});
+      }
+    }
+  }
+
+  // Whether an estimate is a number; where not it is told.
+  bool is_usable(const Point& point, const Vec3& light) const {
+    if (oriel::is_usable(light)) return true;
+    d_.t_.accel.dropped().add(d_.sites_.triangle(list_[point.texel]));
+    return false;
+  }
+
+  void aim_at_polygon(std::uint32_t l) {
+    const PolygonLight& light = d_.polygons_[l];
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      const Receiver receiver = point.site.receiver();
+      const float open = polygon_irradiance(light, receiver);
+      if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
+      tallies_[point.texel].open[point.half] += Vec3(open);
+      Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
+      // Points of the light below the horizon weigh nothing: others are tried, of a light that reaches barely above it
+      // too.
+      for (int tries = 0; tries < kTries; ++tries) {
+        const auto s = sample_polygon(light, receiver, sampler.next2());
+        const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
+        if (!(weight > 0)) continue;
+        shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
+        break;
+      }
+    }
+  }
+
+  void aim_at_punctual(std::uint32_t l) {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kSharpLight + l, stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = d_.t_.lights.sample_light(l, point.site.origin, sampler.next2());
+      const Vec3 value = s.estimate * incidence(point.site.receiver(), s.direction);
+      if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
+      tallies_[point.texel].open[point.half] += value;
+      shoot(p, {point.site.origin, s.direction, s.distance}, value);
+    }
+  }
+
+  void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight) {
+    const Point& p = points_[point];
+    tallies_[p.texel].weight[p.half] += weight;
+    if (ray.max_distance > 0) {
+      rays_to_trace_.push_back(ray);
+      shots_.push_back({point, weight, ray.direction});
+    } else {
+      receive({point, weight, ray.direction}, Vec3(1));  // touching
+    }
+  }
+
+  void receive(const Shot& shot, const Vec3& passed) {
+    const Point& p = points_[shot.point];
+    Tally& tally = tallies_[p.texel];
+    const Vec3 light = shot.weight * passed;
+    tally.passed[p.half] += light;
+    const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
+    tally.from += moments_of(luminance(light) / cosine, shot.direction);
+  }
+
+  void trace() {
+    passed_.resize(rays_to_trace_.size());
+    d_.t_.accel.transmittance(rays_to_trace_, passed_);
+    rays_ += rays_to_trace_.size();
+    for (std::size_t i = 0; i < shots_.size(); ++i) receive(shots_[i], passed_[i]);
+    shots_.clear();
+    rays_to_trace_.clear();
+  }
+
+  // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
+  // only. One ratio over all samples: its bias falls with their number. A half none of whose samples weigh anything,
+  // the light being mostly below its points' horizon, knows no ratio of its own.
+  void finish_light(const Vec3& radiance) {
+    trace();
+    const auto n = static_cast<float>(kHalves * per_half_);
+    for (Tally& t : tallies_) {
+      const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
+      const auto own = [&](int half) {
+        return max_component(t.weight[half]) > 0 ? ratio(t.passed[half], t.weight[half]) : share;
+      };
+      const std::array<Vec3, kHalves> of_half{own(0), own(1)};
+      const Vec3 halves = 0.5f * (of_half[0] + of_half[1]);
+      const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
+      const Vec3 value = open * (2.0f * share - halves);
+      t.total += value;
+      add_moments(t, value);
+      // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
+      t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+      // The closed form is exact at a point; the texel's mean is had from a few.
+      t.uneven += radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
+      t.difference += radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half_);
+      forget_light(t);
+    }
+  }
+  // The light of `value` came as the samples did.
+  static void add_moments(Tally& t, const Vec3& value) {
+    const float seen = luminance(t.passed[0] + t.passed[1]);
+    if (seen > 0) t.moments += t.from * (std::max(0.0f, luminance(value)) / seen);
+  }
+  static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
+  static void forget_light(Tally& t) {
+    t.from = Vec4(0);
+    t.open = t.weight = t.passed = {};
+  }
+
+  // Light without a closed form: one sampled light a point, combined with the gather's own hits on it.
+  template <class Sample>
+  void sample_lights(const Sample& sample) {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kSky, stream_of(list_[point.texel], point.half), point.k);
+      const LightSample s = sample(point, sampler);
+      if (s.pdf == 0) continue;  // nothing, or punctual: those are done light by light
+      const float cosine = incidence(point.site.receiver(), s.direction);
+      const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
+      if (max_component(value) > 0 && is_usable(point, value))
+        shoot(p, {point.site.origin, s.direction, s.distance}, value);
+    }
+    finish_sampled();
+  }
+
+  void finish_sampled() {
+    trace();
+    const auto n = static_cast<float>(per_half_);
+    for (Tally& t : tallies_) {
+      const Vec3 value = (t.passed[0] + t.passed[1]) / (kHalves * n);
+      t.total += value;
+      add_moments(t, value);
+      const Vec3 difference = (t.passed[0] - t.passed[1]) / n;
+      t.variance += 0.25f * difference * difference;
+      t.difference += difference;
+      forget_light(t);
+    }
+  }
+
+  // The same for points, spots and suns, which no ray meets.
+  template <class Sample>
+  void sample_punctual(const Sample& sample) {
+    for (std::uint64_t pick = 0; pick < kPicks; ++pick)
+      for (std::uint32_t p = 0; p < points_.size(); ++p) {
+        const Point& point = points_[p];
+        Sampler sampler(d_.seed_ + seeds::kManyLights + pick, stream_of(list_[point.texel], point.half), point.k);
+        const LightSample s = sample(point, sampler);
+        if (s.pdf > 0) continue;  // an emissive surface, or the sky
+        const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
+        if (max_component(value) > 0 && is_usable(point, value))
+          shoot(p, {point.site.origin, s.direction, s.distance}, value);
+      }
+    finish_sampled();
+  }
+
+  const DirectLight& d_;
+  std::span<const std::uint32_t> list_;
+  std::uint32_t per_half_;
+  std::vector<Point> points_;
+  std::vector<Tally> tallies_;
+  std::vector<Ray> rays_to_trace_;
+  std::vector<Shot> shots_;
+  std::vector<Vec3> passed_;
+  std::uint64_t rays_ = 0;
+};
+
+DirectLight::DirectLight(const Transport& transport, const Texels& texels, const MoreSites& sites, std::uint64_t seed)
+    : t_(transport), texels_(texels), sites_(sites), seed_(seed) {
+  const Scene& scene = transport.accel.scene();
+  polygons_ = find_polygon_lights(scene);
+  closed_form_ = all_emission_is_plain(scene) && polygons_.size() <= kMaxPolygons;
+  if (!closed_form_) polygons_.clear();
+  many_punctual_ = scene.lights.size() > kMaxPunctual;
+}
+
+Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
+                             DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
+  const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
+  UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
+  const std::size_t punctual = many_punctual_ ? kPicks : t_.accel.scene().lights.size();
+  loop.rays = static_cast<double>(kGroup * kHalves * (polygons_.size() + punctual)) * per_half;
+  loop.inputs = [&](std::size_t g, Archive& key) { key(part(g), per_half, !sums.moments.empty(), texels_.eyes); };
+  loop.compute = [&](std::size_t g) {
+    DirectGroup group(*this, part(g), per_half);
+    group.run(sums);
+    return group.rays();
+  };
+  loop.results = [&](std::size_t g, Archive& archive) {
+    for (const std::uint32_t t : part(g)) {
+      archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
+      if (!sums.moments.empty()) archive(sums.moments[t]);
+    }
+  };
+  return parallel_units(context, loop, &rays);
+}
+
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
+                    std::vector<std::uint32_t>& list) {
+  constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
+  constexpr float kWide = 0.1f;     // of the surroundings' light
+  std::vector<float> wide_noise(sums.value.size()), wide_light(sums.value.size());
+  for (std::size_t i = 0; i < wide_noise.size(); ++i)
+    wide_noise[i] = luminance(sums.variance[i]), wide_light[i] = luminance(sums.value[i]);
+  wide_noise = typical_errors(graph, std::move(wide_noise), context);
+  wide_light = typical_errors(graph, std::move(wide_light), context);
+  const float least = std::max(share, kUneven);
+  const auto uncertain = [&](std::uint32_t i) {
+    const Vec3 noise = sums.variance[i], light2 = sums.value[i] * sums.value[i];
+    return max_component(noise - share * share * light2) > 0 ||
+           max_component(noise + sums.uneven[i] - least * least * light2) > 0;
+  };
+  std::erase_if(list, [&](std::uint32_t i) {
+    const auto beside = graph.of(i);
+    return wide_noise[i] <= kWide * kWide * wide_light[i] * wide_light[i] && !uncertain(i) &&
+           std::none_of(beside.begin(), beside.end(), uncertain);
+  });
+}
+
+}  // namespace oriel

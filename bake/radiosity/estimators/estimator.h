@@ -1,0 +1,64 @@
+// What estimates the light on an atlas' texels: bake_radiosity refines it until the error asked for holds.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bake/radiosity/estimators/radiosity_options.h"
+#include "bake/radiosity/texels/frame_pixels.h"
+
+namespace oriel {
+
+// What one bake of a lightmap is about. All of it outlives the estimator.
+struct RadiosityTask {
+  const Transport& transport;
+  const Atlas& atlas;
+  std::span<const TexelMapPage> map;
+  std::span<const FramePixel> pixels;  // by which the error is told (texels/frame_error.h)
+  const RadiosityOptions& options;
+  Context& context;
+  std::atomic<std::uint64_t>& rays;        // traced so far by paths,
+  std::atomic<std::uint64_t>& quick_rays;  // and towards lights and by probes of points
+
+  // Rays of paths that take about the time of all: measured, two and a half to four quick ones do.
+  std::uint64_t work() const { return rays + quick_rays / kQuickRays; }
+  static constexpr std::uint64_t kQuickRays = 3;
+};
+
+// What an estimate is refined to.
+struct Goal {
+  double error = 0;             // of frames, relative; 0: all samples are taken
+  bool longer_look_up = false;  // cached: rays look texels up from four times as far away, and follow paths till then
+};
+
+// Pages of the texel map's sizes, without light.
+Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
+
+struct Texels;
+class Surroundings;
+struct CachedLight;
+
+// What an estimator knows of the texels beside their light.
+struct TexelLight {
+  const Texels& texels;
+  const Surroundings& around;
+  const CachedLight& cached;
+  std::vector<Vec3> beside;       // by texel: light that no gather ray looks for, lux; empty: none
+  std::span<const float> shares;  // of frames, by texel
+};
+
+class LightEstimator {
+ public:
+  virtual ~LightEstimator() = default;
+  // Until the goal holds, all samples are taken, or RadiosityOptions::enough. Error kStopped.
+  virtual Status refine(const Goal& goal) = 0;
+  // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
+  // report's numbers of the estimate. `light` is an empty_radiosity().
+  virtual void write(Radiosity& light) const = 0;
+  // What light between the texels can be found from (detail.h); nothing where all there is is theirs.
+  virtual std::optional<TexelLight> texel_light() const { return std::nullopt; }
+};
+
+}  // namespace oriel

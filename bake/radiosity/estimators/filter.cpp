@@ -1,0 +1,234 @@
+#include "bake/radiosity/estimators/filter.h"
+
+#include "bake/radiosity/estimators/diffusion.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kPoolPasses = 4, kWidePasses = 16;
+// Each scale spreads light for so long, which makes the kernel of all up to it twice as wide as that before.
+constexpr float kNarrow = 2, kByChance = 4;
+constexpr float kFirstScale = 6, kNextScale = 4, kPooledOver = 4;
+
+double total(const Texels& texels, const std::vector<Vec3>& values) {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    sum += double{texels.area_m2[i]} * (double{values[i].r} + values[i].g + values[i].b);
+  return sum;
+}
+
+using TwoHalves = std::array<std::vector<Vec3>, kHalves>;
+
+// Of the noise of a texel after one pass of pooled(): its own share and that of so many neighbours, squared. At the end
+// of a surface, where there are few, most of it is left.
+float left_of_noise(std::size_t neighbours) {
+  constexpr float kShare = 1.0f / (kMaxNeighbours + 1);
+  const auto n = static_cast<float>(neighbours);
+  const float own = 1 - n * kShare;
+  return own * own + n * kShare * kShare;
+}
+
+// By texel, 1 over its light squared (dark ones: 1 % of the mean), so that what is pooled counts alike in the dark.
+std::vector<float> relative_to(const Texels& texels, const std::vector<Vec3>& light, const std::vector<Vec3>& beside) {
+  const float floor = 0.01f * mean_luminance(texels, light, beside);
+  std::vector<float> weight(light.size());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const float l = luminance(light[i] + beside[i]);
+    weight[i] = 1 / (l * l + floor * floor + 1e-30f);
+  }
+  return weight;
+}
+
+// By texel, in [0,1]: how much of the change Δ that further smoothing brings takes noise away, rather than light that
+// is there. What both halves change alike is light, <Δ_0 Δ_1>, <> being a mean over surroundings; by what they change
+// differently, <(Δ_0 - Δ_1)²> / 4, the mean of both has less noise. The least error is where the second's share of all
+// is (Wiener 1949).
+std::vector<float> wanted(const TexelGraph& graph, const Conductance& c, const TwoHalves& change,
+                          const std::vector<float>& weight, float time, Context& context) {
+  std::vector<Vec2> sums(weight.size());
+  each_texel(context, sums.size(), [&](std::size_t i) {
+    const Vec3 &a = change[0][i], &b = change[1][i];
+    sums[i] = weight[i] * Vec2(0.25f * glm::dot(a - b, a - b), glm::dot(a, b));
+  });
+  const std::vector<Vec2> near = diffuse(graph, c, sums, kNarrow, context);
+  sums = diffuse(graph, c, std::move(sums), kPooledOver * time, context);
+  std::vector<float> share(sums.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const float noise = std::max(0.0f, sums[i].x);
+    const float light = std::max({0.0f, sums[i].y, near[i].y - kByChance * noise});
+    share[i] = noise > 0 ? noise / (noise + light) : light > 0 ? 0.0f : 1.0f;
+  }
+  return share;
+}
+
+// What flows into each texel, an edge's flow times the lesser share of its two texels: nobody takes light from somebody
+// who does not want that, and none is lost.
+std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vector<float>& share, Context& context) {
+  std::vector<Vec3> sum(share.size());
+  each_texel(context, share.size(), [&](std::size_t i) {
+    const auto own = graph.of(i);
+    for (std::size_t k = 0; k < own.size(); ++k) sum[i] += std::min(share[i], share[own[k]]) * flow[i][k];
+  });
+  return sum;
+}
+
+// Smooths both halves on scale after scale, each only where that takes noise away.
+void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::vector<float>& weight, int scales,
+                      TwoHalves& halves, Context& context) {
+  const std::vector<float> all(weight.size(), 1.0f);
+  float time = kFirstScale;
+  for (int scale = 0; scale < scales; ++scale, time *= kNextScale) {
+    const std::array<Flow, kHalves> flow{further_flow(graph, c, halves[0], time, context),
+                                         further_flow(graph, c, halves[1], time, context)};
+    std::vector<float> share = all;
+    if (scale > 0) {
+      const TwoHalves change{gain(flow[0], graph, all, context), gain(flow[1], graph, all, context)};
+      share = wanted(graph, c, change, weight, time, context);
+    }
+    for (int h = 0; h < kHalves; ++h) {
+      const std::vector<Vec3> change = gain(flow[h], graph, share, context);
+      for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
+    }
+  }
+}
+
+// Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
+// much may be left. The halves' product has no noise of its own.
+Vec3 left_by_slopes(const HalfSums& sums, std::size_t i) {
+  constexpr float kLeft = 0.5f;  // of the change
+  const float n = static_cast<float>(std::max(1u, sums.samples[i]));
+  return (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
+}
+
+}  // namespace
+
+Halves halves_of(const HalfSums& sums, Context& context) {
+  const std::size_t n = sums.samples.size();
+  Halves halves;
+  for (auto& light : halves.light) light.resize(n);
+  halves.common.resize(n), halves.beside.resize(n);
+  halves.steps = false;
+  each_texel(context, n, [&](std::size_t i) {
+    for (int h = 0; h < kHalves; ++h) halves.light[h][i] = sums.half(h, i);
+    halves.common[i] = left_by_slopes(sums, i);
+  });
+  return halves;
+}
+
+Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered) {
+  Halves halves{{sums.value, sums.value}, std::vector<Vec3>(sums.value.size()), gathered};
+  for (std::size_t i = 0; i < sums.value.size(); ++i) {
+    halves.light[0][i] += 0.5f * sums.difference[i];
+    halves.light[1][i] -= 0.5f * sums.difference[i];
+  }
+  return halves;
+}
+
+std::vector<Vec4> smoothed_moments(const TexelGraph& graph, const HalfSums& sums, Context& context) {
+  std::vector<Vec4> moments = sums.moments;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    moments[i] = moments[i] / static_cast<float>(kHalves * std::max(1u, sums.samples[i])) + sums.beside_moments[i];
+  return pooled(graph, std::move(moments), 1, context);
+}
+
+std::vector<float> typical_errors(const TexelGraph& graph, std::vector<float> errors, Context& context) {
+  return pooled(graph, std::move(errors), kWidePasses, context);
+}
+
+std::vector<Vec3> pooled_errors(const Texels& texels, const TexelGraph& graph, std::vector<Vec3> squares,
+                                const std::vector<Vec3>& light, Context& context) {
+  DVec3 mean(0);
+  double seen = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) mean += DVec3(light[i]), seen += texels.visible[i] > 0;
+  const Vec3 floor = Vec3(mean / std::max(1.0, seen)) * 0.01f;
+  const auto scale = [&](std::size_t i) { return light[i] * light[i] + floor * floor + Vec3(1e-30f); };
+  each_texel(context, squares.size(), [&](std::size_t i) { squares[i] /= scale(i); });
+  const auto spread = [&](const auto& share) {
+    std::vector<Vec3> near = pooled(graph, squares, kPoolPasses, share, context);
+    const std::vector<Vec3> wide = pooled(graph, near, kWidePasses - kPoolPasses, share, context);
+    for (std::size_t i = 0; i < near.size(); ++i) near[i] = 0.5f * (near[i] + wide[i]);
+    return near;
+  };
+  const auto crowded = [&](std::size_t i, std::size_t j) { return texels.has_many[i] && texels.has_many[j]; };
+  std::vector<Vec3> of_all = spread([](std::size_t, std::size_t) { return true; });
+  // What is close to a surface is met by paths: more noise than beside it.
+  const std::vector<Vec3> of_crowded = spread(crowded);
+  for (std::size_t i = 0; i < squares.size(); ++i)
+    squares[i] = texels.has_many[i] ? glm::max(of_all[i], of_crowded[i]) : of_all[i];
+  each_texel(context, squares.size(), [&](std::size_t i) { squares[i] *= scale(i); });
+  return squares;
+}
+
+float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, const std::vector<Vec3>& gathered) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < texels.count(); ++i)
+    if (texels.visible[i] > 0) sum += static_cast<double>(luminance(direct[i] + gathered[i])), ++count;
+  return static_cast<float>(sum / std::max(1.0, count));
+}
+
+Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
+                Context& context) {
+  const std::size_t n = texels.count();
+  const auto& half = halves.light;
+  std::vector<Vec3> noise(n), mean(n);
+  each_texel(context, n, [&](std::size_t i) {
+    const Vec3 d = half[0][i] - half[1][i];
+    mean[i] = 0.5f * (half[0][i] + half[1][i]);
+    noise[i] = 0.5f * d * d;  // variance of one half
+  });
+  const auto pool = [&](std::vector<Vec3> squares, std::vector<Vec3> light) {
+    for (std::size_t i = 0; i < n; ++i) light[i] += halves.beside[i];
+    return pooled_errors(texels, graph, std::move(squares), light, context);
+  };
+  // The guide is itself smoothed a little, so that its noise does not choose whom to join.
+  std::vector<Vec3> guide = pooled(graph, mean, 1, context);
+  std::vector<Vec3> raw_variance = pool(noise, mean);
+  noise = pool(std::move(noise), guide);
+  const std::vector<Vec3> left = pool(halves.common, guide);
+
+  Estimate result;
+  if (options.strength <= 0 || options.scales <= 0) {
+    result.value = mean;
+    result.variance = noise;
+    for (std::size_t i = 0; i < n; ++i) result.variance[i] = 0.5f * result.variance[i] + glm::max(left[i], Vec3(0));
+    return result;
+  }
+  std::vector<Vec3> guide_variance = noise;
+  for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * left_of_noise(graph.of(i).size());
+  for (Vec3& v : raw_variance) v *= 0.5f;
+  const Conductance edges = conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance, halves.steps},
+                                         options.strength, context);
+  TwoHalves smooth = half;
+  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
+  each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
+  std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
+  each_texel(context, n, [&](std::size_t i) {
+    const Vec3 d = smooth[0][i] - smooth[1][i];
+    of_both[i] = 0.25f * d * d;
+  });
+  of_both = pool(std::move(of_both), guide);
+
+  result.value = std::move(guide), result.variance.resize(n);
+  std::vector<Vec3> beyond(n);
+  each_texel(context, n, [&](std::size_t i) {
+    const Vec3 d = smooth[0][i] - smooth[1][i], unfiltered = half[0][i] - half[1][i];
+    // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
+    for (int h = 0; h < kHalves; ++h) {
+      const Vec3 to_other = smooth[h][i] - half[1 - h][i];
+      beyond[i] += 0.5f * to_other * to_other;
+    }
+    beyond[i] -= 0.5f * unfiltered * unfiltered + 0.25f * d * d;
+  });
+  // Relative to the light that the filter leaves, as the error asked for is.
+  beyond = pool(std::move(beyond), result.value);
+  each_texel(context, n, [&](std::size_t i) {
+    result.variance[i] = glm::max(beyond[i], of_both[i]);
+    result.variance[i] += glm::max(left[i], Vec3(0));
+  });
+  const double before = total(texels, mean), after = total(texels, result.value);
+  result.energy_drift = before > 0 ? after / before - 1 : 0;
+  return result;
+}
+
+}  // namespace oriel

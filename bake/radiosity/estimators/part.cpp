@@ -1,0 +1,36 @@
+#include "bake/radiosity/estimators/part.h"
+
+#include <algorithm>
+
+namespace oriel {
+namespace {
+
+// Of a part's squared error, so much is to go with each refinement: less would take long, more would leave the other
+// part no turn.
+constexpr double kLeastAtOnce = 0.1, kMostAtOnce = 0.5;
+
+}  // namespace
+
+void Part::measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares) {
+  mean = stuck = 0;
+  double share = 0, all = 0, all_stuck = 0;
+  for (const std::uint32_t i : texels) {
+    share += shares[i], mean += squares[i], all += samples[i];
+    if (samples[i] >= most) stuck += squares[i], all_stuck += samples[i];
+  }
+  if (share > 0) mean /= share, stuck /= share;
+  open_rays = all > 0 ? rays * (1 - all_stuck / all) : rays;
+}
+
+std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
+                                    const std::vector<float>& shares, const Part& part, double now, double goal,
+                                    Context& context) {
+  double seen = 0;
+  for (const std::uint32_t i : texels) seen += shares[i];
+  std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
+  const double excess = std::clamp(now - goal, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
+  return worst_texels(graph, texels, part.squares, shares, part.samples,
+                      {.goal = goal * part.open() / now, .excess = excess * seen, .gain = part.gain}, context);
+}
+
+}  // namespace oriel

@@ -1,0 +1,31 @@
+// The two parts of the light, direct and gathered, as refinement sees them.
+#pragma once
+
+#include "bake/radiosity/estimators/worst.h"
+
+namespace oriel {
+
+struct Part {
+  const std::vector<std::uint32_t>& samples;  // by texel, of each half
+  std::uint32_t most = 0;                     // of them
+  double gain = 0;                            // part of its squared error that the next refinement takes away
+  double rays = 0;                            // spent on refining it so far; as many shadow rays take its time
+  std::vector<float> squares;                 // by texel: its part of the frames' mean square
+
+  // Over the pixels that show `texels`. shares: by texel, of frames that it fills.
+  void measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares);
+  double mean = 0, stuck = 0;  // the mean square, and of it what has all its samples and stays
+  double open_rays = 0;        // of `rays` those of the rest
+  double open() const { return mean - stuck; }
+
+  // Where errors fall with the rays spent on them, those do most that are spent where this is larger.
+  bool pays_more_than(const Part& other) const { return open() * other.open_rays > other.open() * open_rays; }
+};
+
+// Those of the measured texels (in coherent_order) whose refinement brings the part nearer to its share of the goal, as
+// worst_texels. now: the mean square of both parts, above the goal; shares: by texel, of frames that it fills.
+std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::uint32_t> texels,
+                                    const std::vector<float>& shares, const Part& part, double now, double goal,
+                                    Context& context);
+
+}  // namespace oriel

@@ -1,0 +1,398 @@
+#include "bake/radiosity/estimators/patches.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "bake/jobs/parallel.h"
+#include "bake/jobs/units.h"
+#include "bake/radiosity/texels/seeds.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::size_t kGroup = 64;   // patches whose rays of one number are traced together
+constexpr double kWhole = 1 + 1e-6;  // of the light, and what rounding adds
+constexpr double kRounding = 1e-5;   // of a patch's light: no growth yet
+constexpr double kDim = 1e-4;        // of the mean: what is darker need not be done
+constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
+constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
+constexpr double kEndless = 0.1;     // a bound on further bounces from which light is said not to die away
+
+struct PatchLink {
+  std::uint32_t patch;
+  Vec3 weight;
+};
+void fields(Archive& archive, PatchLink& link) {
+  archive(link.patch, link.weight);
+}
+
+struct Patch {
+  std::vector<std::uint32_t> texels;  // those that see light
+  std::vector<PatchLink> links;       // weights divided by the number of rays
+  DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
+                                      // sky, emitters behind mirrors
+  Vec3 unreflected{0};                // of it what comes straight from sky and emitters
+  double area_m2 = 0;
+  std::uint32_t x = 0, y = 0;         // of its block
+  std::uint64_t stream = 0;           // of its random numbers: its block's, which no other block's shape changes
+  std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it
+};
+
+bool same_chart(const Texels& t, std::uint32_t a, std::uint32_t b) {
+  return t.page[a] == t.page[b] && t.chart[a] == t.chart[b];
+}
+
+// By texel: one texel that stands for all of its patch. Texels of a block belong together where neighbours, which see
+// each other, connect them within it.
+std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& graph, std::uint32_t side) {
+  std::vector<std::uint32_t> parent(t.count());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::uint32_t i = 0; i < parent.size(); ++i)
+    for (const std::uint32_t j : graph.of(i))
+      if (same_chart(t, i, j) && t.x[i] / side == t.x[j] / side && t.y[i] / side == t.y[j] / side)
+        parent[root(i)] = root(j);
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+  return parent;
+}
+
+class Solver {
+ public:
+  Solver(const Texels& texels, const TexelGraph& graph, const Surroundings& around, std::span<const Vec3> direct,
+         const SweepOptions& options)
+      : texels_(texels), around_(around), direct_(direct), options_(options) {
+    patch_of_.assign(texels.count(), ~0u);
+    const std::vector<std::uint32_t> head = connect_blocks(texels, graph, options.side);
+    for (const std::uint32_t i : coherent_order(texels)) {
+      if (texels.visible[i] == 0) continue;
+      std::uint32_t& number = patch_of_[head[i]];  // a texel that is not visible has no neighbours
+      if (number == ~0u) {
+        number = static_cast<std::uint32_t>(patches_.size());
+        patches_.emplace_back();
+        patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
+        patches_.back().stream = head[i];
+      }
+      patches_[number].texels.push_back(i);
+      patches_[number].area_m2 += shown_m2(i);
+      patch_of_[i] = number;
+    }
+    for (std::uint32_t i = 0; i < texels.count(); ++i)
+      for (const std::uint32_t j : graph.of(i))
+        if (patch_of_[i] != patch_of_[j] && same_chart(texels, i, j))
+          patches_[patch_of_[i]].beside.push_back(patch_of_[j]);
+    for (Patch& patch : patches_) {
+      std::sort(patch.beside.begin(), patch.beside.end());
+      patch.beside.erase(std::unique(patch.beside.begin(), patch.beside.end()), patch.beside.end());
+    }
+  }
+
+  Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
+    const Hash128 direct = context.units ? hash_of(direct_) : Hash128();
+    UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
+    loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
+    loop.inputs = [&](std::size_t g, Archive& key) {
+      key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
+    };
+    loop.compute = [&](std::size_t g) {
+      std::uint64_t traced = 0;
+      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k)
+        traced += trace_sample(g * kGroup, group_end(g), k, seed);
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p) join_links(patches_[p].links);
+      return traced;
+    };
+    loop.results = [&](std::size_t g, Archive& archive) {
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p)
+        archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
+    };
+    return parallel_units(context, loop, &rays);
+  }
+
+  // Seconds that trace() is likely to take, from one group in so many; their links are forgotten.
+  Result<double> foretell(Context& context, std::atomic<std::uint64_t>& rays) {
+    constexpr std::size_t kOneIn = 64;
+    const std::size_t groups = (patches_.size() + kGroup - 1) / kGroup;
+    const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(context)));
+    if (tried == 0) return 0;
+    const auto begun = std::chrono::steady_clock::now();
+    const Status traced = parallel_for(context, "", tried, [&](std::size_t i) {
+      const std::size_t g = i * groups / tried;
+      for (std::uint32_t k = 0; k < kSites; ++k) rays += trace_sample(g * kGroup, group_end(g), k, context.seed);
+    });
+    if (!traced) return tl::unexpected(traced.error());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    return took.count() * (double{1.0f * options_.rays_per_patch} / kSites) * static_cast<double>(groups) /
+           static_cast<double>(tried);
+  }
+
+  Status solve(Context& context, Sweeps& result);
+
+  void interpolate(Context& context, Sweeps& result);
+
+ private:
+  std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
+  // Texels take turns in proportion to the surface that they show.
+  std::uint32_t texel_for(const Patch& patch, std::uint32_t turn) const {
+    const double target = (turn + 0.5) / (options_.rays_per_patch / kSites) * patch.area_m2;
+    double sum = 0;
+    for (const std::uint32_t t : patch.texels)
+      if ((sum += shown_m2(t)) >= target) return t;
+    return patch.texels.back();
+  }
+  double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
+
+  std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
+    std::vector<Ray> batch;
+    std::vector<GatherRay> about(end - first);
+    for (std::size_t p = first; p < end; ++p) {
+      const std::uint32_t t = texel_for(patches_[p], k / kSites);
+      GatherRay& ray = about[p - first];
+      const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
+      batch.push_back(site.ray(Sampler(seed, patches_[p].stream, k).next2()));
+      if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
+      ray.stream = ~patches_[p].stream;
+      ray.sample = k;
+    }
+    Answers answers;
+    around_.answer(batch, about, answers);
+    const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
+    const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
+      Patch& patch = patches_[first + ray];
+      patch.source += DVec3(weight * direct_[texel] * share);
+      if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
+    };
+    for (std::uint32_t i = 0; i < batch.size(); ++i) {
+      patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
+      patches_[first + i].unreflected += answers.unreflected[i] * (kPi * share);
+      if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
+        link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
+    }
+    for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
+    return batch.size() + answers.rays;
+  }
+
+  // Links to one patch become one: sweeps read half as much.
+  static void join_links(std::vector<PatchLink>& links) {
+    std::stable_sort(links.begin(), links.end(),
+                     [](const PatchLink& a, const PatchLink& b) { return a.patch < b.patch; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+      if (kept > 0 && links[kept - 1].patch == links[i].patch)
+        links[kept - 1].weight += links[i].weight;
+      else
+        links[kept++] = links[i];
+    links.resize(kept);
+    links.shrink_to_fit();
+  }
+
+  // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond that is their noise. Over a
+  // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
+  // to sweep. What is reflected there is told by what the patches beside it and those that it sees hand on, on average;
+  // more than they get they never do.
+  static DVec3 handed_on(const Patch& patch) {
+    DVec3 sum(0);
+    for (const PatchLink& link : patch.links) sum += DVec3(link.weight);
+    return sum;
+  }
+  DVec3 most_handed_on(std::size_t p, const std::vector<DVec3>& sums) const {
+    DVec3 sum(0);
+    double count = 0;
+    for (const PatchLink& link : patches_[p].links)
+      if (link.patch != p) sum += sums[link.patch], ++count;
+    for (const std::uint32_t beside : patches_[p].beside) sum += sums[beside], ++count;
+    if (count == 0) return DVec3(1);
+    return glm::min(sum / count, DVec3(1));
+  }
+  std::vector<DVec3> all_handed_on() const {
+    std::vector<DVec3> sums;
+    for (const Patch& patch : patches_) sums.push_back(handed_on(patch));
+    return sums;
+  }
+  // Whether it had to be.
+  static bool bound(Patch& patch, const DVec3& most) {
+    const DVec3 sum = handed_on(patch);
+    if (!glm::any(glm::greaterThan(sum, kWhole * most))) return false;
+    const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
+    for (PatchLink& link : patch.links) link.weight *= share;
+    return true;
+  }
+
+  // Adds what one sweep finds to `next`; returns the norm of the change.
+  // `share`: of each patch's own light (and `floor`), all patches alike, since there are as many as people look there.
+  // Sunlit ground outside is done after a bounce: by its light or by its area it would drown a room that is not.
+  struct Change {
+    double absolute = 0, share = 0;
+  };
+  Change sweep_once(Context& context, const std::vector<Vec3>& now, double floor, std::vector<Vec3>& next);
+  // Sweeps from what is not reflected until little is missing or there is enough; watches: or until their changes grow.
+  enum class End { kDone, kGrows, kStopped };
+  End run(Context& context, bool watches, Sweeps& result);
+  // Bounds the patches whose light grows from sweep to sweep; how many.
+  std::size_t bound_growing(Context& context);
+  void warn_of_no_end(Context& context, const Sweeps& result) const;
+
+  const Texels& texels_;
+  const Surroundings& around_;
+  std::span<const Vec3> direct_;
+  SweepOptions options_;
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> patch_of_;  // by texel
+  std::vector<Vec3> solution_;           // by patch
+};
+
+Solver::Change Solver::sweep_once(Context& context, const std::vector<Vec3>& now, double floor,
+                                  std::vector<Vec3>& next) {
+  constexpr std::size_t kRun = 256;
+  std::vector<Change> change((patches_.size() + kRun - 1) / kRun);
+  (void)parallel_for(context, "", change.size(), [&](std::size_t run) {
+    for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
+      // In double: a hundred bounces between white walls add up a hundred roundings.
+      DVec3 sum(patches_[p].source);
+      for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
+      next[p] = Vec3(sum);
+      const Vec3 d = glm::abs(next[p] - now[p]);
+      const double moved = double{d.r} + d.g + d.b, light = double{next[p].r} + next[p].g + next[p].b + floor;
+      change[run].absolute += patches_[p].area_m2 * moved;
+      if (light > 0) change[run].share += moved / light;
+    }
+  });
+  Change total;
+  for (const Change& c : change) total.absolute += c.absolute, total.share += c.share;
+  return total;
+}
+
+void Solver::warn_of_no_end(Context& context, const Sweeps& result) const {
+  DVec3 incident(0), absorbed(0);
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    for (const std::uint32_t t : patches_[p].texels) {
+      const DVec3 flux = DVec3(direct_[t] + solution_[p]) * static_cast<double>(texels_.area_m2[t]);
+      incident += flux;
+      absorbed += flux * (DVec3(1) - DVec3(texels_.albedo[t]));
+    }
+  context.warning(
+      fmt::format("the light hardly dies away: after {} bounces {:.4g} lm fall on the surfaces and {:.4g} lm of them "
+                  "are absorbed; what these bounces bring is baked. Lower albedos of 1, or let some light out",
+                  result.count, incident.g, absorbed.g));
+}
+
+Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
+  const int most = options_.most.value_or(around_.transport().options.max_bounces);
+  std::vector<Vec3> next(patches_.size());
+  solution_.resize(patches_.size());
+  std::ranges::transform(patches_, solution_.begin(), &Patch::unreflected);
+  if (most == 0) return End::kDone;
+  double area = 0, scale = 0;
+  for (const Patch& patch : patches_) area += patch.area_m2;
+  const auto patches = static_cast<double>(patches_.size());
+  Change before;
+  // A geometric tail, from the ratio q of the last two changes; the first sweep only has its own size to go by.
+  const auto tail = [](double change, double q, double of) { return q < 1 ? change / of * q / (1 - q) : change / of; };
+  const auto ratio = [](double change, double last) { return last > 0 ? change / last : 1; };
+  for (result.count = 1;; ++result.count) {
+    const Change change = sweep_once(context, solution_, area > 0 ? kDim * scale / area : 0, next);
+    if (context.stopped()) return End::kStopped;
+    solution_.swap(next);
+    scale = 0;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      scale += patches_[p].area_m2 * (solution_[p].r + solution_[p].g + solution_[p].b);
+    if (watches && !std::isfinite(change.absolute)) return End::kGrows;
+    if (!(change.absolute > 0) || !(scale > 0)) return End::kDone;
+    const double q = ratio(change.absolute, before.absolute), q_share = ratio(change.share, before.share);
+    result.growth = q;
+    result.tail = std::max(tail(change.absolute, q, scale), tail(change.share, q_share, patches));
+    before = change;
+    if (q < 1 && q_share < 1 && result.tail < options_.tolerance) return End::kDone;
+    if (watches && q > 1 && result.count >= kPatience) return End::kGrows;
+    if (result.count >= most) return End::kDone;
+    if (result.count >= kHasty && options_.enough && options_.enough()) return End::kDone;
+  }
+}
+
+std::size_t Solver::bound_growing(Context& context) {
+  std::vector<Vec3> now(patches_.size()), next(patches_.size());
+  (void)sweep_once(context, solution_, 0, now);
+  (void)sweep_once(context, now, 0, next);
+  const std::vector<DVec3> sums = all_handed_on();
+  std::size_t bounded = 0;
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const Vec3 was = glm::abs(now[p] - solution_[p]), is = glm::abs(next[p] - now[p]);
+    const double grown = double{is.r} + is.g + is.b - was.r - was.g - was.b,
+                 light = double{now[p].r} + now[p].g + now[p].b;
+    if (!(grown <= kRounding * light))  // of no numbers, too
+      bounded += bound(patches_[p], most_handed_on(p, sums));
+  }
+  return bounded;
+}
+
+Status Solver::solve(Context& context, Sweeps& result) {
+  constexpr int kRounds = 8;
+  End end = run(context, true, result);
+  for (int round = 1; end == End::kGrows; ++round) {
+    const std::size_t bounded = round < kRounds ? bound_growing(context) : 0;
+    if (bounded == 0)
+      for (Patch& patch : patches_) result.bounded += bound(patch, DVec3(1));
+    result.bounded += bounded;
+    end = run(context, bounded > 0, result);
+  }
+  if (end == End::kStopped) return fail(ErrorCode::kStopped, "radiosity", "stopped");
+  const int most = around_.transport().options.max_bounces;
+  if (!options_.most && result.count >= most && (result.growth >= 1 || result.tail > kEndless))
+    warn_of_no_end(context, result);
+  return {};
+}
+
+// Bilinear between a texel's patch and those beside it, by the texel's place among their blocks.
+void Solver::interpolate(Context& context, Sweeps& result) {
+  constexpr std::size_t kRun = 1024;
+  result.gathered.assign(texels_.count(), Vec3(0));
+  (void)parallel_for(context, "", (texels_.count() + kRun - 1) / kRun, [&](std::size_t run) {
+    for (std::size_t i = run * kRun; i < std::min(texels_.count(), (run + 1) * kRun); ++i) {
+      if (patch_of_[i] == ~0u) continue;
+      const Vec2 at = (Vec2(texels_.x[i], texels_.y[i]) + 0.5f) / static_cast<float>(options_.side) - 0.5f;
+      Vec3 sum(0);
+      float weights = 0;
+      const auto add = [&](std::uint32_t p) {
+        const Vec2 off = 1.0f - glm::abs(at - Vec2(patches_[p].x, patches_[p].y));
+        if (off.x <= 0 || off.y <= 0) return;
+        sum += off.x * off.y * solution_[p];
+        weights += off.x * off.y;
+      };
+      add(patch_of_[i]);
+      for (const std::uint32_t p : patches_[patch_of_[i]].beside) add(p);
+      result.gathered[i] = sum / weights;  // the own patch's is a quarter at least
+    }
+  });
+}
+
+// Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
+Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
+                                std::span<const Vec3> direct, SweepOptions options, Context& context,
+                                std::atomic<std::uint64_t>& rays) {
+  constexpr std::uint32_t kFewest = 2 * kSites, kLargest = 8;
+  if (!std::isfinite(options.seconds)) return options;
+  Solver pilot(texels, graph, around, direct, options);
+  ORIEL_TRY(double needed, pilot.foretell(context, rays));
+  while (needed > options.seconds && options.rays_per_patch > kFewest) options.rays_per_patch /= 2, needed /= 2;
+  while (needed > options.seconds && options.side < kLargest) options.side *= 2, needed /= 4;
+  return options;
+}
+
+}  // namespace
+
+Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
+                     std::span<const Vec3> direct, const SweepOptions& options, Context& context,
+                     std::atomic<std::uint64_t>& rays) {
+  Sweeps result;
+  ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, context, rays));
+  Solver solver(texels, graph, around, direct, how);
+  ORIEL_TRY_VOID(solver.trace(context, context.seed + seeds::kBounces, rays));
+  ORIEL_TRY_VOID(solver.solve(context, result));
+  solver.interpolate(context, result);
+  return result;
+}
+
+}  // namespace oriel

@@ -1,0 +1,119 @@
+#include "bake/radiosity/estimators/path_estimator.h"
+
+#include <algorithm>
+
+#include "bake/jobs/units.h"
+#include "bake/radiosity/texels/frame_error.h"
+#include "bake/radiosity/texels/texel_paths.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFirstPaths = 16;  // a texel, before the error is looked at
+constexpr std::size_t kRaysAPath = 10;     // about
+constexpr std::size_t kRun = 64;  // texels a unit: long enough to hide scheduling, short enough to stop at once
+
+struct Run {
+  std::size_t page, first, last;
+};
+
+Vec3 direction_of(const TexelSums& sums) {
+  if (!(sums.mean > 0)) return Vec3(0);
+  const DVec3 d = sums.vector / sums.mean;
+  return Vec3(d / std::max(1.0, glm::length(d)));  // longer than 1 by rounding only
+}
+
+void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::size_t texel) {
+  // A handful of points that escaped the probes do not make a texel visible.
+  if (sums.count * 16 < asked || sums.count == 0) {
+    page.state[texel] = TexelState::kBuried;
+    return;
+  }
+  page.irradiance[texel] = Vec3(sums.irradiance());
+  if (!page.direction.empty()) page.direction[texel] = direction_of(sums);
+  page.standard_error[texel] = Vec3(glm::sqrt(sums.variance()));
+  page.state[texel] = TexelState::kValid;
+}
+
+class PathEstimator : public LightEstimator {
+ public:
+  explicit PathEstimator(const RadiosityTask& task)
+      : task_(task), paths_(task.transport, task.atlas, task.options.eyes, task.options.directional, task.context) {
+    for (std::size_t p = 0; p < task.map.size(); ++p) {
+      const std::size_t texels = task.map[p].texel.size();
+      sums_.emplace_back(texels);
+      for (std::size_t first = 0; first < texels; first += kRun)
+        runs_.push_back({p, first, std::min(first + kRun, texels)});
+    }
+  }
+
+  // Rounds that double the paths. Each texel's sums go on from round to round: the result is that of one round.
+  Status refine(const Goal& goal) override {
+    const RadiosityOptions& options = task_.options;
+    const bool in_rounds = goal.error > 0 || options.enough;
+    while (taken_ < options.samples) {
+      const std::uint32_t first = in_rounds ? std::min(options.samples, kFirstPaths) : options.samples;
+      ORIEL_TRY_VOID(take(taken_ == 0 ? first : std::min(options.samples, 2 * taken_)));
+      if (task_.context.stopped() || (goal.error > 0 && error() <= goal.error)) return {};
+      if (taken_ == options.samples) return {};
+      if (options.enough) task_.context.finishable = true;
+      if ((ended_early_ = options.enough && options.enough())) return {};
+    }
+    return {};
+  }
+
+  void write(Radiosity& light) const override {
+    light.report.ended_early = ended_early_;
+    for (std::size_t p = 0; p < sums_.size(); ++p)
+      for (std::size_t i = 0; i < sums_[p].size(); ++i) {
+        light.visible[p][i] = static_cast<float>(sums_[p][i].count) / static_cast<float>(std::max(taken_, 1u));
+        store(sums_[p][i], taken_, light.pages[p], task_.map[p].texel[i]);
+      }
+  }
+
+ private:
+  // Paths up to that number, from every texel.
+  Status take(std::uint32_t until) {
+    const auto sums_of = [&](std::size_t r, Archive& archive) {
+      for (std::size_t i = runs_[r].first; i < runs_[r].last; ++i) archive(sums_[runs_[r].page][i]);
+    };
+    UnitLoop loop{
+        .stage = "paths", .count = runs_.size(), .rays = static_cast<double>(kRun * kRaysAPath) * (until - taken_)};
+    loop.inputs = [&](std::size_t r, Archive& key) {
+      key(task_.options.directional, task_.options.eyes, runs_[r].page, runs_[r].first, runs_[r].last, taken_, until);
+      sums_of(r, key);  // paths are added to them
+    };
+    loop.compute = [&](std::size_t r) {
+      const std::size_t page = runs_[r].page;
+      std::uint64_t traced = 0;
+      for (std::size_t i = runs_[r].first; i < runs_[r].last && !task_.context.stopped(); ++i)
+        paths_.add(task_.map[page], page, i, taken_, until, sums_[page][i], traced);
+      return traced;
+    };
+    loop.results = sums_of;
+    ORIEL_TRY_VOID(parallel_units(task_.context, loop, &task_.rays));
+    taken_ = until;
+    return {};
+  }
+
+  double error() const {
+    Radiosity light = empty_radiosity(task_.map, false);
+    write(light);
+    return stated_error(task_.map, task_.pixels, light.pages);
+  }
+
+  RadiosityTask task_;
+  TexelPaths paths_;
+  std::vector<Run> runs_;
+  std::vector<std::vector<TexelSums>> sums_;  // by page and covered texel
+  std::uint32_t taken_ = 0;                   // paths of each texel
+  bool ended_early_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<LightEstimator> make_path_estimator(const RadiosityTask& task) {
+  return std::make_unique<PathEstimator>(task);
+}
+
+}  // namespace oriel

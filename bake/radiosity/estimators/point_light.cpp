@@ -1,0 +1,111 @@
+#include "bake/radiosity/estimators/point_light.h"
+
+#include <algorithm>
+
+#include "bake/jobs/units.h"
+#include "bake/radiosity/estimators/direct_light.h"
+#include "bake/radiosity/gather/gather.h"
+#include "bake/radiosity/texels/seeds.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kFirstDirect = 2, kMostDirect = 32;  // samples a half, point and light; by fours
+constexpr float kUncertain = 0.02f;                          // of the direct light: others get more
+constexpr double kUsualError = 0.02;                         // asked for: then a point and half has
+constexpr std::uint32_t kGather = 16, kMostGather = 64;      // rays; where less is asked for more, at most
+
+// While it lives, random numbers and units of work are the points' own.
+class OwnNumbers {
+ public:
+  OwnNumbers(Context& context, const DetailPoints& points)
+      : context_(context), seed_(context.seed), inputs_(inputs_of(context, points)) {
+    context_.seed = mix64(context_.seed + seeds::kDetail + points.side);
+  }
+  ~OwnNumbers() { context_.seed = seed_; }
+  OwnNumbers(const OwnNumbers&) = delete;
+  OwnNumbers& operator=(const OwnNumbers&) = delete;
+
+ private:
+  static StageInputs inputs_of(Context& context, const DetailPoints& points) {
+    std::vector<std::vector<std::uint32_t>> places;
+    for (const TexelMapPage& page : points.map) places.push_back(page.texel);
+    return StageInputs(context, context.inputs, points.side, places);
+  }
+
+  Context& context_;
+  std::uint64_t seed_;
+  StageInputs inputs_;
+};
+
+Status light_directly(const RadiosityTask& task, const Texels& texels, const MoreSites& sites,
+                      const std::vector<std::uint32_t>& order, const TexelGraph& graph, DirectSums& sums) {
+  const DirectLight light(task.transport, texels, sites, task.context.seed);
+  std::vector<std::uint32_t> list = order;
+  for (std::uint32_t per_half = kFirstDirect; per_half <= kMostDirect; per_half *= 4) {
+    ORIEL_TRY_VOID(light.estimate(list, per_half, task.context, sums, task.quick_rays));
+    keep_uncertain(sums, graph, per_half == kFirstDirect ? 0 : kUncertain, task.context, list);
+  }
+  return {};
+}
+
+std::uint32_t gathered_rays(const RadiosityOptions& options) {
+  const double finer = options.error > 0 ? kUsualError / options.error : 1;
+  const double rays = double{kGather} * std::max(1.0, finer * finer);
+  return static_cast<std::uint32_t>(std::min(rays, double{kMostGather}));
+}
+
+// Between the texels around point i, those that have it.
+Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
+  if (known.beside.empty()) return Vec3(0);
+  const float x = static_cast<float>(points.x[i]) / static_cast<float>(side) - 1;
+  const float y = static_cast<float>(points.y[i]) / static_cast<float>(side) - 1;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  Vec3 sum(0);
+  float weights = 0;
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const std::uint32_t texel = known.texels.at(points.page[i], x0 + dx, y0 + dy);
+      if (texel == kNoTexel || known.texels.visible[texel] == 0) continue;
+      const float weight =
+          (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
+      sum += weight * known.beside[texel], weights += weight;
+    }
+  return weights > 0 ? sum / weights : Vec3(0);
+}
+
+}  // namespace
+
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points) {
+  Context& context = task.context;
+  const OwnNumbers own(context, points);
+  PointLight result;
+  ORIEL_TRY(result.texels,
+            list_texels(task.transport, points.atlas, points.map, context, task.quick_rays, known.texels.eyes));
+  const Texels& texels = result.texels;
+  const std::size_t n = texels.count();
+  const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);
+  const std::vector<std::uint32_t> order = coherent_order(texels);
+  ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, context, task.rays));
+  DirectSums direct(n, false);
+  ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
+  HalfSums gathered(n, false);
+  ORIEL_TRY_VOID(gather(texels, sites, known.around, order, gathered_rays(task.options), known.cached, context,
+                        gathered, task.rays));
+  const FilterOptions filters = task.options.filter;
+  FilterOptions narrow = filters;
+  narrow.scales = std::min(narrow.scales, 1);
+  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
+  if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
+  result.light.resize(n), result.variance.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (texels.visible[i] == 0) continue;
+    result.light[i] = glm::max(lit.value[i] + indirect.value[i] + beside_at(known, texels, i, points.side), Vec3(0));
+    result.variance[i] = lit.variance[i] + indirect.variance[i];
+  }
+  return result;
+}
+
+}  // namespace oriel

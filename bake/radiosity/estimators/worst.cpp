@@ -1,0 +1,61 @@
+#include "bake/radiosity/estimators/worst.h"
+
+#include <algorithm>
+
+#include "bake/radiosity/estimators/filter.h"
+
+namespace oriel {
+
+std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
+                                        const std::vector<float>& squares, const std::vector<float>& shares,
+                                        const std::vector<std::uint32_t>& samples, const WorstOptions& options,
+                                        Context& context) {
+  std::vector<float> typical(squares);
+  for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
+  typical = typical_errors(graph, std::move(typical), context);
+  for (std::size_t i = 0; i < typical.size(); ++i) typical[i] /= static_cast<float>(std::max(1u, samples[i]));
+  std::vector<std::uint32_t> by_error;
+  for (const std::uint32_t i : open)
+    if (typical[i] > options.goal / 4 * shares[i]) by_error.push_back(i);
+  const auto gain_a_ray = [&](std::uint32_t i) { return double{typical[i]} / std::max(1u, samples[i]); };
+  std::sort(by_error.begin(), by_error.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double ga = gain_a_ray(a), gb = gain_a_ray(b);
+    return ga != gb ? ga > gb : a < b;
+  });
+  double left = options.excess;
+  std::size_t taken = 0;
+  for (; taken < by_error.size() && left > 0; ++taken) left -= options.gain * typical[by_error[taken]];
+  by_error.resize(taken);
+  std::sort(by_error.begin(), by_error.end());
+  std::vector<std::uint32_t> in_order;
+  for (const std::uint32_t i : open)
+    if (std::binary_search(by_error.begin(), by_error.end(), i)) in_order.push_back(i);
+  return in_order;
+}
+
+std::vector<SameSamples> groups_of(std::span<const std::uint32_t> list, const std::vector<std::uint32_t>& samples) {
+  std::vector<SameSamples> groups;
+  for (const std::uint32_t i : list) {
+    const auto same = std::ranges::find(groups, samples[i], &SameSamples::samples);
+    if (same == groups.end())
+      groups.push_back({samples[i], {i}});
+    else
+      same->texels.push_back(i);
+  }
+  return groups;
+}
+
+std::vector<bool> little_seen(std::span<const std::uint32_t> texels, const std::vector<float>& shares, double square) {
+  std::vector<bool> little(shares.size());
+  if (square <= 0) return little;
+  std::vector<std::uint32_t> by_share(texels.begin(), texels.end());
+  std::sort(by_share.begin(), by_share.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return shares[a] != shares[b] ? shares[a] < shares[b] : a < b; });
+  for (const std::uint32_t i : by_share) {
+    if ((square -= shares[i]) < 0) break;
+    little[i] = true;
+  }
+  return little;
+}
+
+}  // namespace oriel

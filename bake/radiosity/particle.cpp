@@ -1,0 +1,146 @@
+#include "bake/radiosity/particle.h"
+
+#include <cmath>
+
+#include "bake/trace/shading.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+// Gauss-Legendre over cos²θ: ∫ R cosθ dω / π = ∫ R d(cos²θ).
+constexpr float kCos2[] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
+constexpr float kWeight[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+
+double lumens(const Vec3& power) {
+  return luminance(DVec3(power));
+}
+
+class Walk {
+ public:
+  Walk(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler, std::uint64_t& rays)
+      : t_(transport),
+        atlas_(atlas),
+        sampler_(sampler),
+        rays_(rays),
+        ray_(particle.ray),
+        power_(particle.power),
+        full_(max_component(particle.power)) {}
+
+  Fate run(bool from_afar) {
+    bool met = !from_afar;
+    fate_.emitted = lumens(power_);
+    if (!(full_ > 0)) return fate_;
+    for (;;) {
+      ++rays_;
+      const Hit hit = t_.accel.intersect(ray_);
+      if (!hit) break;
+      const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
+      tell_texel(surface);
+      if (passes_ == kMaxPasses) return lose(fate_.lost_guard);
+      if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
+        ray_.origin = spawn_origin(surface, ray_.direction);
+        ++passes_;
+        continue;
+      }
+      met = true;
+      if (!surface.reflects) return lose(fate_.lost_behind);
+      if (bounces_ >= t_.options.max_bounces) return lose(fate_.lost_guard);
+      const double came = lumens(power_);
+      scatter(hit, surface);
+      fate_.absorbed += came - lumens(power_);
+      if (!(max_component(power_) > 0) || !survive()) return fate_;
+    }
+    if (!met) return {};
+    return lose(fate_.escaped);
+  }
+
+ private:
+  const Fate& lose(double& sink) {
+    sink += lumens(power_);
+    return fate_;
+  }
+
+  // Irradiance in texels goes by the interpolated normal, which the particle knows nothing of.
+  void tell_texel(const SurfacePoint& surface) {
+    if (!surface.front || atlas_.page[surface.triangle] < 0) return;
+    const SurfacePoint on_texel = point_on_side(t_.accel.scene(), surface.triangle, surface.barycentric);
+    const Vec3 wi = -ray_.direction;
+    const float cosine = glm::dot(on_texel.geometric_normal, wi);
+    if (!(cosine > 0)) return;
+    const float tilt = Shading(on_texel, on_texel.normal).cosine(wi) / cosine;
+    fate_.on_texels += lumens(power_ * share_kept(surface.shade)) * tilt;
+  }
+
+  // Chooses the next ray; power_ becomes what goes on along it.
+  void scatter(const Hit& hit, const SurfacePoint& surface) {
+    const Vec3 wi = -ray_.direction;
+    const Shading shading(surface, wi);
+    const float u = sampler_.next1();
+    const auto sample = shading.sample(u, sampler_.next2());
+    const float cos_i = glm::dot(surface.geometric_normal, wi);
+    if (!sample || !(cos_i > 0)) {
+      power_ = Vec3(0);
+      return;
+    }
+    if (sample->lobe == Lobe::kTransmission) {
+      power_ *= sample->weight;
+      ++passes_;
+    } else {
+      const Vec3 wo = shading.above(sample->wi);
+      power_ *= weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
+      ray_.direction = wo;
+      ++bounces_;
+      passes_ = 0;
+    }
+    ray_.origin = spawn_origin(surface, ray_.direction);
+    if (!is_usable(power_)) {
+      t_.accel.dropped().add(surface.triangle);
+      power_ = Vec3(0);
+    }
+  }
+
+  // f cosθi over the density of wo, as an eye at wo sees light from wi.
+  Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
+    if (sample.delta) return sample.weight;
+    const SurfacePoint seen = surface_at(t_.accel.scene(), hit, -wo);
+    const float pdf = chosen.pdf(wo);
+    return pdf > 0 ? Shading(seen, wo).eval(wi) / pdf : Vec3(0);
+  }
+
+  bool survive() {
+    if (bounces_ < t_.options.roulette_from) return true;
+    const float q = std::min(1.0f, max_component(power_) / full_);
+    if (sampler_.next1() >= q) return false;
+    power_ /= q;
+    return true;
+  }
+
+  const Transport& t_;
+  const Atlas& atlas_;
+  Sampler& sampler_;
+  std::uint64_t& rays_;
+  Ray ray_;
+  Vec3 power_;
+  float full_;
+  int bounces_ = 0, passes_ = 0;
+  Fate fate_;
+};
+
+}  // namespace
+
+Vec3 share_kept(const ShadePoint& point) {
+  Vec3 leaves(0);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 r = reflectance(point, std::sqrt(kCos2[i]));
+    leaves += kWeight[i] * (r + (point.diffuse + point.transmission) * (1 - max_component(r)));
+  }
+  return point.coverage * glm::max(Vec3(0), 1.0f - leaves);
+}
+
+Fate follow(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler,
+            std::uint64_t& rays) {
+  return Walk(transport, atlas, particle, sampler, rays).run(particle.from_afar);
+}
+
+}  // namespace oriel

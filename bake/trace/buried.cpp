@@ -1,0 +1,25 @@
+#include "bake/trace/buried.h"
+
+#include "bake/trace/warp.h"
+
+namespace oriel {
+
+bool is_buried(const Transport& t, const SurfacePoint& surface, std::uint64_t seed, std::uint64_t stream,
+               std::uint32_t sample, std::uint64_t& rays) {
+  const Scene& scene = t.accel.scene();
+  Sampler sampler(seed + 0x5eed, stream, sample);
+  const Mat3 frame = frame_from_normal(surface.geometric_normal);
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  int missed = 0;
+  for (int probe = 0; probe < 6; ++probe) {
+    const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
+    ++rays;
+    const Hit hit = t.accel.intersect({origin, direction});
+    const bool back = hit && !hit.front &&
+                      !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+    if (!back && (probe == 0 || ++missed > 1)) return false;
+  }
+  return true;
+}
+
+}  // namespace oriel

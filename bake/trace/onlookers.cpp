@@ -1,0 +1,59 @@
+#include "bake/trace/onlookers.h"
+
+#include <algorithm>
+
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kProbes = 12, kEscapes = 2;  // rays, and those that leave a gap by chance, less than which make it one
+constexpr std::size_t kNearest = 16;       // eyes that are asked
+constexpr std::uint64_t kSeed = 0x0e1e5;
+
+}  // namespace
+
+bool Onlookers::in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
+                       std::uint32_t sample, std::uint64_t& rays) const {
+  Sampler sampler(mix64(seed + kSeed), stream, sample);
+  const Mat3 frame = frame_from_normal(surface.geometric_normal);
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  int escaped = 0;
+  for (int probe = 0; probe < kProbes; ++probe) {
+    const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
+    ++rays;
+    if (!accel_.intersect({origin, direction, reach_m}) && ++escaped == kEscapes) return false;
+  }
+  return true;
+}
+
+std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal) const {
+  std::vector<std::pair<float, std::uint32_t>> before;  // squared distance, eye
+  for (std::uint32_t e = 0; e < eyes_.size(); ++e)
+    if (const Vec3 way = eyes_[e] - point; glm::dot(way, normal) > 0) before.emplace_back(glm::dot(way, way), e);
+  const std::size_t count = std::min(before.size(), kNearest);
+  std::partial_sort(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(count), before.end());
+  std::vector<Vec3> eyes;
+  for (std::size_t i = 0; i < count; ++i) eyes.push_back(eyes_[before[i].second]);
+  return eyes;
+}
+
+bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
+                    std::uint32_t sample, Nearest& nearest, std::uint64_t& rays) const {
+  if (eyes_.empty() || !in_gap(surface, reach_m, seed, stream, sample, rays)) return true;
+  return in_sight(spawn_origin(surface, surface.geometric_normal), surface.geometric_normal, nearest, rays);
+}
+
+bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const {
+  if (!nearest) nearest = nearest_to(origin, normal);
+  for (const Vec3& eye : *nearest) {
+    const float distance = glm::distance(eye, origin);
+    if (distance > 0 && glm::dot(eye - origin, normal) <= 0) continue;
+    ++rays;
+    if (!(distance > 0) || max_component(accel_.transmittance({origin, (eye - origin) / distance, distance})) > 0)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace oriel

@@ -1,0 +1,135 @@
+#include "bake/visibility/scene_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kPoints = 2048;            // of each kind
+constexpr double kLow = 1.9, kHigh = 30;           // heights of rooms, m
+constexpr double kFew = 0.02;                      // of the points of one kind, under a roof of that height
+constexpr double kRooms = 0.05;                    // of them in rooms of any height, for these to tell
+constexpr double kWidest = 20;                     // a room is no wider than that many of its heights
+constexpr double kUsualFrom = 1.2, kUsualTo = 40;  // medians that are odd, but may be metres
+
+// Points are drawn in three ways, for no single one is fair to all scenes: evenly over surfaces (a room of a hundred
+// surfaces beside a ground plane of one), over triangles, and over square metres.
+enum Kind : std::uint64_t { kBySurface, kByTriangle, kByArea, kKinds };
+
+class Probe {
+ public:
+  explicit Probe(const Accel& accel) : accel_(accel), scene_(accel.scene()) {
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
+      area_until_.push_back(area_ += triangle_area(scene_, t));
+  }
+
+  struct Found {
+    double height = 0;  // between floor and ceiling; 0: the point is neither
+    Vec3 floor{0};
+    bool room = false;  // with walls
+  };
+
+  // What the k-th point of a kind belongs to, where it faces up or down.
+  Found find(Kind kind, std::uint32_t k) const {
+    Sampler sampler(0x0417, kind, k);
+    const std::uint32_t t = pick(kind, sampler.next2());
+    const float slope = geometric_normal(scene_, t).y;
+    if (std::abs(slope) < 0.9f) return {};
+    const bool two_sided = scene_.materials[scene_.surfaces[scene_.triangle_surface[t]].material].double_sided;
+    const Vec2 at = square_to_triangle(sampler.next2());
+    const float towards = slope > 0 || (two_sided && k % 2 == 0) ? 1.0f : -1.0f;
+    const Vec3 way{0, towards, 0}, start = spawn_origin(scene_, t, at, way);
+    const Hit other = accel_.intersect({start, way});
+    if (!other) return {};
+    const Vec3 end = start + other.distance * way, middle = 0.5f * (start + end);
+    int walls = 0;
+    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+      walls += bool(accel_.intersect({middle, side, static_cast<float>(kWidest) * other.distance}));
+    return {other.distance, towards > 0 ? start : end, walls >= 3};
+  }
+
+ private:
+  std::uint32_t pick(Kind kind, const Vec2& u) const {
+    const auto index = [](float x, std::size_t count) {
+      return static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(x * static_cast<float>(count)), count - 1));
+    };
+    const auto count = static_cast<std::uint32_t>(scene_.triangles.size());
+    if (kind == kBySurface) {
+      const Surface& s = scene_.surfaces[index(u.x, scene_.surfaces.size())];
+      return s.triangle_count > 0 ? s.first_triangle + index(u.y, s.triangle_count) : index(u.y, count);
+    }
+    if (kind == kByTriangle) return index(u.x, count);
+    const auto at = std::upper_bound(area_until_.begin(), area_until_.end(), u.x * area_) - area_until_.begin();
+    return std::min(static_cast<std::uint32_t>(at), count - 1);
+  }
+
+  const Accel& accel_;
+  const Scene& scene_;
+  std::vector<double> area_until_;
+  double area_ = 0;
+};
+
+bool fits_people(double height) {
+  return height >= kLow && height <= kHigh;
+}
+
+// The median, each weighted by its square: a room counts for as much as people see of it, and the many gaps between
+// boards and tiles for next to nothing. Not empty.
+double typical_height(std::vector<double> heights) {
+  std::sort(heights.begin(), heights.end());
+  double sum = 0, run = 0;
+  for (const double h : heights) sum += h * h;
+  const auto middle =
+      std::find_if(heights.begin(), heights.end() - 1, [&](double h) { return (run += h * h) >= sum / 2; });
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<Vec3> roofed_places(const Accel& accel) {
+  const Probe probe(accel);
+  std::vector<Vec3> places;
+  for (const Kind kind : {kBySurface, kByTriangle, kByArea})
+    for (std::uint32_t k = 0; k < kPoints; ++k)
+      if (const Probe::Found found = probe.find(kind, k); fits_people(found.height)) places.push_back(found.floor);
+  return places;
+}
+
+std::optional<double> typical_room_height(const Accel& accel) {
+  const Probe probe(accel);
+  std::vector<double> heights;
+  for (const Kind kind : {kBySurface, kByTriangle, kByArea})
+    for (std::uint32_t k = 0; k < kPoints; ++k)
+      if (const Probe::Found found = probe.find(kind, k); found.room) heights.push_back(found.height);
+  if (heights.size() < kFew * kPoints) return std::nullopt;
+  return typical_height(std::move(heights));
+}
+
+std::optional<UnitGuess> guess_unit(const Accel& accel) {
+  const Probe probe(accel);
+  std::vector<double> heights;  // of rooms
+  bool rooms = false;
+  for (const Kind kind : {kBySurface, kByTriangle, kByArea}) {
+    std::uint32_t people = 0, here = 0;
+    for (std::uint32_t k = 0; k < kPoints; ++k) {
+      const Probe::Found found = probe.find(kind, k);
+      people += fits_people(found.height);
+      if (found.room) heights.push_back(found.height), ++here;
+    }
+    if (people >= kFew * kPoints) return std::nullopt;
+    rooms = rooms || here >= kRooms * kPoints;
+  }
+  if (!rooms) return std::nullopt;
+  const double height = typical_height(std::move(heights));
+  if (height >= kUsualFrom && height <= kUsualTo) return std::nullopt;
+  const double power = std::ceil(std::log10(kLow / height));
+  if (power == 0) return std::nullopt;
+  return UnitGuess{std::pow(10.0, power), height};
+}
+
+}  // namespace oriel

@@ -1,0 +1,121 @@
+// Collects issues. Used by validate's parts only.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "formats/core/parallel.h"
+#include "formats/core/vec.h"
+#include "formats/pack/layout.h"
+#include "formats/pack/validate.h"
+
+namespace oriel {
+
+class IssueList {
+ public:
+  // What is added next is about this section.
+  void in_section(std::uint32_t kind, std::uint64_t nth = 0) { section_ = section_label(kind, nth), kind_ = kind; }
+
+  template <class... Args>
+  void error(int number, fmt::format_string<Args...> format, Args&&... args) {
+    issues.push_back({number, Severity::kError, section_, fmt::format(format, std::forward<Args>(args)...), kind_});
+  }
+  template <class... Args>
+  void warning(int number, fmt::format_string<Args...> format, Args&&... args) {
+    issues.push_back({number, Severity::kWarning, section_, fmt::format(format, std::forward<Args>(args)...), kind_});
+  }
+  // One error for all elements that are not good: "3 of 120 vertices: the first is 7, found …, expected …".
+  template <class Element, class Good, class Text>
+  void each(int number, const char* elements, const std::vector<Element>& values, const Good& good, const Text& found,
+            const char* expected) {
+    std::size_t bad = 0, first = 0;
+    for (const Element& value : values) bad += !good(value);
+    if (bad == 0) return;
+    while (good(values[first])) ++first;
+    error(number, "{} of {} {}: the first is number {}, found {}, expected {}", bad, values.size(), elements, first,
+          found(values[first]), expected);
+  }
+
+  // check(i, list) for i below count, side by side where there is much to look at; issues come by i.
+  void side_by_side(std::size_t count, bool much, const std::function<void(std::size_t, IssueList&)>& check) {
+    std::vector<IssueList> parts(much ? count : 0);
+    for_each_parallel(parts.size(), core_count(), [&](std::size_t i) { check(i, parts[i]); });
+    for (const IssueList& part : parts) issues.insert(issues.end(), part.issues.begin(), part.issues.end());
+    for (std::size_t i = 0; !much && i < count; ++i) check(i, *this);
+  }
+
+  std::vector<Issue> issues;
+
+ private:
+  std::string section_;
+  std::uint32_t kind_ = 0;
+};
+
+inline std::string text_of(float v) {
+  return fmt::format("{}", v);
+}
+inline std::string text_of(const Vec2& v) {
+  return fmt::format("({}, {})", v.x, v.y);
+}
+inline std::string text_of(const Vec3& v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+
+inline bool is_finite(const Vec2& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+// Comparisons with NaN are false, so NaN is never within.
+inline bool within(float v, float low, float high) {
+  return static_cast<int>(v >= low) & static_cast<int>(v <= high);
+}
+inline bool within(const Vec3& v, float low, float high) {
+  return within(v.x, low, high) && within(v.y, low, high) && within(v.z, low, high);
+}
+inline bool not_negative(float v) {
+  return within(v, 0, std::numeric_limits<float>::max());
+}
+// Without branches: whole maps are asked.
+inline bool not_negative(const Vec3& v) {
+  return static_cast<int>(not_negative(v.x)) & static_cast<int>(not_negative(v.y)) &
+         static_cast<int>(not_negative(v.z));
+}
+
+// The parts of validate(), by section.
+void validate_mesh(const Pack& pack, IssueList& list);
+// The pack's own mesh or a mover's, in the section that the list is in.
+void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list);
+void validate_movers(const Pack& pack, IssueList& list);
+void validate_light_field(const Pack& pack, IssueList& list);
+void validate_materials(const Pack& pack, IssueList& list);
+void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
+void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);
+void validate_reflectors(const Pack& pack, IssueList& list);
+void validate_radiance_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
+// Of one image, in the section that the list is in.
+void validate_pixels(const Texture& texture, IssueList& list);
+void validate_pixels(const LightmapPage& page, IssueList& list);
+// Of a page of that size: that each lies in its image of details.
+void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, const IVec2& details, IssueList& list);
+void validate_pixels(const RadianceMap& map, IssueList& list);
+void validate_pixels(const SurroundMap& map, IssueList& list);
+void validate_elements(const Pack& pack, IssueList& list);
+void validate_curved_reflectors(const Pack& pack, IssueList& list);
+void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
+void validate_kernels(const Pack& pack, IssueList& list);
+void validate_fresnel_maps(const Pack& pack, IssueList& list);
+void validate_split_reflectance(const Pack& pack, IssueList& list);
+void validate_emitters(const Pack& pack, IssueList& list);
+void validate_kernel_fits(const Pack& pack, IssueList& list);
+void validate_walk_grids(const Pack& pack, IssueList& list);
+void validate_visible_sets(const Pack& pack, IssueList& list);
+void validate_reflected_sets(const Pack& pack, IssueList& list);
+void validate_cameras(const Pack& pack, IssueList& list);
+void validate_texts(const Pack& pack, IssueList& list);
+void validate_unknown(const Pack& pack, IssueList& list);
+
+}  // namespace oriel

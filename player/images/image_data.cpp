@@ -1,0 +1,179 @@
+#include "player/images/image_data.h"
+
+#include <cmath>
+
+#include "formats/core/color.h"
+#include "player/images/cutout_mips.h"
+#include "player/images/mean_mips.h"
+
+namespace oriel {
+namespace {
+
+// Without it floors and long walls lose their pattern a few metres away: a pixel sees much more along than across.
+constexpr float kAnisotropy = 8;
+
+GLenum gl_wrap(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::kRepeat:
+      return GL_REPEAT;
+    case Wrap::kClamp:
+      return GL_CLAMP_TO_EDGE;
+    case Wrap::kMirror:
+      return GL_MIRRORED_REPEAT;
+  }
+  return GL_REPEAT;
+}
+
+TextureData mipmapped(const Texture& texture, const gpu::TextureFormat& format,
+                      std::vector<std::vector<std::uint8_t>> levels, int coarser) {
+  const auto left_out = static_cast<std::size_t>(std::min(coarser, static_cast<int>(levels.size()) - 1));
+  TextureData out;
+  out.format = format;
+  out.width = std::max(1, static_cast<int>(texture.width) >> left_out);
+  out.height = std::max(1, static_cast<int>(texture.height) >> left_out);
+  out.options.levels = static_cast<int>(levels.size() - left_out);
+  out.options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  out.options.mag_filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
+  if (!texture.nearest) out.options.anisotropy = kAnisotropy;
+  out.options.wrap_s = gl_wrap(texture.wrap_s);
+  out.options.wrap_t = gl_wrap(texture.wrap_t);
+  for (std::size_t i = left_out; i < levels.size(); ++i) {
+    const int level = static_cast<int>(i - left_out);
+    out.add(level, 0, 0, std::max(1, out.width >> level), std::max(1, out.height >> level), std::move(levels[i]));
+  }
+  return out;
+}
+
+// The texture's alpha that a material's cutoff asks for; 0: it is blended; nothing: all of the texture is shown. The
+// first of several with cutoffs counts.
+std::optional<float> cutoff_in_texture(std::span<const Material> used_by) {
+  std::optional<float> out;
+  for (const Material& m : used_by) {
+    if (m.alpha_mode == AlphaMode::kOpaque) return std::nullopt;
+    if (m.alpha_mode == AlphaMode::kBlend) {
+      out = out.value_or(0.0f);
+    } else if (!out || *out <= 0) {
+      if (!(m.alpha_cutoff > 0)) return std::nullopt;  // all of it passes
+      out = m.alpha > 0 ? m.alpha_cutoff / m.alpha : 2.0f;
+    }
+  }
+  return out;
+}
+
+Vec3 floats_of(const Half4& h) {
+  return {float_from_half(h[0]), float_from_half(h[1]), float_from_half(h[2])};
+}
+
+// Texels of half a page: means of those of the four that have light, and of the directions of the same ones.
+void halve(HalfPage& page) {
+  const std::uint32_t width = std::max(page.width / 2, 1u), height = std::max(page.height / 2, 1u);
+  std::vector<Half4> light, direction;
+  light.reserve(std::size_t{width} * height);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      Vec3 sum(0), towards(0);
+      float count = 0;
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t row = std::min(y * page.height / height + (k >> 1), page.height - 1);
+        const std::uint32_t column = std::min(x * page.width / width + (k & 1), page.width - 1);
+        const std::size_t at = std::size_t{row} * page.width + column;
+        const Vec3 texel = floats_of(page.light[at]);
+        if (!(max_component(texel) > 0)) continue;
+        sum += texel;
+        if (!page.direction.empty()) towards += floats_of(page.direction[at]);
+        count += 1;
+      }
+      const float share = count > 0 ? 1 / count : 0;
+      light.push_back(halves_of(sum, share));
+      if (!page.direction.empty()) direction.push_back(halves_of(towards, share));
+    }
+  page.width = width;
+  page.height = height;
+  page.cell.clear(), page.detail.clear();  // of cells that are no more
+  page.light = std::move(light);
+  page.direction = std::move(direction);
+}
+
+TextureData half_floats(std::uint32_t width, std::uint32_t height, std::vector<Half4> texels) {
+  TextureData out;
+  out.format = gpu::kRgba16f;
+  out.width = static_cast<int>(width);
+  out.height = static_cast<int>(height);
+  out.options.min_filter = out.options.mag_filter = GL_LINEAR;
+  out.add(0, 0, 0, out.width, out.height, std::move(texels));
+  return out;
+}
+
+}  // namespace
+
+TextureData normal_texture_data(const Texture& texture, int coarser) {
+  return mipmapped(texture, gpu::kRgba8, mean_mips(texture, Encoding::kLinear), coarser);
+}
+
+TextureData color_texture_data(const Texture& texture, std::span<const Material> used_by, int coarser) {
+  const std::optional<float> cutoff = cutoff_in_texture(used_by);
+  bool opaque = true;
+  for (std::size_t i = 3; i < texture.texels.size(); i += 4) opaque = opaque && texture.texels[i] == 255;
+  return mipmapped(texture, gpu::kSrgbAlpha8,
+                   !cutoff || opaque ? mean_mips(texture, Encoding::kSrgb) : cutout_mips(texture, *cutoff), coarser);
+}
+
+HalfPage half_page(const LightmapPage& page) {
+  HalfPage out{page.width, page.height, 0, {}, halves_of(page.direction)};
+  float brightest = 0;
+  for (const std::vector<Vec3>* light : {&page.irradiance, &page.detail})
+    for (const Vec3& e : *light)
+      if (is_finite(e)) brightest = std::max(brightest, max_component(e));
+  if (brightest > 0) out.scale = std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120));
+  const float inverse = out.scale > 0 ? 1 / out.scale : 0.0f;
+  out.light.reserve(page.irradiance.size());
+  for (const Vec3& e : page.irradiance) out.light.push_back(halves_of(e, inverse));
+  out.cell = page.cell, out.detail_width = page.detail_width, out.detail_height = page.detail_height;
+  for (const Vec3& e : page.detail) out.detail.push_back(halves_of(e, inverse));
+  return out;
+}
+
+LightData light_data(HalfPage page, int coarser) {
+  for (; coarser > 0 && (page.width > 1 || page.height > 1); --coarser) halve(page);
+  LightData out;
+  out.scale = page.scale;
+  double sum = 0, count = 0;
+  constexpr std::size_t kSome = 4096;  // a mean of some is as good
+  for (std::size_t i = 0; i < page.light.size(); i += std::max<std::size_t>(page.light.size() / kSome, 1)) {
+    const float lux = luminance(floats_of(page.light[i])) * page.scale;
+    if (lux > 0) sum += static_cast<double>(lux), count += 1;
+  }
+  if (count > 0) out.mean_lux = static_cast<float>(sum / count);
+  if (!page.direction.empty()) out.direction = half_floats(page.width, page.height, std::move(page.direction));
+  if (!page.detail.empty()) {
+    out.detail = half_floats(page.detail_width, page.detail_height, std::move(page.detail));
+    TextureData cells;
+    cells.format = gpu::kR32ui;
+    cells.width = static_cast<int>(page.width), cells.height = static_cast<int>(page.height);
+    cells.add(0, 0, 0, cells.width, cells.height, std::move(page.cell));
+    out.cells = std::move(cells);
+  }
+  out.light = half_floats(page.width, page.height, std::move(page.light));
+  return out;
+}
+
+std::size_t mipmapped_bytes(const IVec2& size, int coarser) {
+  TextureData shape;
+  shape.width = std::max(1, size.x >> coarser);
+  shape.height = std::max(1, size.y >> coarser);
+  shape.options.levels = gpu::mip_levels(shape.width, shape.height);
+  return shape.bytes();
+}
+
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser) {
+  TextureData shape;
+  shape.format = gpu::kRgba16f;
+  shape.width = std::max(1, size.x >> coarser);
+  shape.height = std::max(1, size.y >> coarser);
+  const std::size_t plain = shape.bytes() * (directional ? 2 : 1);
+  if (coarser > 0 || detail.x == 0) return plain;
+  return plain + shape.bytes() / 2 +
+         std::size_t{8} * static_cast<std::size_t>(detail.x) * static_cast<std::size_t>(detail.y);
+}
+
+}  // namespace oriel

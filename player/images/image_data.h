@@ -1,0 +1,41 @@
+// The pack's images as textures. Each can leave out its finest levels: `coarser` 1 has half the texels a side, 2 a
+// quarter, and so on, down to 1 x 1.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "formats/assets/lightmap.h"
+#include "formats/assets/material.h"
+#include "formats/pack/half_page.h"
+#include "player/images/texture_data.h"
+
+namespace oriel {
+
+// With mipmaps.
+TextureData normal_texture_data(const Texture& texture, int coarser = 0);
+// The same. Where all materials that use it cut parts of it away or blend it, these parts take no share in the colours
+// of coarser levels (cutout_mips).
+TextureData color_texture_data(const Texture& texture, std::span<const Material> used_by, int coarser = 0);
+
+// Half floats of irradiance / scale; scale puts the brightest texel in [16384, 32768), so that the relative error stays
+// 2^-11 down to a billionth of it. 0: the page is black.
+HalfPage half_page(const LightmapPage& page);
+// Without mipmaps. A coarser page is means over texels, those without light apart: charts that lie beside each other
+// bleed.
+struct LightData {
+  TextureData light;
+  std::optional<TextureData> direction;  // of a directional lightmap
+  // Of a page with finer cells, not of a coarser one: LightmapPage::cell as it is, and detail as the light is.
+  std::optional<TextureData> cells, detail;
+  float scale = 0;
+  float mean_lux = 0;  // luminance over what has light; 0: nothing has
+};
+LightData light_data(HalfPage page, int coarser = 0);
+
+// On the device, without the data: of a texture with mipmaps, of a page of light.
+std::size_t mipmapped_bytes(const IVec2& size, int coarser);
+// detail: points of its finer cells' image.
+std::size_t light_page_bytes(const IVec2& size, const IVec2& detail, bool directional, int coarser);
+
+}  // namespace oriel

@@ -1,0 +1,219 @@
+#include "player/images/image_source.h"
+
+#include <new>
+
+#include "formats/core/parallel.h"
+
+namespace oriel {
+namespace {
+
+// Coarser ones serve nobody.
+constexpr int kCoarsest = 5, kCoarsestMap = 2;
+
+// Sums over maps that come one after the other.
+class MeansOfMaps {
+ public:
+  void add(const RadianceMap& map) {
+    for (std::size_t i = 0; i < map.radiance.size(); ++i) {
+      if (map.valid[i] == 0 || !is_finite(map.radiance[i])) continue;
+      radiance_ += DVec3(map.radiance[i]);
+      count_ += 1;
+      if (map.valid[i] == 2 || !(map.disparity[i] > 0)) continue;
+      const Vec2 share((static_cast<float>(i % map.width) + 0.5f) / static_cast<float>(map.width),
+                       (static_cast<float>(i / map.width) + 0.5f) / static_cast<float>(map.height));
+      const Vec3 to_plane = Vec3(glm::mix(map.lower, map.upper, share), 0) - map.eye;
+      distance_ += double{glm::length(to_plane)} * (1 / double{map.disparity[i]} - 1);
+      surfaces_ += 1;
+    }
+  }
+  MapMeans means() const {
+    MapMeans out;
+    if (count_ > 0) out.radiance = Vec3(radiance_ / count_);
+    if (surfaces_ > 0) out.distance = static_cast<float>(distance_ / surfaces_);
+    return out;
+  }
+
+ private:
+  DVec3 radiance_{0};
+  double count_ = 0, distance_ = 0, surfaces_ = 0;
+};
+
+template <class Image>
+IVec2 size_of(const Image& image) {
+  return {static_cast<int>(image.width), static_cast<int>(image.height)};
+}
+
+IVec2 coarser_size(const IVec2& size, int coarser) {
+  return glm::max(size >> coarser, IVec2(1));
+}
+
+}  // namespace
+
+std::size_t PreparedImage::bytes() const {
+  std::size_t sum = 0;
+  for (const TextureData& data : textures) sum += data.bytes();
+  return sum;
+}
+
+ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
+                         std::vector<std::vector<ReflectorElement>> elements)
+    : pack_(deferred ? nullptr : &pack),
+      deferred_(std::move(deferred)),
+      elements_(std::move(elements)),
+      users_(pack.textures.size()) {
+  for (const Material& m : pack.materials)
+    if (m.base_color_texture >= 0) users_[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
+  for (const Texture& texture : pack.textures) textures_.push_back(size_of(texture));
+  for (const Texture& texture : pack.normal_textures) normal_textures_.push_back(size_of(texture));
+  for (const LightmapPage& page : pack.lightmaps) {
+    pages_.push_back(size_of(page));
+    details_.emplace_back(page.detail_width, page.detail_height);
+  }
+  for (std::size_t i = 0; i < pack.lightmaps.size(); ++i)
+    directional_.push_back(deferred_ ? deferred_->directional(i) : !pack.lightmaps[i].direction.empty());
+  for (const RadianceMap& map : pack.radiance_maps) maps_.push_back(size_of(map));
+  for (const SurroundMap& map : pack.surround_maps) surrounds_.push_back(map.size);
+}
+
+std::array<std::size_t, 5> ImageSource::counts() const {
+  return {textures_.size(), normal_textures_.size(), pages_.size(), elements_.size(), surrounds_.size()};
+}
+
+int ImageSource::coarsest(const ImageName& name) const {
+  const auto halves = [](const IVec2& size, int most) { return std::min(gpu::mip_levels(size.x, size.y) - 1, most); };
+  switch (name.kind) {
+    case ImageKind::kColor:
+      return halves(textures_[name.index], kCoarsest);
+    case ImageKind::kNormal:
+      return halves(normal_textures_[name.index], kCoarsest);
+    case ImageKind::kLight:
+      return halves(pages_[name.index], kCoarsest);
+    case ImageKind::kMaps:
+      return kCoarsestMap;
+    case ImageKind::kSurround:
+      return 0;
+  }
+  return 0;
+}
+
+std::size_t ImageSource::bytes(const ImageName& name, int coarser) const {
+  switch (name.kind) {
+    case ImageKind::kColor:
+      return mipmapped_bytes(textures_[name.index], coarser);
+    case ImageKind::kNormal:
+      return mipmapped_bytes(normal_textures_[name.index], coarser);
+    case ImageKind::kLight:
+      return light_page_bytes(pages_[name.index], details_[name.index], directional_[name.index], coarser);
+    case ImageKind::kMaps: {
+      std::size_t sum = 0;
+      for (const ReflectorElement& element : elements_[name.index]) {
+        std::vector<IVec2> sizes;
+        for (const std::uint32_t map : element.maps) sizes.push_back(coarser_size(maps_[map], coarser));
+        sum += map_array_bytes(sizes);
+      }
+      return sum;
+    }
+    case ImageKind::kSurround:
+      return surround_bytes(surrounds_[name.index]);
+  }
+  return 0;
+}
+
+Result<PreparedImage> ImageSource::prepare(const ImageName& name, int coarser) const {
+  try {
+    return make(name, coarser);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, "images", "there is not enough memory for the next one");
+  }
+}
+
+Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) const {
+  PreparedImage out;
+  switch (name.kind) {
+    case ImageKind::kColor: {
+      if (deferred_) {
+        ORIEL_TRY(out.texture, deferred_->texture(name.index));
+      }
+      out.textures.push_back(
+          color_texture_data(deferred_ ? out.texture : pack_->textures[name.index], users_[name.index], coarser));
+      return out;
+    }
+    case ImageKind::kNormal: {
+      Texture deferred;
+      if (deferred_) {
+        ORIEL_TRY(deferred, deferred_->normal_texture(name.index));
+      }
+      out.textures.push_back(normal_texture_data(deferred_ ? deferred : pack_->normal_textures[name.index], coarser));
+      return out;
+    }
+    case ImageKind::kLight: {
+      ORIEL_TRY(HalfPage page,
+                deferred_ ? deferred_->light(name.index) : Result<HalfPage>(half_page(pack_->lightmaps[name.index])));
+      LightData data = light_data(std::move(page), coarser);
+      out.textures.push_back(std::move(data.light));
+      out.directional = data.direction.has_value();
+      if (data.direction) out.textures.push_back(std::move(*data.direction));
+      if (data.detail) {
+        out.textures.push_back(std::move(*data.cells));
+        out.textures.push_back(std::move(*data.detail));
+      }
+      out.scale = data.scale;
+      out.mean_lux = data.mean_lux;
+      return out;
+    }
+    case ImageKind::kMaps:
+      return make_maps(name.index, coarser);
+    case ImageKind::kSurround: {
+      ORIEL_TRY(const SurroundMap map, deferred_ ? deferred_->surround_map(name.index)
+                                                 : Result<SurroundMap>(pack_->surround_maps[name.index]));
+      SurroundData data = surround_data(map);
+      out.textures.push_back(std::move(data.light));
+      out.textures.push_back(std::move(data.inverse_distance));
+      out.surround = std::move(data.place);
+      return out;
+    }
+  }
+  return out;
+}
+
+Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser) const {
+  PreparedImage out;
+  MeansOfMaps means;
+  for (const ReflectorElement& element : elements_[reflector]) {
+    std::vector<RadianceMap> maps(element.maps.size());
+    std::vector<Status> loaded(maps.size());
+    for_each_parallel(maps.size(), core_count(), [&](std::size_t m) {
+      if (*abandoned_) {
+        loaded[m] = fail(ErrorCode::kStopped, "images", "nobody waits for them any more");
+        return;
+      }
+      Result<RadianceMap> map = radiance_map(element.maps[m]);
+      if (map)
+        maps[m] = std::move(*map);
+      else
+        loaded[m] = tl::unexpected<Error>(std::move(map).error());
+    });
+    for (const Status& status : loaded) ORIEL_TRY_VOID(status);
+    std::vector<const RadianceMap*> layers;
+    std::vector<IVec2> sizes;
+    for (RadianceMap& map : maps) {
+      means.add(map);
+      if (coarser > 0) map = coarser_map(map, coarser);
+      layers.push_back(&map);
+      sizes.push_back(size_of(map));
+    }
+    MapArrayData data = MapArrayData::make(layers);
+    for (TextureData* part : {&data.light, &data.disparity, &data.ranges}) out.textures.push_back(std::move(*part));
+    out.map_scales.push_back(std::move(data.scale));
+    out.map_sizes.push_back(std::move(sizes));
+  }
+  out.means = means.means();
+  return out;
+}
+
+Result<RadianceMap> ImageSource::radiance_map(std::uint32_t index) const {
+  if (deferred_) return deferred_->radiance_map(index);
+  return pack_->radiance_maps[index];
+}
+
+}  // namespace oriel

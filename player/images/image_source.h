@@ -1,0 +1,75 @@
+// Images of a pack, made ready for the device in any thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+
+#include "formats/pack/deferred.h"
+#include "player/images/image_data.h"
+#include "player/images/map_array.h"
+#include "player/images/map_choice.h"
+#include "player/images/surround_pyramid.h"
+
+namespace oriel {
+
+enum class ImageKind { kColor, kNormal, kLight, kMaps, kSurround };
+
+// index: into Pack::textures, normal_textures, lightmaps, reflectors (all maps of one) and surround_maps.
+struct ImageName {
+  ImageKind kind = ImageKind::kColor;
+  std::uint32_t index = 0;
+};
+
+// Over the pixels of a reflector's maps.
+struct MapMeans {
+  Vec3 radiance{0};    // shown where none of them has anything
+  float distance = 0;  // from the plane to what they show, metres; the sky does not count
+};
+
+struct PreparedImage {
+  std::vector<TextureData>
+      textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
+  float scale = 0, mean_lux = 0;               // of light
+  bool directional = false;                    // likewise
+  std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
+  std::vector<std::vector<IVec2>> map_sizes;
+  MapMeans means;
+  SurroundTextures surround;  // without its textures
+  Texture texture;            // of colours that were deferred, as in the pack
+
+  std::size_t bytes() const;  // on the device
+};
+
+class ImageSource {
+ public:
+  // elements: by reflector. What is not deferred lies in `pack`, which then stays as it is.
+  ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
+              std::vector<std::vector<ReflectorElement>> elements);
+
+  // coarser: halvings of the texels a side, up to coarsest(). Errors of DeferredImages; kRuntime without memory.
+  Result<PreparedImage> prepare(const ImageName& name, int coarser) const;
+  int coarsest(const ImageName& name) const;
+  std::size_t bytes(const ImageName& name, int coarser) const;
+
+  // What is being prepared in other threads ends soon, with kStopped.
+  void abandon() { *abandoned_ = true; }
+
+  Result<RadianceMap> radiance_map(std::uint32_t index) const;
+  const DeferredImages* deferred() const { return deferred_.get(); }
+  std::array<std::size_t, 5> counts() const;  // by ImageKind
+
+ private:
+  Result<PreparedImage> make(const ImageName& name, int coarser) const;
+  Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;
+  const Pack* pack_ = nullptr;  // null where images are deferred
+  std::shared_ptr<const DeferredImages> deferred_;
+  std::vector<std::vector<ReflectorElement>> elements_;
+  std::vector<std::vector<Material>> users_;  // by texture
+  std::vector<IVec2> textures_, normal_textures_, pages_, details_, maps_;
+  std::vector<bool> directional_;  // by page
+  std::vector<std::uint32_t> surrounds_;
+  std::unique_ptr<std::atomic<bool>> abandoned_ = std::make_unique<std::atomic<bool>>(false);
+};
+
+}  // namespace oriel

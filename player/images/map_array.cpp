@@ -1,0 +1,126 @@
+#include "player/images/map_array.h"
+
+#include <algorithm>
+
+#include "formats/core/parallel.h"
+
+namespace oriel {
+
+namespace {
+
+// Arrays without pixels.
+MapArrayData shape_of(const IVec2& size, int layers) {
+  Relief largest;
+  largest.size = size;
+  const IVec2 range_size = largest.range_size(1);
+  const auto shape = [&](const gpu::TextureFormat& format, const IVec2& extent) {
+    TextureData data;
+    data.format = format;
+    data.width = extent.x;
+    data.height = extent.y;
+    data.layers = layers;
+    return data;
+  };
+  MapArrayData out{
+      shape(gpu::kRgb9e5, size), shape(gpu::kR32f, size), shape(gpu::kRg32f, {range_size.x, 2 * range_size.y}), {}};
+  for (TextureData* filtered : {&out.disparity, &out.light})
+    filtered->options.min_filter = filtered->options.mag_filter = GL_LINEAR;
+  out.light.options.levels = gpu::mip_levels(size.x, size.y);
+  out.light.options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
+  return out;
+}
+
+}  // namespace
+
+MapArrayData MapArrayData::make(std::span<const RadianceMap* const> maps) {
+  IVec2 size(1);
+  for (const RadianceMap* map : maps)
+    size = glm::max(size, IVec2(static_cast<int>(map->width), static_cast<int>(map->height)));
+  MapArrayData out = shape_of(size, static_cast<int>(maps.size()));
+  struct Layer {
+    Relief relief;
+    LightLevels levels;
+  };
+  std::vector<Layer> made(maps.size());
+  // A map takes a few hundred bytes a pixel meanwhile: not too many at once.
+  for_each_parallel(made.size(), std::min<std::size_t>(core_count(), 4), [&](std::size_t layer) {
+    made[layer] = {make_relief(*maps[layer]), make_light_levels(*maps[layer])};
+  });
+  for (int layer = 0; layer < out.light.layers; ++layer) {
+    auto [relief, levels] = std::move(made[static_cast<std::size_t>(layer)]);
+    const IVec2 of_map = relief.size;
+    for (int level = 1; level <= kRangeLevels; ++level) {
+      const IVec2 cells = relief.range_size(level);
+      const int row = out.ranges.height - (2 * out.ranges.height >> level);
+      out.ranges.add(0, layer, row, cells.x, cells.y, std::move(relief.ranges[static_cast<std::size_t>(level - 1)]));
+    }
+    out.disparity.add(0, layer, 0, of_map.x, of_map.y, std::move(relief.disparity));
+    for (int level = 0; of_map != size && level < out.light.options.levels;
+         ++level) {  // filters may touch what is beside it
+      const int w = std::max(size.x >> level, 1), h = std::max(size.y >> level, 1);
+      out.light.add(level, layer, 0, w, h,
+                    std::vector<std::uint32_t>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)));
+    }
+    for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level)
+      out.light.add(static_cast<int>(level), layer, 0, std::max(of_map.x >> level, 1), std::max(of_map.y >> level, 1),
+                    std::move(levels.rgb9e5[level]));
+    out.scale.push_back(levels.scale);
+  }
+  return out;
+}
+
+std::size_t map_array_bytes(std::span<const IVec2> sizes) {
+  IVec2 size(1);
+  for (const IVec2& of_map : sizes) size = glm::max(size, of_map);
+  const MapArrayData shape = shape_of(size, static_cast<int>(sizes.size()));
+  return shape.light.bytes() + shape.disparity.bytes() + shape.ranges.bytes();
+}
+
+MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices) {
+  std::vector<const RadianceMap*> layers;
+  std::vector<IVec2> sizes;
+  for (const std::uint32_t index : indices) {
+    layers.push_back(&maps[index]);
+    sizes.emplace_back(static_cast<int>(maps[index].width), static_cast<int>(maps[index].height));
+  }
+  MapArrayData data = MapArrayData::make(layers);
+  return {upload_array(std::move(data.light)), upload_array(std::move(data.disparity)),
+          upload_array(std::move(data.ranges)), std::move(data.scale), std::move(sizes)};
+}
+
+TextureData map_points_data(const RadianceMap& map) {
+  std::vector<Vec4> texels(map.radiance.size());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const bool usable =
+        map.valid[i] != 0 && is_finite(map.radiance[i]) && map.disparity[i] >= 0 && map.disparity[i] <= 1;
+    texels[i] = usable ? Vec4(map.radiance[i], map.valid[i] == 2 ? 0.0f : map.disparity[i]) : Vec4(0, 0, 0, -1);
+  }
+  TextureData out;
+  out.format = gpu::kRgba32f;
+  out.width = static_cast<int>(map.width);
+  out.height = static_cast<int>(map.height);
+  out.add(0, 0, 0, out.width, out.height, std::move(texels));
+  return out;
+}
+
+RadianceMap coarser_map(const RadianceMap& map, int coarser) {
+  RadianceMap out = map;
+  if (coarser < 1) return out;
+  out.width = std::max(map.width >> coarser, 1u);
+  out.height = std::max(map.height >> coarser, 1u);
+  out.radiance.clear();
+  out.disparity.clear();
+  out.valid.clear();
+  for (std::uint32_t y = 0; y < out.height; ++y)
+    for (std::uint32_t x = 0; x < out.width; ++x) {
+      // The pixel in the square's middle.
+      const std::size_t at = std::size_t{(2 * y + 1) * map.height / (2 * out.height)} * map.width +
+                             (2 * x + 1) * map.width / (2 * out.width);
+      out.radiance.push_back(map.radiance[at]);
+      out.disparity.push_back(map.disparity[at]);
+      out.valid.push_back(map.valid[at]);
+    }
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,39 @@
+// The maps of a reflector element on the GPU, as shaders/lib/march.glsl reads them: a layer each.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "player/images/relief.h"
+#include "player/images/texture_data.h"
+
+namespace oriel {
+
+// Before it is uploaded.
+struct MapArrayData {
+  TextureData light, disparity, ranges;
+  std::vector<float> scale;  // of each layer's light
+  // Layer i is maps[i]; smaller ones lie in the lower left corner.
+  static MapArrayData make(std::span<const RadianceMap* const> maps);
+};
+// On the device, of maps of these sizes.
+std::size_t map_array_bytes(std::span<const IVec2> sizes);
+
+struct MapArray {
+  // Disparity stays in 32 bits: half floats are decoded in software on CPUs, and a quarter of the memory is light.
+  gpu::TextureArray light, disparity, ranges;
+  std::vector<float> scale;
+  std::vector<IVec2> sizes;  // of the layers' maps, pixels
+
+  // Layer i is maps[indices[i]].
+  static MapArray upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices);
+};
+
+// A map as points, float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.
+TextureData map_points_data(const RadianceMap& map);
+
+// A map of a 2^coarser'th of the pixels a side, rounded down: of each square of pixels one, so that light and disparity
+// belong together.
+RadianceMap coarser_map(const RadianceMap& map, int coarser);
+
+}  // namespace oriel

@@ -1,0 +1,88 @@
+#include "player/images/map_choice.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace oriel {
+namespace {
+
+constexpr double kLeastCost = 1e-3;  // radians, or shares of the distance: as good as the eye's own image
+
+// Pixels of a map per radian, seen straight.
+double resolution(const RadianceMap& map) {
+  return -map.eye.z *
+         std::max(map.width / (double{map.upper.x} - map.lower.x), map.height / (double{map.upper.y} - map.lower.y));
+}
+
+double angle_between(const DVec3& a, const DVec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+struct Ranked {
+  bool residual;
+  double cost;
+  std::uint32_t map;
+  bool operator<(const Ranked& other) const {
+    return std::tie(residual, cost, map) < std::tie(other.residual, other.cost, other.map);
+  }
+};
+
+}  // namespace
+
+std::vector<ReflectorElement> group_by_element(const Reflector& reflector, std::span<const RadianceMap> maps) {
+  std::vector<ReflectorElement> elements;
+  std::map<std::uint32_t, std::size_t> by_number;
+  for (std::uint32_t i = 0; i < reflector.map_count; ++i) {
+    const std::uint32_t index = reflector.first_map + i;
+    const RadianceMap& map = maps[index];
+    const auto [element, is_new] = by_number.try_emplace(map.element, elements.size());
+    if (is_new) elements.push_back({map.lower, map.upper, {}});
+    elements[element->second].maps.push_back(index);
+  }
+  return elements;
+}
+
+std::vector<WeighedMap> weigh_maps(const ReflectorElement& element, std::span<const RadianceMap> maps,
+                                   const Vec4& mirrored_eye, int count, Selection selection) {
+  const DVec3 center(0.5 * (DVec2(element.lower) + DVec2(element.upper)), 0.0);
+  const DVec3 eye(mirrored_eye);
+  const DVec3 towards = mirrored_eye.w > 0 ? eye - center : eye;
+  std::vector<Ranked> ranked;
+  double finest = 0;
+  for (std::uint32_t i = 0; i < element.maps.size(); ++i) {
+    const RadianceMap& map = maps[element.maps[i]];
+    const DVec3 map_eye(map.eye);
+    const bool by_angle = selection == Selection::kAngle || !(mirrored_eye.w > 0);
+    const double cost = by_angle ? angle_between(map_eye - center, towards)
+                                 : glm::length(map_eye - eye) / std::max(glm::length(towards), 1e-30);
+    ranked.push_back({map.residual, cost, i});
+    if (!map.residual) finest = std::max(finest, resolution(map));
+  }
+  std::sort(ranked.begin(), ranked.end());
+  const auto whole = static_cast<std::size_t>(
+      std::count_if(ranked.begin(), ranked.end(), [](const Ranked& r) { return !r.residual; }));
+  const std::size_t weighed = std::min(static_cast<std::size_t>(std::max(count, 0)), whole);
+  double end = 0;  // the cost at which weights are 0
+  if (weighed > 0) end = weighed < whole ? ranked[weighed].cost : 2 * ranked[weighed - 1].cost;
+  end = std::max(end, 2 * kLeastCost);
+  std::vector<WeighedMap> out;
+  double sum = 0;
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    double weight = 0;
+    if (i < weighed) {
+      const double near = std::max(1 - ranked[i].cost / end, 0.0) / std::max(ranked[i].cost, kLeastCost);
+      weight = near * resolution(maps[element.maps[ranked[i].map]]) / std::max(finest, 1e-30);
+    }
+    sum += weight;
+    out.push_back({ranked[i].map, static_cast<float>(weight)});
+  }
+  if (weighed > 0 && !(sum > 0)) {  // the first ones cost the same as the next
+    for (std::size_t i = 0; i < weighed; ++i) out[i].weight = 1;
+    sum = static_cast<double>(weighed);
+  }
+  for (WeighedMap& map : out) map.weight = sum > 0 ? static_cast<float>(map.weight / sum) : 0.0f;
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,37 @@
+// Draws surfaces in the colours of survey_colors, charts, zone_mesh.
+#pragma once
+
+#include "player/gpu/program.h"
+#include "player/navigation/view.h"
+#include "player/navigation/zone.h"
+#include "player/scene/frame_options.h"
+#include "player/scene/gpu_scene.h"
+
+namespace oriel {
+
+class SurveyPass {
+ public:
+  static Result<SurveyPass> create(gpu::Dialect dialect);
+
+  // Opaque surfaces, what of them is shown, over their depth, in the colours of `show`; those without a lightmap are
+  // grey, and those whose page has not come yet. kOverdraw: all of them, whatever lies before them, added to what is
+  // black. kZones: plain, with the zone's tiles over them. Colours are kept until another `show` or scene is asked for.
+  // Errors of pages.
+  Status draw(GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show, FrameStats& stats);
+
+ private:
+  // What is kept of a scene for a `show`.
+  Status prepare(GpuScene& scene, Show show);
+  void draw_zone(const View& view, FrameStats& stats);
+
+  gpu::Program program_, zone_program_;
+  Zone zone_;
+  gpu::VertexArray zone_array_;
+  std::vector<gpu::Buffer> zone_buffers_;
+  GLsizei zone_corners_ = 0;
+  std::vector<gpu::Texture2d> pages_;
+  Show painted_ = Show::kAll;
+  std::uint64_t scene_ = 0;  // whose pages they are
+};
+
+}  // namespace oriel

@@ -1,0 +1,1 @@
+#include "passes/reflector_surface.glsl"

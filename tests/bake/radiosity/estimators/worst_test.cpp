@@ -1,0 +1,82 @@
+// Which texels are refined.
+#include "bake/radiosity/estimators/worst.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/bake/radiosity/listed.h"
+
+namespace oriel {
+namespace {
+
+// Texels without neighbours, equally seen and bad, with 4 samples each.
+struct Alike {
+  TexelGraph graph;
+  std::vector<std::uint32_t> order;
+  std::vector<float> squares, shares;
+  std::vector<std::uint32_t> samples;
+  Context context;
+
+  explicit Alike(std::size_t n) : order(n), squares(n, 0.04f), shares(n, 1), samples(n, 4) {
+    std::iota(order.begin(), order.end(), 0u);
+    graph.neighbour.resize(n), graph.count.assign(n, 0);
+  }
+  std::vector<std::uint32_t> worst(const WorstOptions& options) {
+    return worst_texels(graph, order, squares, shares, samples, options, context);
+  }
+};
+
+TEST(WorstTexels, AreThoseThatGainMostForTheirRays) {
+  Alike a(4);
+  a.shares[0] *= 0.2f, a.squares[0] *= 0.2f;  // little seen
+  a.samples[1] = 64;                          // dear
+  a.squares[2] = 0.02f;                       // better
+  // What refining one whole texel takes away is 0.02, of the little seen one 0.004.
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.015}), (std::vector<std::uint32_t>{3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.025}), (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 0.032}), (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(a.worst({.goal = 0.01, .excess = 1}), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+TEST(WorstTexels, AreNotThoseThatAreTwiceAsGoodAsAsked) {
+  Alike a(3);
+  a.squares[1] = 0.04f / 4.1f;
+  EXPECT_EQ(a.worst({.goal = 0.04, .excess = 1}), (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_TRUE(a.worst({.goal = 0.2, .excess = 1}).empty());
+}
+
+TEST(LittleSeen, AreThoseThatTogetherFillLittle) {
+  const std::vector<float> shares = {0.5f, 0.002f, 0, 0.001f, 0.497f};
+  const std::vector<std::uint32_t> all = {0, 1, 2, 3, 4};
+  EXPECT_EQ(little_seen(all, shares, 0.0035), (std::vector<bool>{false, true, true, true, false}));
+  EXPECT_EQ(little_seen(all, shares, 0.0025), (std::vector<bool>{false, false, true, true, false}));
+  EXPECT_EQ(little_seen(all, shares, 0), std::vector<bool>(5)) << "no error was asked for: all count";
+}
+
+// On a ball of texels as large as half its radius none continues another, and none would be refined for what its
+// neighbours tell: those that few pixels happened to show kept their first eight rays.
+TEST(ChartNeighbours, AreThereHoweverASurfaceBends) {
+  test::SceneParts parts;
+  parts.sphere("ball", parts.diffuse(Vec3(0.5f)), Vec3(0), 1, 3);
+  const test::Listed ball(parts.finish(), 0.6f);
+  Context context;
+  std::atomic<std::uint64_t> rays{0};
+  const TexelGraph graph = *find_neighbours(ball.transport(), ball.texels, context, rays);
+  const TexelGraph beside = with_chart_neighbours(graph, ball.texels);
+  std::size_t alone = 0, alone_beside = 0;
+  for (std::uint32_t i = 0; i < ball.texels.count(); ++i) {
+    alone += graph.count[i] == 0, alone_beside += beside.count[i] == 0;
+    EXPECT_TRUE(std::ranges::equal(graph.of(i), beside.of(i).first(graph.count[i]))) << i;
+    for (const std::uint32_t j : beside.of(i)) {
+      const auto back = beside.of(j);
+      EXPECT_NE(std::ranges::find(back, i), back.end()) << i << " and " << j;
+      EXPECT_EQ(std::ranges::count(beside.of(i), j), 1);
+    }
+  }
+  EXPECT_GT(alone, 0u);
+  EXPECT_EQ(alone_beside, 0u);
+}
+
+}  // namespace
+}  // namespace oriel
