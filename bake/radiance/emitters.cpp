@@ -14,10 +14,11 @@
 namespace oriel {
 namespace {
 
-constexpr double kStraight = 1e-4;    // sine of the angle at a corner that is none
-constexpr double kLeastShare = 1e-4;  // of a reflector's light from lamps: less is not worth an emitter
-constexpr double kMostParted = 0.25;  // see LightOnReflector, of its worth
-constexpr float kInwards = 0.02f;     // by which border nodes move in, in cells: off the walls around a reflector
+constexpr double kStraight = 1e-4;              // sine of the angle at a corner that is none
+constexpr double kLeastShare = 1e-4;            // of a reflector's light from lamps: less is not worth an emitter
+constexpr double kMostParted = 0.25;            // see LightOnReflector, of its worth
+constexpr double kMostPartedOfGeometry = 0.02;  // an image as fine as the screen shows what is hidden
+constexpr float kInwards = 0.02f;  // by which border nodes move in, in cells: off the walls around a reflector
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
 std::vector<Vec3> outline(const PolygonLight& light) {
@@ -275,12 +276,13 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     LeftIn left_in;
     ORIEL_TRY(std::vector<LightOnReflector> on,
               lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), lobe_width, options, context, left_in));
+    const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
     std::vector<std::pair<Emitter, std::uint64_t>> chosen;
     for (const LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
-      if (l.parted > kMostParted * l.worth) {
+      if (l.parted > most_parted * l.worth) {
         ++left_in.parted;
         continue;
       }

@@ -370,6 +370,10 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
+    if (own.empty()) {
+      residuals.emplace_back();
+      continue;
+    }
     const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
     ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
     for (const RadianceMap& map : made.maps) used += map_bytes(map.width, map.height);

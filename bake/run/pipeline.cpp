@@ -58,7 +58,7 @@ Status time_reflections(const BakeOptions& options, const PreparedScene& prepare
 Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
                                const TimeBudget& budget, Context& context, PlannedReflections& planned) {
   Pack dark;
-  if (!planned.empty()) {
+  if (planned.has_images()) {
     const double until = budget.left() - budget.for_timing();
     const auto late = [&] { return budget.left() < until; };
     Status tried;
@@ -143,8 +143,9 @@ class Bake {
     ORIEL_TRY_VOID(prepare());
     // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
     ORIEL_TRY_VOID(make_materials());
-    ORIEL_TRY_VOID(plan_views());
+    ORIEL_TRY_VOID(find_reflectors());
     ORIEL_TRY_VOID(find_visible_sets());
+    ORIEL_TRY_VOID(plan_views());
     ORIEL_TRY_VOID(make_transfer());
     ORIEL_TRY_VOID(fit_to_time());
     ORIEL_TRY_VOID(foretell_reflections());
@@ -190,24 +191,41 @@ class Bake {
     return {};
   }
 
+  Status find_reflectors() {
+    if (!options_.with_radiance) return {};
+    ORIEL_TRY(found_, timed_("reflectors", [&](auto&) {
+                return find_reflections(options_, prepared_, materials_.summaries, context_);
+              }));
+    return {};
+  }
+
+  // Each reflector's way, by what it shows; the viewpoints of those that have maps.
   Status plan_views() {
     if (options_.with_radiance) {
+      if (reflected_triangles_.empty())
+        reflected_triangles_.assign(found_.found.reflectors.size(), scene().triangles.size());
+      choose_ways(options_.ways, options_.target, reflected_triangles_, found_.found.reflectors);
       ORIEL_TRY(planned_, timed_("views", [&](auto&) {
-                  return plan_reflections(options_, prepared_, *lights_, materials_, budget_.for_views(), context_);
+                  return plan_reflections(options_, prepared_, *lights_, std::move(found_), budget_.for_views(),
+                                          context_);
                 }));
     }
-    if (planned_.empty()) return {};
+    if (!planned_.has_images()) return {};
     return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
   }
 
   Status find_visible_sets() {
     mesh_ = assemble_mesh(scene(), prepared_.atlas);
-    ORIEL_TRY(pack().visible_sets, timed_("visibility", [&](std::uint64_t& rays) {
-                auto sets = bake_visibility(options_, accel(), planned_.all.region.grids, mesh_,
-                                            budget_.for_visible_sets(), context_, visibility_, result_.omissions);
+    ORIEL_TRY(SceneSets sets, timed_("visibility", [&](std::uint64_t& rays) {
+                auto found =
+                    bake_visibility(options_, accel(), {found_.region.grids, found_.eyes, found_.found.reflectors},
+                                    mesh_, budget_.for_visible_sets(), context_, visibility_, result_.omissions);
                 rays += visibility_.lines;
-                return sets;
+                return found;
               }));
+    pack().visible_sets = std::move(sets.visible);
+    pack().reflected_sets = std::move(sets.reflected);
+    reflected_triangles_ = std::move(sets.reflected_triangles);
     return {};
   }
 
@@ -229,7 +247,7 @@ class Bake {
 
   // A few of their pixels tell how long all take.
   Status foretell_reflections() {
-    if (planned_.empty()) return {};
+    if (!planned_.has_images()) return {};
     if (!budget_.limited()) {
       Pack dark;
       ORIEL_TRY_VOID(time_reflections(options_, prepared_, *lights_, dark, context_, planned_));
@@ -321,6 +339,9 @@ class Bake {
     ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
     if (!pack().visible_sets.empty())
       pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
+    if (pack().reflectors.empty()) pack().reflected_sets = {};
+    if (!pack().reflected_sets.empty())
+      pack().reflected_sets.made_for = reflected_hash(pack().visible_sets, pack().reflectors);
     return {};
   }
 
@@ -369,6 +390,8 @@ class Bake {
   PreparedScene prepared_;
   std::optional<LightSet> lights_;  // of the prepared scene
   MaterialMaps materials_;
+  FoundReflections found_;
+  std::vector<std::uint64_t> reflected_triangles_;  // by reflector
   PlannedReflections planned_;
   AssembledMesh mesh_;
   VisibilityReport visibility_;

@@ -155,6 +155,11 @@ Status judge(const ReflectedSurroundings& surroundings, std::span<const Radiance
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
     ViewQuality q;
     ReflectedError e;
+    if (reflector.map_count == 0) {
+      report.quality.push_back(q);
+      report.errors.push_back(e);
+      continue;
+    }
     std::uint64_t traced = 0;
     const auto inputs = [&](Archive& key) {
       key(r, judges.eyes, judges.cameras);
@@ -247,11 +252,11 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 }
 
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found_ones, double seconds,
                                             Context& context) {
   const Accel& accel = *prepared.accel;
   PlannedReflections planned;
-  ORIEL_TRY(planned.all, find_reflections(options, prepared, materials.summaries, context));
+  planned.all = std::move(found_ones);
   const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};
@@ -287,7 +292,8 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
 
 void leave_out_maps(const std::string& why, PlannedReflections& planned) {
   planned.plan = {};
-  planned.all.found.reflectors.clear();
+  for (FoundReflector& r : planned.all.found.reflectors)
+    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why;
   planned.all.curved = {};
   planned.all.omissions.push_back("radiance maps: left out, " + why);
 }
@@ -386,6 +392,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);
+  for (const FoundReflector& r : reflectors) report.ways.push_back(r.why);
   keep(reflectors, mesh, pack.reflectors);
   pack.surround_maps = std::move(curved.maps);
   keep(curved.reflectors, mesh, pack.curved_reflectors);

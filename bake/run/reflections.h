@@ -32,6 +32,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
+  std::vector<std::string> ways;       // by reflector: why it is drawn as it is
   std::vector<std::string> omissions;  // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
   MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
@@ -48,14 +49,15 @@ struct PlannedReflections {
   bool light_reused = false;              // some of the lightmap is that of the bake before
   double pixels() const;                  // of all maps
   double surround_pixels() const;         // of those of curved reflectors
-  bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
+  bool has_images() const { return !plan.maps.empty() || !all.curved.reflectors.empty(); }
+  bool empty() const { return all.empty(); }
 };
 
-// Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// Plans the maps of reflectors that have maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found, double seconds,
                                             Context& context);
 
 // Nothing is captured, and the reason is among the omissions.

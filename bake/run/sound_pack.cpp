@@ -36,6 +36,7 @@ void remove_reflectors(Pack& pack) {
   pack.radiance_maps.clear();
   pack.map_meshes.clear();
   pack.emitters.clear();
+  pack.reflected_sets = {};
 }
 
 void remove_curved_reflectors(Pack& pack) {
@@ -56,6 +57,7 @@ void remove_movers(Pack& pack) {
 void remove_walk_grids(Pack& pack) {
   pack.walk_grids.clear();
   pack.visible_sets = {};
+  pack.reflected_sets = {};
 }
 
 const std::array<Removable, 11>& removables() {
@@ -69,7 +71,9 @@ const std::array<Removable, 11>& removables() {
       {"cameras", {kCameraSection}, [](Pack& pack) { pack.cameras.clear(); }},
       {"camera paths", {kPathSection}, [](Pack& pack) { pack.paths.clear(); }},
       {"walk grids", {kWalkSection}, remove_walk_grids},
-      {"visible sets", {kVisibleSetsSection}, [](Pack& pack) { pack.visible_sets = {}; }},
+      {"visible sets",
+       {kVisibleSetsSection, kReflectedSetsSection},
+       [](Pack& pack) { pack.visible_sets = {}, pack.reflected_sets = {}; }},
       {"movers", {kMoverSection, kLightFieldSection}, remove_movers},
   }};
   return kAll;

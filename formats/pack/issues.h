@@ -114,6 +114,7 @@ void validate_emitters(const Pack& pack, IssueList& list);
 void validate_kernel_fits(const Pack& pack, IssueList& list);
 void validate_walk_grids(const Pack& pack, IssueList& list);
 void validate_visible_sets(const Pack& pack, IssueList& list);
+void validate_reflected_sets(const Pack& pack, IssueList& list);
 void validate_cameras(const Pack& pack, IssueList& list);
 void validate_texts(const Pack& pack, IssueList& list);
 void validate_unknown(const Pack& pack, IssueList& list);

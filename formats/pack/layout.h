@@ -93,6 +93,7 @@ inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
 inline constexpr std::uint32_t kVisibleSetsSection = fourcc("PVIS");
+inline constexpr std::uint32_t kReflectedSetsSection = fourcc("RVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
@@ -119,6 +120,7 @@ inline constexpr std::array<SectionKind, 23> kSectionKinds = {{
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},
     {kVisibleSetsSection, "visible sets", true, false, false},
+    {kReflectedSetsSection, "reflected sets", true, false, false},
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
 }};

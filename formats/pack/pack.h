@@ -56,6 +56,7 @@ struct Pack {
   std::vector<CameraPath> paths;
   std::vector<WalkGrid> walk_grids;  // by storey
   VisibleSets visible_sets;          // of mesh and walk grids; empty: all is drawn from everywhere
+  ReflectedSets reflected_sets;      // of reflectors, in the groups of visible_sets; empty: all is drawn in each
   std::vector<Mover> movers;
   LightField light_field;  // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;

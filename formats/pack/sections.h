@@ -25,6 +25,7 @@ void describe(Serial& s, Camera& camera);
 void describe(Serial& s, CameraPath& path);
 void describe(Serial& s, WalkGrid& grid);
 void describe(Serial& s, VisibleSets& sets);
+void describe(Serial& s, ReflectedSets& sets);
 void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
 
@@ -89,6 +90,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.list(kPathSection, pack.paths);
   v.list(kWalkSection, pack.walk_grids);
   v.one(kVisibleSetsSection, pack.visible_sets, !pack.visible_sets.empty());
+  v.one(kReflectedSetsSection, pack.reflected_sets, !pack.reflected_sets.empty());
   v.each(kMoverSection, pack.movers);
   v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
 }

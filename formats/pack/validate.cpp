@@ -214,6 +214,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_cameras(pack, list);
   validate_walk_grids(pack, list);
   validate_visible_sets(pack, list);
+  validate_reflected_sets(pack, list);
   validate_movers(pack, list);
   validate_light_field(pack, list);
   validate_unknown(pack, list);

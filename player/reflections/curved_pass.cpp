@@ -22,10 +22,11 @@ void draw_reflector(const GpuScene& scene, const GpuCurvedReflector& reflector, 
   for (const DrawRange& range : scene.bind_curved(reflector)) draw_indices(range.first_index, range.index_count, stats);
 }
 
-gpu::RasterState state_for(GLint value, GLuint bits) {
+gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;
+  state.mirrored = view.mirrored;
   state.stencil_ref = value;
   state.stencil_write = bits;
   return state;
@@ -92,7 +93,7 @@ Status CurvedPass::Canvas::make(int width, int height) {
 
 void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
                            GLuint bits, FrameStats& stats) const {
-  gpu::RasterState state = state_for(value, bits);
+  gpu::RasterState state = state_for(view, value, bits);
   state.color_write = false;
   gpu::apply(state);
   mask_.use();
@@ -101,7 +102,7 @@ void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& refl
 }
 
 void CurvedPass::draw_surface(const GpuScene& scene, const Shown& shown, const View& view, FrameStats& stats) const {
-  gpu::RasterState state = state_for(shown.value, 0xff);
+  gpu::RasterState state = state_for(view, shown.value, 0xff);
   state.depth_write = true;
   gpu::apply(state);
   set_normals(surface_, scene, *shown.reflector, view);
@@ -152,7 +153,7 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
 
 void CurvedPass::draw_shaded(GpuScene& scene, const Shown& shown, const View& view, GLuint bits,
                              const FrameOptions& options, FrameStats& stats) const {
-  gpu::apply(state_for(shown.value, bits));
+  gpu::apply(state_for(view, shown.value, bits));
   shaded_light_.use();
   set_lobe(shaded_light_, scene, *shown.reflector, view, options);
   set_reflectance(shaded_light_, scene, *shown.reflector, view, options);
@@ -166,7 +167,7 @@ void CurvedPass::draw_shaded(GpuScene& scene, const Shown& shown, const View& vi
 
 void CurvedPass::add_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view,
                            const FrameOptions& options, FrameStats& stats) const {
-  gpu::RasterState state = state_for(0, 0);
+  gpu::RasterState state = state_for(view, 0, 0);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);

@@ -27,6 +27,30 @@ void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::fu
   }
 }
 
+// What the pack knows of a reflector's image.
+SeenMask seen_in(const Pack& pack, std::uint32_t reflector) {
+  const VisibleSets& groups = pack.visible_sets;
+  const std::vector<std::uint8_t>& sets = pack.reflected_sets.seen;
+  std::vector<std::uint8_t> seen(groups.groups);
+  for (std::size_t g = 0; g < seen.size(); ++g) seen[g] = sets[reflector * groups.set_bytes() + g / 8] >> (g % 8) & 1;
+  return seen;
+}
+
+// Over the plane of a reflector, of the triangles before it, by their area.
+float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
+  const Vec4 height = glm::transpose(reflector_from_pack)[2];
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+               &c = mesh.positions[mesh.indices[i + 2]];
+    const float above = glm::dot(height, Vec4((a + b + c) / 3.0f, 1));
+    if (!(above > 0)) continue;
+    const double area = glm::length(glm::cross(b - a, c - a));
+    sum += area * above, total += area;
+  }
+  return total > 0 ? static_cast<float>(sum / total) : 0.0f;
+}
+
 Status first_of(const std::vector<Error>& errors) {
   if (errors.empty()) return {};
   return tl::unexpected<Error>(errors.front());
@@ -66,7 +90,8 @@ void GpuScene::upload_geometry() {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
-  make_reflectors(indices);
+  make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
+                               pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));
   make_emitters(indices);
   make_curved_reflectors(indices);
 
@@ -126,7 +151,7 @@ std::span<const DrawRange> GpuScene::bind_curved(const GpuCurvedReflector& refle
   return {&reflector.triangles, 1};
 }
 
-void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
+void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known) {
   for (std::uint32_t i = 0; i < pack_.reflectors.size(); ++i) {
     const Reflector& r = pack_.reflectors[i];
     GpuReflector out;
@@ -143,6 +168,8 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
+    if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
+    if (sets_known) out.seen = seen_in(pack_, i);
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }

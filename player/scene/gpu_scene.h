@@ -28,10 +28,13 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
+  SeenMask seen;  // groups that any eye may see in it; nothing: all
+  // From the plane to what its maps show, metres; the sky does not count. Once bring_maps() has been called; without
+  // maps it is that of all triangles before it.
+  float mean_distance = 0;
   // Once bring_maps() has been called:
-  Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
-  float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
-  GpuEmitters emitters;     // that its maps leave out
+  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+  GpuEmitters emitters;   // that its maps leave out
 };
 
 struct GpuCurvedReflector {
@@ -150,7 +153,7 @@ class GpuScene {
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
-  void make_reflectors(std::vector<std::uint32_t>& indices);
+  void make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known);
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();

@@ -110,9 +110,14 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "(overdraw); or where reflections were planned for (zones)",
        choice(out.frame.show, kStages), Use::kEveryday, "show"},
       {"--reflections", kPicture,
-       "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et al. "
-       "published it, the mirrored scene drawn again, or nothing",
+       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
+       "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
+       "the mirrored scene",
        choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
+      {"--orders", kPicture,
+       "Mirrors on the way of a reflection, where the mirrored scene is drawn: 1 shows a mirror in a mirror as its "
+       "diffuse light only",
+       number(out.frame.orders, 1, 16), Use::kRare, "orders"},
       {"--maps", kPicture,
        "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
        number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},

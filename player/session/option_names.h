@@ -17,7 +17,8 @@ inline const std::map<std::string, Show> kStages{
     {"MKR", Show::kMKR},           {"D", Show::kD},           {"lux", Show::kLux},
     {"error", Show::kError},       {"texels", Show::kTexels}, {"charts", Show::kCharts},
     {"overdraw", Show::kOverdraw}, {"zones", Show::kZones}};
-inline const std::map<std::string, Reflections> kReflections{{"march", Reflections::kMarch},
+inline const std::map<std::string, Reflections> kReflections{{"chosen", Reflections::kChosen},
+                                                             {"march", Reflections::kMarch},
                                                              {"mesh", Reflections::kMesh},
                                                              {"points", Reflections::kPoints},
                                                              {"geometry", Reflections::kGeometry},

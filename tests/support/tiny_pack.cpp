@@ -295,6 +295,9 @@ Pack tiny_mapped_pack() {
   sets.above_m = 0.25f;
   sets.seen = {3, 1, 2};
   sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
+  for (const Reflector& r : pack.reflectors)
+    pack.reflected_sets.seen.push_back(static_cast<std::uint8_t>(r.map_count > 0 ? 3 : 1));
+  pack.reflected_sets.made_for = reflected_hash(sets, pack.reflectors);
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   return pack;

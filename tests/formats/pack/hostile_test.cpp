@@ -223,6 +223,7 @@ TEST(Hostile, VisibleSets) {
   expect_refusal(with_raw(kVisibleSetsSection, 8, 0u), sets + "found eye cells of 0 walk cells a side");
   expect_refusal(with_raw(kVisibleSetsSection, 20, ~0u), sets + "its counts need more");
   expect_refusal(with_raw(kVisibleSetsSection, 20, 2u), sets + "holds 1 bytes more");
+  expect_refusal(with_raw(kReflectedSetsSection, 0, ~0u), "section RVIS (reflected sets): its counts need more");
 }
 
 TEST(Hostile, WhatReflectionsNeed) {
@@ -274,7 +275,7 @@ TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   // All but the radiance maps and their meshes, whose number is their order.
   std::erase_if(forge.sections, [](const auto& s) {
     return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
-           s.record.kind == kMapMeshSection;
+           s.record.kind == kMapMeshSection || s.record.kind == kReflectedSetsSection;
   });
   const auto pack = decode_pack(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();

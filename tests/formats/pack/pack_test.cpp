@@ -205,6 +205,13 @@ TEST(Pack, MapMeshesComeBack) {
   }
 }
 
+TEST(Pack, ReflectedSetsComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_FALSE(in.reflected_sets.empty());
+  EXPECT_EQ(out.reflected_sets.seen, in.reflected_sets.seen);
+  EXPECT_EQ(out.reflected_sets.made_for, reflected_hash(out.visible_sets, out.reflectors));
+}
+
 TEST(Pack, CurvedReflectorsComeBack) {
   const Pack in = tiny_mapped_pack(), out = round_trip(in);
   ASSERT_EQ(out.curved_reflectors.size(), 1u);

@@ -181,6 +181,8 @@ const Break kBreaks[] = {
     {754, "PVIS", [](Pack& p) { p.visible_sets.side = 1; }},
     {755, "PVIS", [](Pack& p) { p.mesh.positions[0].x += 1; }},
     {755, "PVIS", [](Pack& p) { p.walk_grids[0].floor_y[2] = 0; }},
+    {756, "RVIS", [](Pack& p) { p.reflected_sets.seen.push_back(0); }},
+    {757, "RVIS", [](Pack& p) { p.reflectors[0].flatness_m += 1; }},
     {731, "MOVR 0", [](Pack& p) { p.movers[0].rest.rotation.y = 0; }},
     {731, "MOVR 0", [](Pack& p) { p.movers[0].keys[1].pose.position.x = kInf; }},
     {732, "MOVR 0", [](Pack& p) { p.movers[0].keys[0].time_s = 2; }},
