@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSmoothings = 8;
 constexpr float kStraightened = 0.5f;  // pixels: most that a vertex of an edge moves
-constexpr float kTucked = 0.5f;       // pixels by which a surface goes on behind a nearer one
+constexpr float kTucked = 0.5f;        // pixels by which a surface goes on behind a nearer one
 
 // Vertices on the edge of what is connected, with the two beside them along it: where just one edge passes.
 class Outlines {

@@ -12,9 +12,9 @@ namespace oriel {
 class Forecast {
  public:
   // What a bake does, in this order. Time is seconds since it began.
-  static constexpr std::string_view kParts[] = {"views",       "mips",         "visibility", "transfer",     "timing",
-                                                "first light", "refinement",   "detail",     "verification", "ledger",
-                                                "radiance",    "surroundings", "probes",     "writing"};
+  static constexpr std::string_view kParts[] = {"visibility",  "views",        "mips",   "transfer",     "timing",
+                                                "first light", "refinement",   "detail", "verification", "ledger",
+                                                "radiance",    "surroundings", "probes", "writing"};
 
   // What a part is likely to take that has not begun.
   void expect(std::string_view part, double seconds);

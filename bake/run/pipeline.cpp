@@ -6,6 +6,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
+#include "bake/run/fit_maps.h"
 #include "bake/run/forecast.h"
 #include "bake/run/inputs.h"
 #include "bake/run/movers.h"
@@ -26,13 +27,6 @@ constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
 constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
 
-double bytes_of(const Pack& pack, const PlannedReflections& planned) {
-  double bytes = 0;
-  for (const LightmapPage& page : pack.lightmaps) bytes += 8.0 * static_cast<double>(page.irradiance.size());
-  for (const RadianceMap& map : planned.plan.maps) bytes += double{kMapBytesPerPixel} * map.width * map.height;
-  return bytes;
-}
-
 // Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
 // `later`: seconds of these.
 std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudget& budget, double later,
@@ -41,37 +35,6 @@ std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudge
   return [=, &budget, &finish = context.finish, begun = budget.spent()] {
     return finish || budget.left() <= later + verifying * (budget.spent() - begun);
   };
-}
-
-// In the dark, whose pixels take as long; `dark` gets the lightmap for it.
-Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
-                        Context& context, PlannedReflections& planned) {
-  dark.lightmaps.clear();
-  for (const AtlasPage& page : prepared.atlas.pages) {
-    const std::size_t texels = std::size_t{page.width} * page.height;
-    dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
-  }
-  return time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
-}
-
-// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
-Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
-  Pack dark;
-  if (planned.has_images()) {
-    const double until = budget.left() - budget.for_timing();
-    const auto late = [&] { return budget.left() < until; };
-    Status tried;
-    {
-      const Interruptible interruptible(context, late);
-      tried = time_reflections(options, prepared, lights, dark, context, planned);
-    }
-    if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
-    if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
-    shrink_maps(budget.for_maps(), planned);
-  }
-  const double field = prepared.movers.empty() ? 0 : budget.for_light_field();
-  return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
 }
 
 // What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.

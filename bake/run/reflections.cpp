@@ -21,10 +21,6 @@ namespace {
 
 constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
 constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
-constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
-constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
-constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
-constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
 
 std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
@@ -290,14 +286,6 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
   return planned;
 }
 
-void leave_out_maps(const std::string& why, PlannedReflections& planned) {
-  planned.plan = {};
-  for (FoundReflector& r : planned.all.found.reflectors)
-    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why;
-  planned.all.curved = {};
-  planned.all.omissions.push_back("radiance maps: left out, " + why);
-}
-
 double PlannedReflections::pixels() const {
   double sum = surround_pixels();
   for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
@@ -308,47 +296,6 @@ double PlannedReflections::surround_pixels() const {
   double sum = 0;
   for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
   return sum;
-}
-
-Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
-  std::vector<RadianceMap> maps = planned.plan.maps;
-  double tried = 0;
-  for (RadianceMap& map : maps) {
-    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
-    tried += double{1.0f * map.width} * map.height;
-  }
-  std::uint32_t paths = 1;
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
-  };
-  const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
-  ORIEL_TRY(const double share, lobe_share(dark, surroundings, planned.plan.maps, {}, context));
-  paths = lobe_paths(share * planned.pixels());
-  const Deadline clock(0);
-  UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
-  const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
-  context.units = units;
-  ORIEL_TRY_VOID(captured);
-  const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
-  planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
-  return {};
-}
-
-void shrink_maps(double seconds, PlannedReflections& planned) {
-  std::uint32_t halved = 0;
-  const double judging = kJudging * planned.seconds;
-  while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
-    const double before = planned.pixels();
-    for (RadianceMap& map : planned.plan.maps)
-      map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
-    for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
-    if (planned.pixels() >= before) break;  // all are as small as they may be
-    planned.capture_s = judging + (planned.capture_s - judging) * planned.pixels() / before;
-    ++halved;
-  }
-  if (halved > 0)
-    planned.plan.omitted.push_back(
-        fmt::format("radiance maps: of 1/{} the pixels along each side, to stay within --time", 1u << halved));
 }
 
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,

@@ -60,16 +60,6 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
                                             const LightSet& lights, FoundReflections found, double seconds,
                                             Context& context);
 
-// Nothing is captured, and the reason is among the omissions.
-void leave_out_maps(const std::string& why, PlannedReflections& planned);
-
-// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
-// residual maps go by what planning took. Error kStopped.
-Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
-
-// Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
-void shrink_maps(double seconds, PlannedReflections& planned);
-
 // Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
 // then as it was but for its emitters and walk grids.
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,

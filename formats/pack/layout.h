@@ -98,7 +98,7 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 23> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 24> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},

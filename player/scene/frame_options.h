@@ -20,8 +20,8 @@ inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
 // How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; from their
-// pixels as points, as published; by drawing the mirrored scene; or not at all. A reflector without maps is always drawn
-// as the mirrored scene.
+// pixels as points, as published; by drawing the mirrored scene; or not at all. A reflector without maps is always
+// drawn as the mirrored scene.
 enum class Reflections { kChosen, kMarch, kMesh, kPoints, kGeometry, kOff };
 // How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
 enum class Blur { kDistance, kConstant, kOff };
