@@ -12,6 +12,7 @@
 #include "bake/radiance/surround_capture.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/deadline.h"
+#include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
 #include "bake/run/lobe_share.h"
 #include "bake/run/option_table.h"
