@@ -41,10 +41,11 @@ TEST_F(SpecularFrames, GalleryByMirroredGeometry) {
   const auto floor = compare("floor")["glossy"];
   std::printf("floor: S net %.3f, nRMSE %.3f, FLIP %.4f\n", floor["S"]["net"].get<double>(),
               floor["S"]["nRMSE"].get<double>(), floor["flip"].get<double>());
-  EXPECT_LE(floor["S"]["net"], 0.3);
+  EXPECT_LE(floor["S"]["net"], 0.25);
+  EXPECT_LE(floor["S"]["nRMSE"], 0.2);
   EXPECT_LE(floor["flip"], 0.07);
   const auto off = compare("floor", "--reflections off");
-  EXPECT_GT(off["matte"]["flip"], 0) << "the checker can fail: without images no pixel is a reflector's";
+  EXPECT_GT(off["frame"]["flip"], 0.15) << "the checker can fail";
   EXPECT_FALSE(off.contains("glossy"));
   const auto mirror = compare("mirror")["mirrors"];
   std::printf("mirror: S net %.3f, FLIP %.4f\n", mirror["S"]["net"].get<double>(), mirror["flip"].get<double>());

@@ -26,7 +26,7 @@ TEST(Ways, WhatIsAskedForHolds) {
 TEST(Ways, TheCheaperFramesWin) {
   for (const DrawnOn target : {DrawnOn::kCpu, DrawnOn::kGpu}) {
     std::uint64_t before = 0;
-    for (const float shown_sr : {0.0f, 0.05f, 0.5f, 2.0f}) {
+    for (const float shown_sr : {0.01f, 0.05f, 0.5f, 2.0f}) {
       EXPECT_EQ(way_of(WaysWanted::kAuto, target, 1000, shown_sr), ReflectorWay::kGeometry);
       std::uint64_t crossover = 1000;
       while (way_of(WaysWanted::kAuto, target, crossover, shown_sr) == ReflectorWay::kGeometry) {
