@@ -4,6 +4,7 @@
 
 #include "player/gpu/raster_state.h"
 #include "player/reflections/reflected_view.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
