@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -17,18 +16,6 @@ const fs::path kRoot = ORIEL_SOURCE_DIR;
 constexpr std::size_t kWidest = 140;  // characters of a line of prose
 constexpr int kLongest = 40;          // words of a sentence
 constexpr double kMean = 20;          // words of a page's sentences
-
-// Pages that do not hold yet: how many sentences may be longer, and what their mean may be. Numbers only go down.
-struct Debt {
-  int longer = 0;
-  double mean = kMean;
-};
-const std::map<std::string, Debt> kDebts = {
-    {"docs/benchmarks.md", {14, 21.5}},
-    {"docs/format.md", {17, kMean}},
-    {"docs/radiosity.md", {21, 23.9}},
-    {"docs/reflections.md", {13, 22.2}},
-};
 
 std::string replaced(const std::string& text, const char* pattern, const char* by) {
   return std::regex_replace(text, std::regex(pattern), by);
@@ -95,11 +82,8 @@ TEST(Docs, SentencesAreShort) {
         ++count, words += length;
         if (length > kLongest) ++longer, longest += "\n  " + std::to_string(length) + ": " + text;
       }
-    const auto known = kDebts.find(page.string());
-    const Debt allowed = known == kDebts.end() ? Debt() : known->second;
-    EXPECT_LE(longer, allowed.longer) << page << " has sentences of more than " << kLongest << " words:" << longest;
-    EXPECT_LE(words, allowed.mean * count)
-        << page << " has sentences of " << double(words) / count << " words on average";
+    EXPECT_EQ(longer, 0) << page << " has sentences of more than " << kLongest << " words:" << longest;
+    EXPECT_LE(words, kMean * count) << page << " has sentences of " << double(words) / count << " words on average";
   }
 }
 
