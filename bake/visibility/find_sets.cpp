@@ -86,10 +86,10 @@ struct Group {
   Box box;
 };
 
-class Finder {
+class VisibleSetFinder {
  public:
-  Finder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
-         std::uint64_t seed)
+  VisibleSetFinder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
+                   std::uint64_t seed)
       : scene_(scene),
         geometry_(scene.accel.scene()),
         lines_(scene.accel),
@@ -273,7 +273,7 @@ class Finder {
 };
 
 // Until no cell has a suspect left.
-Status follow_suspects(Finder& finder, std::size_t cells, Context& context) {
+Status follow_suspects(VisibleSetFinder& finder, std::size_t cells, Context& context) {
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::vector<std::uint32_t>> suspects(cells);
     ORIEL_TRY_VOID(parallel_for(context, "", cells, [&](std::size_t c) { suspects[c] = finder.suspects(c); }));
@@ -305,7 +305,7 @@ Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, s
                                                     std::uint32_t side, const VisibilityOptions& options,
                                                     Context& context, std::uint64_t& rays) {
   ORIEL_TRY(const std::vector<CellOfEyes> cells, eyes_by_cell(scene.accel, grids, side, kEyes, context));
-  Finder finder(scene, cells, options, context.seed);
+  VisibleSetFinder finder(scene, cells, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "visibility", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
   const std::size_t set_bytes = (std::size_t{scene.groups} + 7) / 8;
