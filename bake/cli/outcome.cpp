@@ -26,11 +26,12 @@ std::string fix_of(const std::string& text) {
   return at == std::string::npos ? std::string() : text.substr(at + 2);
 }
 
-Json records(const std::vector<std::string>& texts, const char* kind, const char* severity) {
+Json records(const std::vector<Warning>& warnings, const char* kind, const char* severity) {
   Json out = Json::array();
-  for (const std::string& text : texts) {
+  for (const Warning& warning : warnings) {
+    const std::string& text = warning.text;
     // The importer's have their own fixes.
-    const Finding known = findings_of_import(std::span(&text, 1)).front();
+    const Finding known = findings_of_import(std::span(&warning, 1)).front();
     const bool of_import = known.kind != FindingKind::kImport;
     out.push_back({{"kind", of_import ? name_of(known.kind) : kind},
                    {"severity", severity},
@@ -73,9 +74,9 @@ std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, c
                {"pack", pack.string()},     {"warnings", records(o.warnings, "warning", "warning")},
                {"findings", Json::array()}, {"shortfalls", Json::array()}};
   if (o.result != nullptr) {
-    std::vector<std::string> missing = o.result->shortfalls;
+    std::vector<Warning> missing(o.result->shortfalls.begin(), o.result->shortfalls.end());
     missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());
-    json["findings"] = records(o.result->findings, "light", "error");
+    json["findings"] = records({o.result->findings.begin(), o.result->findings.end()}, "light", "error");
     json["shortfalls"] = records(missing, "shortfall", "error");
     json.update(Json::parse(report_json(*o.result)));
   }

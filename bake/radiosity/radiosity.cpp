@@ -147,7 +147,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   }
   if (!task.options.stitch || is_dark(task.transport)) return {};
   if (task.options.late()) {
-    task.context.warning("the seams of the lightmap are not stitched: --time was over");
+    task.context.warning({"the seams of the lightmap are not stitched: --time was over", WarningKind::kTimeOver});
     return {};
   }
   return stitch_lightmap(task, light);

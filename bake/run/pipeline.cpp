@@ -18,9 +18,8 @@
 namespace oriel {
 namespace {
 
-constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
-constexpr double kLedgerRays = 0.01;   // of the lightmap's
-constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
+constexpr double kSlowPaths = 1.5;    // a ray of verification takes longer than a gathered one
+constexpr double kLedgerRays = 0.01;  // of the lightmap's
 
 double bytes_of(const Pack& pack, const PlannedReflections& planned) {
   double bytes = 0;
@@ -56,7 +55,8 @@ Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& 
       tried = time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
     }
     if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
-    if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
+    if (!tried)
+      leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
   const double field = prepared.movers.empty() ? 0 : budget.for_light_field();
@@ -85,13 +85,15 @@ Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections 
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
   ReflectionReport none;
-  none.omissions.push_back(fmt::format("radiance maps: left out, {}", context.finish
-                                                                          ? "the user asked the bake to finish"
-                                                                          : "--time was over; a longer one has them"));
+  if (context.finish)
+    none.omissions.emplace_back("radiance maps: left out, the user asked the bake to finish");
+  else
+    none.omissions.emplace_back("radiance maps: left out, --time was over; a longer one has them",
+                                WarningKind::kTimeOver);
   return none;
 }
 
-void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissions) {
+void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions) {
   omissions.emplace_back("kernels: left out by --only");
   materials.kernels.clear();
   for (auto& kernel : materials.kernel) kernel = -1;
@@ -207,8 +209,8 @@ class Bake {
     radiosity.enough = refined_enough(options_, budget_, later_s_, context_);
     if (budget_.limited()) radiosity.left = [this] { return budget_.left() - later_s_; };
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
-    radiosity.eyes = sample_eyes(prepared_.region, kEyes, context_.seed);
-    radiosity.held_out = held_out_eyes(prepared_.region, kEyes, context_.seed);
+    radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
+    radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);
     ORIEL_TRY(radiosity_, timed_("radiosity", [&](std::uint64_t& rays) {
                 const StageInputs inputs(context_, SurfacesOf{scene()}, LightsOf{scene()}, LayoutOf{prepared_.atlas},
                                          path_options(options_).max_bounces);
@@ -233,7 +235,9 @@ class Bake {
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
-    if (!ledger) result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it");
+    if (!ledger)
+      result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it",
+                                     WarningKind::kTimeOver);
     result_.ledger = ledger.value_or(Ledger());
     result_.findings = ledger_findings(result_.ledger);
     pack().lightmaps = std::move(radiosity_.pages);
@@ -304,7 +308,8 @@ class Bake {
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
     for (const std::string& finding : result_.findings) context_.warning(finding);
-    result_.warnings.resize(warned);  // findings have a list of their own
+    result_.warnings.erase(result_.warnings.begin() + static_cast<std::ptrdiff_t>(warned),
+                           result_.warnings.end());  // findings have a list of their own
     if (context_.units) result_.units = context_.units->share();
   }
 
@@ -313,7 +318,8 @@ class Bake {
   Pack& pack() { return result_.pack; }
   Transport transport() const { return {accel(), *lights_, path_options(options_)}; }
   BakedScene baked() { return {accel(), *lights_, prepared_.atlas, pack().lightmaps}; }
-  void omit(const std::vector<std::string>& lines) {
+  template <class Lines>
+  void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());
   }
 

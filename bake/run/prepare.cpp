@@ -6,7 +6,6 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
 #include "bake/visibility/eye_height.h"
 #include "bake/visibility/lit_eyes.h"
@@ -114,7 +113,7 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
-              const Deadline clock(0);
+              const ElapsedTime clock;
               const Interruptible until(
                   context, [&] { return options.time_s > 0 && clock.spent() > kMostForSides * options.time_s; });
               const std::vector<Vec3> eyes = sample_eyes(prepared.region, kEyesForSides, context.seed);
@@ -142,7 +141,7 @@ MaterialOptions material_options(const BakeOptions& options) {
   return material;
 }
 
-bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warning>& omissions) {
   if (wanted == Directional::kOn) return true;
   const bool mapped = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
     const SceneMaterial& material = scene.materials[surface.material];
@@ -169,7 +168,7 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
 
 Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
                         double seconds) {
-  const Deadline clock(0);
+  const ElapsedTime clock;
   if (prepared.demand.empty()) {
     const StageInputs inputs(context, SurfacesOf{prepared.scene()});
     ORIEL_TRY(prepared.demand,

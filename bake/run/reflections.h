@@ -20,7 +20,7 @@ struct FoundReflections {
   std::vector<ReflectorMaterial> lobes;  // by material
   FoundReflectors found;                 // planar ones that eyes see, most important first, and what is not planar
   FoundCurvedReflectors curved;          // without texels
-  std::vector<std::string> omissions;    // what was left out, and why
+  std::vector<Warning> omissions;        // what was left out, and why
   bool empty() const { return found.reflectors.empty() && curved.reflectors.empty(); }
 };
 
@@ -32,7 +32,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
-  std::vector<std::string> omissions;  // what was not modelled, and why
+  std::vector<Warning> omissions;      // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
   MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
 };
@@ -58,7 +58,7 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
                                             Context& context);
 
 // Nothing is captured, and the reason is among the omissions.
-void leave_out_maps(const std::string& why, PlannedReflections& planned);
+void leave_out_maps(const Warning& why, PlannedReflections& planned);
 
 // Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
 // residual maps go by what planning took. Error kStopped.

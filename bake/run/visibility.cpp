@@ -1,8 +1,8 @@
 #include "bake/run/visibility.h"
 
 #include "bake/jobs/units.h"
-#include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
+#include "bake/run/stopwatch.h"
 #include "bake/visibility/eye_cells.h"
 #include "bake/visibility/triangle_groups.h"
 
@@ -58,7 +58,7 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
 
 Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
                                     AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                    std::vector<std::string>& omissions) {
+                                    std::vector<Warning>& omissions) {
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), grids);
   if (!why_not.empty()) {
     omissions.push_back("visible sets: " + why_not);
@@ -76,7 +76,7 @@ Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& acc
   sets.below_m = kEyeBelow_m;
   sets.above_m = kEyeAbove_m;
   const StageInputs inputs(context, SurfacesOf{accel.scene()});
-  const Deadline clock(0);
+  const ElapsedTime clock;
   const auto late = [&] { return clock.spent() > seconds; };
   const Interruptible until(context, late);
   const Status done = one_unit(
@@ -93,7 +93,8 @@ Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& acc
       },
       [&](Archive& archive) { archive(sets.seen, report.lines); });
   if (!done && done.error().code == ErrorCode::kStopped && !context.stop && late()) {
-    omissions.push_back(fmt::format("visible sets: left out, they would take more than {:.3g} s of --time", seconds));
+    omissions.emplace_back(fmt::format("visible sets: left out, they would take more than {:.3g} s of --time", seconds),
+                           WarningKind::kTimeOver);
     return VisibleSets();
   }
   ORIEL_TRY_VOID(done);

@@ -21,6 +21,6 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
 // kStopped.
 Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
                                     AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                    std::vector<std::string>& omissions);
+                                    std::vector<Warning>& omissions);
 
 }  // namespace oriel
