@@ -134,6 +134,11 @@ Status begin_report(const BakeArguments& args) {
   ORIEL_TRY_VOID(check_output(args.report, inputs_of(args.bake.scene, args.bake.import)));
   if (args.report.lexically_normal() == args.bake.output.lexically_normal())
     return fail(ErrorCode::kUsage, args.report.string(), "is the output too: expected another name for the report");
+  Outcome stopped;
+  stopped.kind = Outcome::Kind::kStopped;
+  stopped.exit_code = static_cast<int>(ErrorCode::kStopped);
+  stopped.error = {ErrorCode::kStopped, "stopped; nothing was written", "bake"};
+  report_hard_stop(args.report, outcome_json(stopped, args.bake.scene, args.bake.output));
   return write_text(args.report, outcome_json({}, args.bake.scene, args.bake.output));
 }
 
@@ -158,7 +163,6 @@ Outcome::Kind kind_of(const Status& status, bool written, const BakeResult* resu
 Status run_bake(const BakeArguments& args, BakeSession& session) {
   stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
   ORIEL_TRY_VOID(begin_report(args));
-  session.printer->set_end(args.bake.time_s);
   Outcome outcome;
   std::optional<WarningLog> log(std::in_place, session.context, outcome.warnings);
   std::optional<BakeResult> made;

@@ -75,6 +75,7 @@ void ProgressPrinter::operator()(const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   fraction_ = progress.fraction;
+  if (progress.left_s >= 0) left_s_ = progress.left_s, foretold_s_ = seconds_between(begun_, now);
   const bool fresh = stage_ != progress.stage;
   if (fresh) {
     end_line();
@@ -99,7 +100,8 @@ void ProgressPrinter::operator()(const Progress& progress) {
 void ProgressPrinter::draw(const Progress& progress, double seconds) {
   const double rays_per_s = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
   const double whole = seconds_between(begun_, Clock::now());
-  const double left = std::max(0.0, end_s_ - whole);
+  double left = -1;
+  if (left_s_ >= 0) left = countdown_.tell(std::max(left_s_ - (whole - foretold_s_), 0.0), whole);
   if (style_ == Style::kJson) {
     const nlohmann::ordered_json json = {{"event", "progress"},
                                          {"tool", kTool},
@@ -109,14 +111,14 @@ void ProgressPrinter::draw(const Progress& progress, double seconds) {
                                          {"rays", progress.rays},
                                          {"rays_per_s", rays_per_s},
                                          {"seconds_since_start", whole},
-                                         {"seconds_left", end_s_ > 0 ? nlohmann::ordered_json(left) : nullptr}};
+                                         {"seconds_left", left >= 0 ? nlohmann::ordered_json(left) : nullptr}};
     std::fprintf(stderr, "%s\n", json.dump().c_str());
     return;
   }
   std::string text = fmt::format("{:<10} {:3.0f} %", progress.stage, 100 * progress.fraction);
   if (progress.rays > 0) text += fmt::format("  {:5.2f} Mray/s", rays_per_s * 1e-6);
   text += progress.fraction < 1 ? fmt::format("  {} so far", duration(seconds)) : fmt::format("  {:.1f} s", seconds);
-  if (end_s_ > 0) text += fmt::format(", {} left of all", duration(left));
+  if (left >= 0) text += fmt::format(", {} left of all", duration(left));
   if (style_ == Style::kPlain) {
     std::fprintf(stderr, "%s\n", text.c_str());
     return;
@@ -147,11 +149,6 @@ void ProgressPrinter::warning(const std::string& message) {
 void ProgressPrinter::note(const std::string& message) {
   const std::lock_guard lock(mutex_);
   if (style_ != Style::kQuiet) line("note", message);
-}
-
-void ProgressPrinter::set_end(double seconds) {
-  const std::lock_guard lock(mutex_);
-  end_s_ = seconds;
 }
 
 void ProgressPrinter::finish() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "bake/cli/countdown.h"
 #include "bake/jobs/context.h"
 
 namespace oriel {
@@ -27,10 +28,6 @@ class ProgressPrinter {
   void note(const std::string& message);
   // Ends a bar's line.
   void finish();
-  // The whole work is to end then (--time): that is what time is left. Without it none is told: how many rounds the
-  // light needs is known when they are over, and an estimate that jumps is worse than none.
-  void set_end(double seconds);
-
   static constexpr double kSilence = 1.5;
 
  private:
@@ -48,7 +45,9 @@ class ProgressPrinter {
   std::string told_;  // the stage that ended last
   Clock::time_point begun_ = Clock::now(), started_ = begun_, drawn_ = begun_;
   double fraction_ = 0;
-  double end_s_ = 0;  // since begun_; 0: not known
+  // Of the whole work, as it was foretold last, then; < 0: it was not. And what is told of it.
+  double left_s_ = -1, foretold_s_ = 0;
+  Countdown countdown_;
   bool open_line_ = false;
   std::mutex mutex_;  // of all above
   std::condition_variable ended_;

@@ -1,5 +1,6 @@
 #include "bake/cli/session.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace {
 Context* g_context = nullptr;
 OnStop g_on_stop = OnStop::kStop;
 char g_temporary[4096] = "";
+std::string g_report, g_report_text;
 bool g_json = false;                      // lines on stderr are JSON
 constexpr unsigned kMostAfterTerm_s = 9;  // for finishing after SIGTERM
 
@@ -29,6 +31,11 @@ void tell(const char (&text)[N]) {
 // itself. That loses nothing: a pack exists only once it is renamed into place.
 void on_alarm(int) {
   ::unlink(g_temporary);
+  if (!g_report.empty())
+    if (const int file = ::open(g_report.c_str(), O_WRONLY | O_TRUNC); file >= 0) {
+      [[maybe_unused]] const ssize_t written = ::write(file, g_report_text.data(), g_report_text.size());
+      ::close(file);
+    }
   if (g_json)
     tell("{\"event\":\"error\",\"tool\":\"oriel-bake\",\"code\":130,\"message\":\"stopped; nothing was written\"}\n");
   else
@@ -90,6 +97,11 @@ std::vector<Option> run_options(BakeSession& session) {
 Option scene_argument(std::filesystem::path& scene) {
   return {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(scene, "FILE"),
           Use::kRequired};
+}
+
+void report_hard_stop(const std::filesystem::path& file, std::string text) {
+  g_report_text = std::move(text);
+  g_report = file.string();
 }
 
 void stop_on_signals(Context& context, const std::filesystem::path& output, OnStop on_stop_does) {

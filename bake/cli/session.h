@@ -38,6 +38,8 @@ enum class OnStop {
 };
 // output: the file that is written, whose temporary is removed; may be empty.
 void stop_on_signals(Context& context, const std::filesystem::path& output, OnStop on_stop);
+// The report's file and what it says where the process has to end itself: a library's long call did not stop.
+void report_hard_stop(const std::filesystem::path& file, std::string text);
 // What a user is told of an error.
 std::string text_of_error(const Error& error);
 

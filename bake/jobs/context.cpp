@@ -13,6 +13,11 @@ void Context::warning(const Warning& warning) {
   if (warn) warn(warning);
 }
 
+void Context::foretell(std::string_view part, double fraction) {
+  const std::lock_guard lock(mutex_);
+  if (foretold) foretold(part, fraction);
+}
+
 void Context::report(std::string_view stage, double fraction, std::uint64_t rays) {
   const std::lock_guard lock(mutex_);
   if (progress) progress({stage, fraction, rays});

@@ -17,6 +17,7 @@ struct Progress {
   std::string_view stage;  // "radiosity", …
   double fraction = 0;     // [0,1] of this stage, monotonic
   std::uint64_t rays = 0;  // traced by this stage so far
+  double left_s = -1;      // of the whole work, as it is foretold now; negative: nobody knows
 };
 
 // What a warning is about, for who sorts them. The text is for people.
@@ -28,6 +29,8 @@ enum class WarningKind {
   kDuplicate,      // copies of triangles
   kTooSmall,       // triangles below the rounding of where they stand
   kSharedEdges,    // edges of more than two triangles
+  kUnitGuessed,    // the file's numbers are no metres
+  kEyesGuessed,    // people are of another size
   kTimeOver,       // something is left out for want of time
 };
 struct Warning {
@@ -57,6 +60,9 @@ class Context {
   bool stopped() const { return stop.load(std::memory_order_relaxed) || (enough_ && enough_()); }
   void warning(const Warning& warning);
   void report(std::string_view stage, double fraction, std::uint64_t rays = 0);
+  // A part of a stage is under way: how much of its time is over, [0,1], as far as that can be told.
+  void foretell(std::string_view part, double fraction);
+  std::function<void(std::string_view part, double fraction)> foretold;  // may be empty
 
  private:
   friend class Interruptible;

@@ -33,6 +33,10 @@ constexpr std::array kImportRules{
                "merge by distance, or move the scene to its origin"},
     ImportRule{WarningKind::kSharedEdges, FindingKind::kDegenerate, "edges of two triangles",
                "delete faces inside the body, or split it"},
+    ImportRule{WarningKind::kUnitGuessed, FindingKind::kImport, "numbers in metres, as glTF has them",
+               "export in metres, or name the unit with --unit"},
+    ImportRule{WarningKind::kEyesGuessed, FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
+               "place a camera where eyes are, or name their height with --eye-height"},
 };
 
 // 'surface "wall": text' as "wall" and the text.

@@ -4,6 +4,7 @@
 
 #include "bake/radiance/capture.h"
 #include "bake/run/assemble.h"
+#include "bake/run/lobe_share.h"
 #include "formats/pack/writer.h"
 
 namespace oriel {
@@ -122,7 +123,8 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
   const ReflectedSurroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
   double surround = 0;
   for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
-  const std::uint32_t paths = lobe_paths(more * fewer.pixels + surround);
+  ORIEL_TRY(const double share, lobe_share(coarse, surroundings, fewer.maps, {}, context));
+  const std::uint32_t paths = lobe_paths(share * (more * fewer.pixels + surround));
   double rays = 0, bytes = 0, seconds = 0, all = 0;
   for (const FoundReflector& found : fewer.reflectors) {
     const Reflector& r = found.reflector;

@@ -43,9 +43,12 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   const LightSet lights(scene);
   ORIEL_TRY(const MaterialMaps materials,
             timed("material", [&](auto&) { return bake_materials(scene, material_options(options), context); }));
-  ORIEL_TRY(const FoundReflections reflections, timed("reflectors", [&](auto&) {
+  ORIEL_TRY(FoundReflections reflections, timed("reflectors", [&](auto&) {
               return find_reflections(options, prepared, materials.summaries, context);
             }));
+  // At most: which triangles each one shows takes longer to find out.
+  const std::vector<std::uint64_t> triangles(reflections.found.reflectors.size(), scene.triangles.size());
+  choose_ways(options.ways, options.target, triangles, reflections.found.reflectors);
   const ViewShares views = look_around(*prepared.accel, reflections.eyes, context.seed);
   const CensusInput input{options, prepared, lights, materials, reflections, views.front};
   plan.census = take_census(input);

@@ -14,10 +14,11 @@
 namespace oriel {
 namespace {
 
-constexpr double kStraight = 1e-4;    // sine of the angle at a corner that is none
-constexpr double kLeastShare = 1e-4;  // of a reflector's light from lamps: less is not worth an emitter
-constexpr double kMostParted = 0.25;  // see LightOnReflector, of its worth
-constexpr float kInwards = 0.02f;     // by which border nodes move in, in cells: off the walls around a reflector
+constexpr double kStraight = 1e-4;              // sine of the angle at a corner that is none
+constexpr double kLeastShare = 1e-4;            // of a reflector's light from lamps: less is not worth an emitter
+constexpr double kMostParted = 0.25;            // see LightOnReflector, of its worth
+constexpr double kMostPartedOfGeometry = 0.02;  // an image as fine as the screen shows what is hidden
+constexpr float kInwards = 0.02f;  // by which border nodes move in, in cells: off the walls around a reflector
 
 // The corners of a light's outline, counter-clockwise from its front; empty unless it is one closed loop.
 std::vector<Vec3> outline(const PolygonLight& light) {
@@ -201,6 +202,17 @@ struct LeftIn {
   std::size_t too_many = 0;   // beyond the polygons that it may list
 
   std::size_t total() const { return too_fine + too_faint + parted + too_many; }
+  std::string reasons(std::size_t brightest) const {
+    std::string text;
+    const auto add = [&](std::size_t lamps, const std::string& why) {
+      if (lamps > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", lamps, why);
+    };
+    add(too_fine, fmt::format("have more than {} triangles", kMaxReflectorEmitters));
+    add(too_faint, fmt::format("are fainter than the {} brightest", brightest));
+    add(parted, "are hidden in part and large");
+    add(too_many, fmt::format("came after its {} polygons", kMaxReflectorEmitters));
+    return text;
+  }
 };
 
 // The lights that would light the reflector most if nothing were in the way, by what they are worth.
@@ -264,12 +276,13 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     LeftIn left_in;
     ORIEL_TRY(std::vector<LightOnReflector> on,
               lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), lobe_width, options, context, left_in));
+    const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
     std::vector<std::pair<Emitter, std::uint64_t>> chosen;
     for (const LightOnReflector& l : on) {
       if (!(l.worth > kLeastShare * total)) continue;
-      if (l.parted > kMostParted * l.worth) {
+      if (l.parted > most_parted * l.worth) {
         ++left_in.parted;
         continue;
       }
@@ -291,11 +304,8 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
-          "their light is the same): {} have more than {} triangles, {} are fainter than the {} brightest, {} are "
-          "hidden "
-          "in part and large, {} came after its {} polygons",
-          r.name, left_in.total(), left_in.too_fine, kMaxReflectorEmitters, left_in.too_faint, options.max_lights,
-          left_in.parted, left_in.too_many, kMaxReflectorEmitters));
+          "their light is the same): {}",
+          r.name, left_in.total(), left_in.reasons(options.max_lights)));
   }
   const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
                                       [&](const FoundReflector& f) { return lobe_widths[f.reflector.material] > 0; });

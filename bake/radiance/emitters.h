@@ -22,8 +22,9 @@ struct EmitterOptions {
 // reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters` what they refer to.
 // A lamp is left out whole or not at all; textured ones, those of more triangles and those that are partly hidden and
 // not small beside the lobe, so that the share which a point sees is not that which the lobe sees, stay in the maps,
-// and so do those beyond that number, with a line in `omitted` each time. The same for any number of threads. Error
-// kStopped.
+// and so do those beyond that number, with a line in `omitted` each time. Of a reflector that is drawn as geometry,
+// whose image is as fine as the screen, any that is partly hidden stays in that. The same for any number of threads.
+// Error kStopped.
 Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
                           Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
                           std::vector<std::string>& omitted);

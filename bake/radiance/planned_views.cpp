@@ -10,6 +10,7 @@
 namespace oriel {
 namespace {
 
+constexpr double kWholeView_sr = 1;           // of a screen of 60 degrees
 constexpr std::uint32_t kTrialSamples = 512;  // that tell whether a reflector is seen at all
 constexpr double kWorthDividing = 0.02;       // by which all must be worth more, of the samples' weight
 constexpr double kPriceStep = 1.1;            // by which the price rises until maps fit memory,
@@ -235,6 +236,16 @@ void append_maps(std::uint32_t reflector, const ReflectorPlan& plan, std::vector
       maps.push_back(blank_map(reflector, e.candidates[pick.candidate], e.window, e.choice.resolution));
 }
 
+// That a reflector fills for the eyes of the samples, as far as it fits into a view.
+float solid_angle_shown(float area_m2, std::span<const ReflectedSample> samples) {
+  double sum = 0;
+  for (const ReflectedSample& s : samples) {
+    const double away = glm::distance(s.eye, s.on_plane);
+    sum += std::min(area_m2 * double{s.eye.z} / (away * away * away), kWholeView_sr);
+  }
+  return samples.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(samples.size()));
+}
+
 }  // namespace
 
 Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
@@ -242,10 +253,12 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   const std::vector<FoundReflector> all = std::move(found.reflectors);
   const ReflectedSurroundings surroundings(accel, all, {});
   std::vector<std::pair<double, std::uint32_t>> seen;
+  std::vector<float> shown(all.size());
   for (std::uint32_t r = 0; r < all.size(); ++r) {
     double angle = 0;
     ORIEL_TRY(const auto samples, sample_reflections(surroundings, r, eyes, kTrialSamples, context.seed, context));
     for (const ReflectedSample& s : samples) angle += s.weight;
+    shown[r] = solid_angle_shown(all[r].reflector.area_m2, samples);
     if (angle > 0)
       seen.emplace_back(-angle * all[r].reflectance, r);
     else
@@ -257,11 +270,13 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   std::sort(seen.begin(), seen.end());
   found.reflectors.clear();
   for (const auto& [worth, r] : seen) {
-    if (found.reflectors.size() < limit)
+    if (found.reflectors.size() < limit) {
       found.reflectors.push_back(all[r]);
-    else
+      found.reflectors.back().shown_sr = shown[r];
+    } else {
       found.omitted.push_back(fmt::format("'{}' ({:.3g} m²): less to be seen than the {} reflectors kept",
                                           all[r].reflector.name, all[r].reflector.area_m2, limit));
+    }
   }
   return {};
 }
@@ -274,6 +289,10 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
   ViewPlan out;
   std::vector<ReflectorPlan> plans;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
+    if (reflectors[r].way == ReflectorWay::kGeometry) {
+      plans.emplace_back();
+      continue;
+    }
     const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
     ReflectorPlan plan;
     ORIEL_TRY(const bool kept, take_known(planner, r, identity, eyes, options, known, context, plan));

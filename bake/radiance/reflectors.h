@@ -42,16 +42,22 @@ inline void fields(Archive& archive, ReflectorOptions& o) {
           o.min_open_share);
 }
 
+// How the player makes what a planar reflector shows: it draws the mirrored scene, or has radiance maps.
+enum class ReflectorWay { kGeometry, kMaps };
+
 struct FoundReflector {
   Reflector reflector;                   // indices, elements and maps are left empty
   std::vector<std::uint32_t> triangles;  // into Scene::triangles, ascending
   float reflectance = 0;                 // as compared with min_reflectance
   float roughness = 0;
-  std::vector<std::uint32_t> emitters;  // triangles whose own light its maps leave out, ascending
+  float shown_sr = 0;                   // solid angle that it fills for an eye that sees it, mean; 0: not known
+  std::vector<std::uint32_t> emitters;  // triangles whose own light its image leaves out, ascending
+  ReflectorWay way = ReflectorWay::kMaps;
+  std::string why;  // that way
 };
 
 inline void fields(Archive& archive, FoundReflector& f) {
-  archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.emitters);
+  archive(f.reflector, f.triangles, f.reflectance, f.roughness, f.shown_sr, f.emitters, f.way, f.why);
 }
 
 struct FoundReflectors {

@@ -21,18 +21,49 @@ bool is_in_window(const RadianceMap& map, const ReflectedSample& s) {
          pixel.y < static_cast<float>(map.height);
 }
 
-bool sees(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& s) {
-  return std::isfinite(needed_resolution(surroundings, map.reflector, map.eye, {map.lower, map.upper}, s));
+// Where a residual is taken from.
+struct Host {
+  Vec3 eye{0};
+  Element element;
+  std::uint32_t resolution = 0;
+  bool has_emission = false;
+};
+
+Host host_of(const RadianceMap& map) {
+  return {map.eye, {map.lower, map.upper, map.element}, std::max(map.width, map.height), map.has_emission};
 }
 
-// The map of the reflector in whose window most of the samples' weight lies; null where none has any.
-const RadianceMap* best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
-  const RadianceMap* best = nullptr;
+bool has_room(std::span<const RadianceMap> maps, std::uint32_t element) {
+  const auto of_it = [&](const RadianceMap& map) { return map.element == element; };
+  return std::count_if(maps.begin(), maps.end(), of_it) < std::ptrdiff_t{kMostMapsPerElement};
+}
+
+// The map of the reflector in whose window most of the samples' weight lies; none where none has any.
+std::optional<Host> best_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
+  std::optional<Host> best;
   double most = 0;
   for (const RadianceMap& map : maps) {
     double weight = 0;
     for (const ReflectedSample& s : missing) weight += is_in_window(map, s) ? s.weight : 0;
-    if (weight > most) best = &map, most = weight;
+    if (weight > most && has_room(maps, map.element)) best = host_of(map), most = weight;
+  }
+  return best;
+}
+
+// The mirror image of the eye of these samples, before the element in which most of their weight lies.
+std::optional<Host> camera_host(std::span<const RadianceMap> maps, std::span<const ReflectedSample> missing) {
+  std::optional<Host> best;
+  double most = 0;
+  for (const RadianceMap& map : maps) {
+    double weight = 0;
+    for (const ReflectedSample& s : missing)
+      weight += glm::all(glm::greaterThanEqual(Vec2(s.on_plane), map.lower)) &&
+                        glm::all(glm::lessThanEqual(Vec2(s.on_plane), map.upper))
+                    ? s.weight
+                    : 0;
+    if (map.residual || !(weight > most) || !has_room(maps, map.element)) continue;
+    best = host_of(map), most = weight;
+    best->eye = missing[0].eye * Vec3(1, 1, -1);
   }
   return best;
 }
@@ -79,10 +110,6 @@ class ResidualCapture {
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
       const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
       if (rays_) *rays_ += seen.rays;
-      const auto is_shown = [&](const ReflectedSample& found) {
-        const auto shown = [&](const RadianceMap& map) { return sees(surroundings_, map, found); };
-        return std::any_of(others_.begin(), others_.end(), shown);
-      };
       if (sky && seen.sight.state == Sight::kSky) {
         ReflectedSample found = aim;
         found.on_plane = q;
@@ -109,7 +136,36 @@ class ResidualCapture {
     }
   }
 
+  // What the pixel's ray meets first, if no other map shows it.
+  void capture_first(std::size_t at) {
+    const Vec3 q(map_point(map_, Vec2(at % map_.width, at / map_.width) + 0.5f), 0);
+    const Vec3 along = glm::normalize(q - map_.eye);
+    const Vec3 from = pack_from_reflector(reflector_, q);
+    const Vec3 direction = glm::normalize(Mat3(reflector_.pack_from_reflector) * along);
+    const Sight sight = surroundings_.look(map_.reflector, from, direction, [](const SeenSurface&) { return false; });
+    if (rays_) *rays_ += sight.rays;
+    if (sight.state == Sight::kNothing) return;
+    const bool sky = sight.state == Sight::kSky;
+    ReflectedSample found;
+    found.on_plane = q;
+    found.image = sky ? Vec4(along, 0) : Vec4(q + glm::length(sight.offset) * along, 1);
+    found.normal = glm::transpose(Mat3(reflector_.pack_from_reflector)) * sight.normal;
+    found.spacing = 1;
+    found.sky = sky || sight.backdrop;
+    if (is_shown(found)) return;
+    const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
+    if (rays_) *rays_ += seen.rays;
+    map_.radiance[at] = seen.radiance;
+    map_.disparity[at] = sky ? 0 : disparity_of(map_, found.image.z);
+    map_.valid[at] = static_cast<std::uint8_t>(sight.state);
+  }
+
  private:
+  bool is_shown(const ReflectedSample& found) const {
+    return std::any_of(others_.begin(), others_.end(),
+                       [&](const RadianceMap& map) { return shows(surroundings_, map, found); });
+  }
+
   const ReflectedSurroundings& surroundings_;
   const Reflector& reflector_;
   const OutgoingRadiance& outgoing_;
@@ -139,18 +195,44 @@ class ResidualMaker {
 
   // What is missing in the reflector's maps, in no more than `bytes`; none where that is little. Counts what it had to
   // make smaller or leave out.
-  Result<std::optional<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> maps,
-                                          std::uint64_t bytes) {
+  Result<std::vector<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> own,
+                                        std::uint64_t bytes) {
+    std::vector<RadianceMap> maps(own.begin(), own.end()), made;
+    const auto add = [&](const std::optional<Host>& host, std::span<const ReflectedSample> missing) -> Result<bool> {
+      if (!host) return false;
+      ORIEL_TRY(auto map, map_of(reflector, maps, *host, missing, bytes));
+      if (!map) return false;
+      bytes -= std::min(bytes, map_bytes(map->width, map->height));
+      maps.push_back(*map);
+      made.push_back(std::move(*map));
+      return true;
+    };
     ORIEL_TRY(const auto missing, find_missing(reflector, maps));
-    const RadianceMap* host = best_host(maps, missing);
-    if (!host) return std::nullopt;
-    const Element element{host->lower, host->upper, host->element};
-    const std::uint32_t wanted = std::min(options_.max_resolution, std::max(host->width, host->height));
-    const std::uint32_t resolution = fitting_resolution(element, wanted, bytes);
+    if (!missing.empty()) ORIEL_TRY_VOID(add(best_host(maps, missing), missing));
+    ORIEL_TRY(auto cameras, see_by_camera(reflector));
+    while (!cameras.empty()) {
+      ORIEL_TRY_VOID(leave_unseen(maps, cameras));
+      if (cameras.empty()) break;
+      const std::vector<ReflectedSample> worst = std::move(cameras.front());
+      cameras.erase(cameras.begin());
+      ORIEL_TRY_VOID(add(camera_host(maps, worst), {}));
+    }
+    return made;
+  }
+
+  std::uint32_t reduced = 0;
+
+ private:
+  // Of samples that no map shows; without any, of all from there that none does.
+  Result<std::optional<RadianceMap>> map_of(std::uint32_t reflector, std::span<const RadianceMap> maps,
+                                            const Host& host, std::span<const ReflectedSample> missing,
+                                            std::uint64_t bytes) {
+    const std::uint32_t wanted = std::min(options_.max_resolution, host.resolution);
+    const std::uint32_t resolution = fitting_resolution(host.element, wanted, bytes);
     reduced += resolution < wanted;
     if (resolution == 0) return std::nullopt;
-    RadianceMap map = blank_map(reflector, host->eye, element, resolution);
-    map.has_emission = host->has_emission;
+    RadianceMap map = blank_map(reflector, host.eye, host.element, resolution);
+    map.has_emission = host.has_emission;
     map.residual = true;
     const std::size_t pixels = std::size_t{map.width} * map.height;
     map.radiance.assign(pixels, Vec3(0));
@@ -159,15 +241,53 @@ class ResidualMaker {
     ResidualCapture capture(surroundings_, outgoing_, maps, map, rays_);
     const auto aims = capture.aims(missing, options_.spread);
     ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
-      if (aims[i]) capture.capture(i, *aims[i]);
+      if (missing.empty())
+        capture.capture_first(i);
+      else if (aims[i])
+        capture.capture(i, *aims[i]);
     }));
     if (std::all_of(map.valid.begin(), map.valid.end(), [](std::uint8_t v) { return v == 0; })) return std::nullopt;
     return map;
   }
 
-  std::uint32_t reduced = 0;
+  // What each camera sees in the reflector, of weights that add up to 1; none of those that see nothing.
+  Result<std::vector<std::vector<ReflectedSample>>> see_by_camera(std::uint32_t reflector) {
+    std::vector<std::vector<ReflectedSample>> seen;
+    for (const Vec3& camera : options_.cameras) {
+      ORIEL_TRY(auto samples, sample_reflections(surroundings_, reflector, {&camera, 1}, options_.camera_samples,
+                                                 context_.seed + 3, context_));
+      float total = 0;
+      for (const ReflectedSample& s : samples) total += s.weight;
+      if (!(total > 0)) continue;
+      for (ReflectedSample& s : samples) s.weight /= total;
+      seen.push_back(std::move(samples));
+    }
+    return seen;
+  }
 
- private:
+  // Leaves each camera those samples that none of the maps shows, and those cameras that miss too much: the worst
+  // first.
+  Status leave_unseen(std::span<const RadianceMap> maps, std::vector<std::vector<ReflectedSample>>& cameras) {
+    const auto missed = [](const std::vector<ReflectedSample>& samples) {
+      double weight = 0;
+      for (const ReflectedSample& s : samples) weight += s.weight;
+      return weight;
+    };
+    for (std::vector<ReflectedSample>& samples : cameras) {
+      std::vector<std::uint8_t> unseen(samples.size());
+      ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
+        unseen[i] = std::none_of(maps.begin(), maps.end(),
+                                 [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
+      }));
+      std::size_t i = 0;
+      std::erase_if(samples, [&](const ReflectedSample&) { return unseen[i++] == 0; });
+    }
+    std::erase_if(cameras, [&](const auto& samples) { return missed(samples) <= options_.most_missing; });
+    std::stable_sort(cameras.begin(), cameras.end(),
+                     [&](const auto& a, const auto& b) { return missed(a) > missed(b); });
+    return {};
+  }
+
   // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
   Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
     ORIEL_TRY(const auto samples,
@@ -175,7 +295,7 @@ class ResidualMaker {
     std::vector<std::uint8_t> is_missing(samples.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
       is_missing[i] = std::none_of(maps.begin(), maps.end(),
-                                   [&](const RadianceMap& map) { return sees(surroundings_, map, samples[i]); });
+                                   [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
     }));
     std::vector<ReflectedSample> missing;
     double total = 0, lost = 0;
@@ -195,20 +315,21 @@ class ResidualMaker {
   std::atomic<std::uint64_t>* rays_;
 };
 
-// The reflector's maps with the residual behind those of its element.
-void append_with_residual(std::span<RadianceMap> maps, std::vector<RadianceMap> residual,
-                          std::vector<RadianceMap>& all) {
+// The reflector's maps with the residuals behind those of their elements.
+void append_with_residuals(std::span<RadianceMap> maps, std::vector<RadianceMap> residuals,
+                           std::vector<RadianceMap>& all) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const bool ends_element = i + 1 == maps.size() || maps[i].element != maps[i + 1].element;
-    const bool is_next = !residual.empty() && ends_element && maps[i].element == residual[0].element;
+    const std::uint32_t element = maps[i].element;
+    const bool ends_element = i + 1 == maps.size() || element != maps[i + 1].element;
     all.push_back(std::move(maps[i]));
-    if (is_next) all.push_back(std::move(residual[0])), residual.clear();
+    for (RadianceMap& residual : residuals)
+      if (ends_element && residual.element == element) all.push_back(std::move(residual));
   }
 }
 
 struct Residual {
-  std::vector<RadianceMap> map;  // one or none
-  std::uint32_t reduced = 0;     // whether it had to be smaller or left out
+  std::vector<RadianceMap> maps;
+  std::uint32_t reduced = 0;  // had to be smaller or left out
   std::uint64_t rays = 0;
 };
 
@@ -220,20 +341,20 @@ Result<Residual> residual_of(const ReflectedSurroundings& surroundings, const Ou
   const auto inputs = [&](Archive& key) {
     // More memory than the largest map takes changes nothing.
     key(reflector, eyes, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
-        options.spread, options.max_resolution, options.least_missing);
+        options.spread, options.max_resolution, options.least_missing, options.cameras, options.most_missing,
+        options.camera_samples);
     for (const RadianceMap& map : maps) key(frame_of(map));
   };
   const auto compute = [&]() -> Status {
     std::atomic<std::uint64_t> rays{0};
     ResidualMaker maker(surroundings, outgoing, eyes, options, context, &rays);
-    ORIEL_TRY(auto map, maker.make(reflector, maps, bytes));
-    if (map) made.map.push_back(std::move(*map));
+    ORIEL_TRY(made.maps, maker.make(reflector, maps, bytes));
     made.reduced = maker.reduced;
     made.rays = rays;
     return {};
   };
   ORIEL_TRY_VOID(one_unit(context, "residual", inputs, compute,
-                          [&](Archive& archive) { archive(made.map, made.reduced, made.rays); }));
+                          [&](Archive& archive) { archive(made.maps, made.reduced, made.rays); }));
   return made;
 }
 
@@ -249,9 +370,13 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span<const RadianceMap>(plan.maps).subspan(reflector.first_map, reflector.map_count);
+    if (own.empty()) {
+      residuals.emplace_back();
+      continue;
+    }
     const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
     ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
-    for (const RadianceMap& map : made.map) used += map_bytes(map.width, map.height);
+    for (const RadianceMap& map : made.maps) used += map_bytes(map.width, map.height);
     reduced += made.reduced;
     if (rays) *rays += made.rays;
     residuals.push_back(std::move(made));
@@ -264,7 +389,7 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
     Reflector& reflector = reflectors[r].reflector;
     const auto own = std::span(plan.maps).subspan(reflector.first_map, reflector.map_count);
     reflector.first_map = static_cast<std::uint32_t>(all.size());
-    append_with_residual(own, std::move(residuals[r].map), all);
+    append_with_residuals(own, std::move(residuals[r].maps), all);
     reflector.map_count = static_cast<std::uint32_t>(all.size()) - reflector.first_map;
   }
   plan.maps = std::move(all);

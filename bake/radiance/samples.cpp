@@ -204,6 +204,10 @@ Shown shown_by(const ReflectedSurroundings& surroundings, const RadianceMap& map
 
 }  // namespace
 
+bool shows(const ReflectedSurroundings& surroundings, const RadianceMap& map, const ReflectedSample& sample) {
+  return shown_by(surroundings, map, sample) != kNot;
+}
+
 ViewQuality judge_maps(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps,
                        std::span<const ReflectedSample> samples, Context& context) {
   std::vector<Shown> found(samples.size(), kNot);

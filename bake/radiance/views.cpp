@@ -127,11 +127,13 @@ std::uint32_t resolution_for(float roughness) {
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options) {
   Planner planner{.scene = scene, .reflectors = reflectors, .options = options, .elements = {}};
   for (FoundReflector& found : reflectors) {
+    planner.elements.emplace_back();
+    if (found.way == ReflectorWay::kGeometry) continue;
     const ElementGrid grid =
         element_grid(found.reflector.upper - found.reflector.lower, options.element_m, options.max_elements);
     found.reflector.elements_x = grid.x;
     found.reflector.elements_y = grid.y;
-    planner.elements.push_back(covered_elements(scene, found, grid));
+    planner.elements.back() = covered_elements(scene, found, grid);
   }
   ViewPlan plan;
   const Fit fit = fit_memory(planner, plan.omitted);

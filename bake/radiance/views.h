@@ -37,10 +37,10 @@ bool is_inside(const Scene& scene, const Vec3& p, float margin);
 // How an omission of maps that do not fit begins: "radiance maps would take … MiB of … MiB allowed: ".
 std::string memory_line(std::uint64_t wanted, std::uint64_t allowed);
 
-// Plans the maps of all reflectors and sets each one's elements_x, elements_y, first_map and map_count. Left out are
-// elements that the reflector's polygons do not cover and viewpoints whose mirror image is outside the scene's
-// bounds by more than the hemisphere's radius. Where memory_bytes does not suffice, views per element are reduced for
-// all, then resolution (down to 16), then the least important reflectors get no maps.
+// Plans the maps of all reflectors that have maps and sets each one's elements_x, elements_y, first_map and map_count.
+// Left out are elements that the reflector's polygons do not cover and viewpoints whose mirror image is outside the
+// scene's bounds by more than the hemisphere's radius. Where memory_bytes does not suffice, views per element are
+// reduced for all, then resolution (down to 16), then the least important reflectors get no maps.
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options);
 
 }  // namespace oriel

@@ -193,17 +193,17 @@ std::vector<WorstPixel> worst_of(std::span<const HeldOut> samples, const Scene& 
   constexpr std::size_t kMost = 8;
   constexpr double kLeastShare = 0.01;
   std::vector<WorstPixel> worst;
-  double sum = 0;
+  double sum = 0, off = 0;  // off: without the pixels whose noise makes less than nothing of it, or shares pass 100 %
   for (const HeldOut& h : samples) {
     const double square = h.square();
-    sum += square;
+    sum += square, off += std::max(square, 0.0);
     worst.push_back({h.pixel->triangle, point_on(scene, h.pixel->triangle, h.pixel->barycentric),
                      luminance(Vec3(h.baked)), luminance(Vec3(h.mean())), square});
   }
   if (!(sum > 0)) return {};  // less than the paths' noise
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
-  while (worst.size() > kMost || (!worst.empty() && !(worst.back().share >= kLeastShare * sum))) worst.pop_back();
-  for (WorstPixel& w : worst) w.share = std::min(w.share / sum, 1.0);
+  while (worst.size() > kMost || (!worst.empty() && !(worst.back().share >= kLeastShare * off))) worst.pop_back();
+  for (WorstPixel& w : worst) w.share /= off;
   return worst;
 }
 

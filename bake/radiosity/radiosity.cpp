@@ -147,7 +147,9 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   }
   if (!task.options.stitch || is_dark(task.transport)) return {};
   if (task.options.late()) {
-    task.context.warning({"the seams of the lightmap are not stitched: --time was over", WarningKind::kTimeOver});
+    task.context.warning(
+        {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
+         WarningKind::kTimeOver});
     return {};
   }
   return stitch_lightmap(task, light);
@@ -159,6 +161,7 @@ Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estim
   if (options.detail < 2 || options.hidden == Hidden::kBlack) return {};
   const auto known = estimator.texel_light();
   if (!known) return {};
+  task.context.foretell("detail", 0);
   const Interruptible until(task.context, options.enough);
   const Status added =
       options.late() ? fail(ErrorCode::kStopped, "radiosity", "late") : add_detail(task, *known, light);
@@ -182,6 +185,7 @@ Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const Fra
 Result<Certificate> verify(const RadiosityTask& task, const Radiosity& light, std::vector<FramePixel>& held_out) {
   const RadiosityOptions& options = task.options;
   if (options.verify <= 0 || options.estimator != Estimator::kCached || is_dark(task.transport)) return Certificate();
+  task.context.foretell("verification", 0);
   const auto late = [&] { return options.late(); };
   const Interruptible until(task.context, late);
   const auto measured = [&]() -> Result<Certificate> {
@@ -251,6 +255,7 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
                                  std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
                                  Context& context) {
   std::atomic<std::uint64_t> rays{0}, quick_rays{0};
+  context.foretell("first light", 0);
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             pixels_of(transport, atlas, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
   const RadiosityTask task{transport, atlas, texel_map, pixels, options, context, rays, quick_rays};

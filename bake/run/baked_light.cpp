@@ -90,8 +90,20 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen) {
                      !seen.mirror);
 }
 
+bool traces_lobe(const BakedScene& baked, const SeenSurface& seen) {
+  return shows_lobe(baked, seen, surface_at(baked.accel.scene(), seen.hit, -seen.towards_eye, seen.width_m));
+}
+
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
+  return [&](const SeenSurface& seen) {
+    SeenSurface shown = seen;
+    shown.glossy = seen.glossy || triangles[seen.hit.triangle];
+    return outgoing(shown);
+  };
+}
+
 std::uint32_t lobe_paths(double pixels) {
-  constexpr double kFewest = 4, kMost = 32, kAll = 24e6;
+  constexpr double kFewest = 4, kMost = 64, kAll = 8e6;
   return static_cast<std::uint32_t>(std::clamp(kAll / std::max(pixels, 1.0), kFewest, kMost));
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "bake/atlas/atlas.h"
-#include "bake/radiance/sight.h"
+#include "bake/radiance/capture.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
 
@@ -35,8 +35,14 @@ Vec3 baked_radiance(const BakedScene& baked, const SeenSurface& seen);
 Vec3 baked_radiance_with_lobes(const BakedScene& baked, const SeenSurface& seen, std::uint32_t paths,
                                std::uint64_t seed, std::uint64_t& rays);
 
-// So many paths for each of `pixels`: 32, or fewer, down to 4, where there are so many that all maps together would
-// take longer than the lightmap. Neighbours then average what a pixel does not.
+// Whether that traces a lobe there.
+bool traces_lobe(const BakedScene& baked, const SeenSurface& seen);
+
+// The light with the lobes of these triangles traced. Both must outlive it.
+OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing);
+
+// So many paths for each of the pixels that trace one: 64, or fewer, down to 4, where there are so many that all maps
+// together would take longer than the lightmap. Neighbours then average what a pixel does not.
 std::uint32_t lobe_paths(double pixels);
 
 }  // namespace oriel

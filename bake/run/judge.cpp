@@ -9,6 +9,7 @@
 namespace oriel {
 namespace {
 
+constexpr std::uint32_t kCameraSamples = 2048;
 constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it
 
 // Mean of the pixels around a place that hold the same surface, by their bilinear weights; none where none does.
@@ -92,6 +93,29 @@ Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, st
   e.relative_error = std::sqrt(e.relative_error);
   e.seen_error = with_image > 0 ? std::sqrt(e.seen_error / with_image) : 0;
   return e;
+}
+
+void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
+  const DroppedSamples& dropped = accel.dropped();
+  if (dropped.count() == 0) return;
+  std::string place = "far from any surface";
+  if (const std::uint32_t t = dropped.first_triangle(); t != DroppedSamples::kNowhere) {
+    const Surface& surface = accel.scene().surfaces[accel.scene().triangle_surface[t]];
+    place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
+                        accel.scene().materials[surface.material].name);
+  }
+  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
+}
+
+Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                          std::span<const RadianceMap> own, std::span<const Vec3> cameras, Context& context) {
+  double worst = 1;
+  for (const Vec3& camera : cameras) {
+    ORIEL_TRY(const auto samples,
+              sample_reflections(surroundings, reflector, {&camera, 1}, kCameraSamples, context.seed + 4, context));
+    if (!samples.empty()) worst = std::min(worst, judge_maps(surroundings, own, samples, context).seen);
+  }
+  return worst;
 }
 
 }  // namespace oriel

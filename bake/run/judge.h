@@ -23,4 +23,12 @@ Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, st
                                    const OutgoingRadiance& outgoing, Context& context,
                                    std::atomic<std::uint64_t>& rays);
 
+// Samples that were left out, and where to look for the cause.
+void tell_dropped(const Accel& accel, std::vector<std::string>& findings);
+
+// What that of the cameras (scene space) which sees least of a reflector sees in its maps: a share of what it sees in
+// it. Error kStopped.
+Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+                          std::span<const RadianceMap> own, std::span<const Vec3> cameras, Context& context);
+
 }  // namespace oriel

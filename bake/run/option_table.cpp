@@ -109,6 +109,17 @@ std::vector<Option> radiosity_options(BakeOptions& o) {
 
 std::vector<Option> reflection_options(BakeOptions& o) {
   return {
+      {"--reflections", kReflections,
+       "How planar reflectors show the scene: auto (each by the way whose frames are cheaper), geometry (the player "
+       "draws the mirrored scene: nothing is baked for them), maps (radiance maps). --views, --map-resolution and "
+       "--map-price mean maps",
+       choice(o.ways,
+              Names<WaysWanted>{
+                  {"auto", WaysWanted::kAuto}, {"geometry", WaysWanted::kGeometry}, {"maps", WaysWanted::kMaps}}),
+       Use::kEveryday, "reflections", "reflections.md#geometry-or-maps"},
+      {"--target", kReflections, "What frames will be drawn on, which decides what is cheaper: cpu, gpu",
+       choice(o.target, Names<DrawnOn>{{"cpu", DrawnOn::kCpu}, {"gpu", DrawnOn::kGpu}}), Use::kRare, "target",
+       "reflections.md#geometry-or-maps"},
       {"--views",
        kReflections,
        "Viewpoints of radiance maps. planned:N are at most N for each 9 m² of a reflector, and 15 in all of an "
@@ -267,6 +278,9 @@ Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");
+  // Who says what maps are to be like wants maps.
+  const bool maps_named = given.has("--views") || given.has("--map-resolution") || given.has("--map-price");
+  if (maps_named && !given.has("--reflections")) o.ways = WaysWanted::kMaps;
   if (r.samples > 0) {
     r.error = 0;
   } else if (o.time_s > 0) {

@@ -11,6 +11,7 @@
 #include "bake/radiance/planned_views.h"
 #include "bake/radiance/reflectors.h"
 #include "bake/radiance/views.h"
+#include "bake/radiance/ways.h"
 #include "bake/radiosity/radiosity.h"
 #include "bake/transfer/compress.h"
 #include "bake/transfer/probes.h"
@@ -42,6 +43,8 @@ struct BakeOptions {
   RadiosityOptions radiosity;      // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
+  WaysWanted ways = WaysWanted::kAuto;
+  DrawnOn target = DrawnOn::kCpu;
   ViewScheme view_scheme = ViewScheme::kPlanned;
   PlannedViewOptions planned;
   ViewOptions views;  // of hemispheres

@@ -4,7 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "bake/jobs/parallel.h"
 #include "bake/run/assemble.h"
+#include "bake/run/fit_maps.h"
+#include "bake/run/forecast.h"
 #include "bake/run/inputs.h"
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
@@ -18,15 +21,10 @@
 namespace oriel {
 namespace {
 
-constexpr double kSlowPaths = 1.5;    // a ray of verification takes longer than a gathered one
-constexpr double kLedgerRays = 0.01;  // of the lightmap's
-
-double bytes_of(const Pack& pack, const PlannedReflections& planned) {
-  double bytes = 0;
-  for (const LightmapPage& page : pack.lightmaps) bytes += 8.0 * static_cast<double>(page.irradiance.size());
-  for (const RadianceMap& map : planned.plan.maps) bytes += double{kMapBytesPerPixel} * map.width * map.height;
-  return bytes;
-}
+constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer than a gathered one
+constexpr double kLightField = 0.4;    // of the time that texels' first light takes a thread: measured on few scenes
+constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
+constexpr double kLedgerRays = 0.01;   // of the lightmap's
 
 // Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
 // `later`: seconds of these.
@@ -36,31 +34,6 @@ std::function<bool()> refined_enough(const BakeOptions& options, const TimeBudge
   return [=, &budget, &finish = context.finish, begun = budget.spent()] {
     return finish || budget.left() <= later + verifying * (budget.spent() - begun);
   };
-}
-
-// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take.
-Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
-  Pack dark;
-  for (const AtlasPage& page : prepared.atlas.pages) {
-    const std::size_t texels = std::size_t{page.width} * page.height;
-    dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
-  }
-  if (!planned.empty()) {
-    const double until = budget.left() - budget.for_timing();
-    const auto late = [&] { return budget.left() < until; };
-    Status tried;
-    {
-      const Interruptible interruptible(context, late);
-      tried = time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
-    }
-    if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
-    if (!tried)
-      leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
-    shrink_maps(budget.for_maps(), planned);
-  }
-  const double field = prepared.movers.empty() ? 0 : budget.for_light_field();
-  return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
 }
 
 // What a stage makes that the bake can do without: none where --time is over before, or the user wants to finish.
@@ -99,19 +72,6 @@ void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions)
   for (auto& kernel : materials.kernel) kernel = -1;
 }
 
-// Samples that were left out, and where to look for the cause.
-void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
-  const DroppedSamples& dropped = accel.dropped();
-  if (dropped.count() == 0) return;
-  std::string place = "far from any surface";
-  if (const std::uint32_t t = dropped.first_triangle(); t != DroppedSamples::kNowhere) {
-    const Surface& surface = accel.scene().surfaces[accel.scene().triangle_surface[t]];
-    place = fmt::format("first at triangle {} of '{}', material '{}'", t - surface.first_triangle, surface.name,
-                        accel.scene().materials[surface.material].name);
-  }
-  findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
-}
-
 void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, Pack& pack) {
   assemble_materials(scene, materials, pack);
   pack.mesh = std::move(mesh.mesh);
@@ -126,16 +86,33 @@ void fill_pack(const Scene& scene, MaterialMaps materials, AssembledMesh mesh, P
 // One bake: what its stages hand on to each other. Each stage is a function; run() names them in their order.
 class Bake {
  public:
-  Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {}
+  Bake(const BakeOptions& options, Context& context) : options_(options), context_(context), budget_(options.time_s) {
+    context_.foretold = [this](std::string_view part, double done) { forecast_.at(part, done, clock_.spent()); };
+    context_.progress = [this](Progress progress) {
+      // A loop of another stage's is a try, as that of the time that reflections take.
+      if (progress.stage == stage_ || (stage_ == "radiance" && progress.stage == "surroundings"))
+        forecast_.at(progress.stage, progress.fraction, clock_.spent());
+      progress.left_s = std::min(forecast_.left(clock_.spent()).value_or(-1), budget_.left());
+      if (listener_) listener_(progress);
+    };
+  }
+  ~Bake() {
+    context_.progress = listener_;
+    context_.foretold = nullptr;
+  }
+  Bake(const Bake&) = delete;
+  Bake& operator=(const Bake&) = delete;
 
   Result<BakeResult> run() {
     ORIEL_TRY_VOID(prepare());
     // What needs no light comes first: what it takes is known when the lightmap asks how long it may be refined.
     ORIEL_TRY_VOID(make_materials());
-    ORIEL_TRY_VOID(plan_views());
+    ORIEL_TRY_VOID(find_reflectors());
     ORIEL_TRY_VOID(find_visible_sets());
+    ORIEL_TRY_VOID(plan_views());
     ORIEL_TRY_VOID(make_transfer());
     ORIEL_TRY_VOID(fit_to_time());
+    ORIEL_TRY_VOID(foretell_reflections());
     ORIEL_TRY_VOID(bake_lightmap());
     ORIEL_TRY_VOID(keep_energy_ledger());
     ORIEL_TRY_VOID(capture_reflections());
@@ -154,9 +131,20 @@ class Bake {
     if (budget_.limited() && layout.atlas.time_limit_s <= 0) layout.atlas.time_limit_s = budget_.for_atlas();
     ORIEL_TRY_VOID(lay_out_lightmap(layout, timed_, context_, prepared_, budget_.left()));
     result_.omissions = prepared_.omissions;
+    for (const Surface& surface : scene().surfaces)
+      for (const std::string& name : {surface.name, surface.mesh_name})
+        result_.node_paths.try_emplace(name, surface.node_path);
     lights_.emplace(scene());
     warn_about_light(scene(), *lights_, context_);
+    foretell_light();
     return {};
+  }
+
+  void foretell_light() {
+    double texels = 0;
+    for (const TexelMapPage& page : prepared_.texel_map) texels += static_cast<double>(page.texel.size());
+    forecast_.expect("probes", prepared_.movers.empty() ? 0 : kLightField * Forecast::kTexel_s * texels);
+    forecast_.expect("first light", std::max(Forecast::kTexel_s * texels / thread_count(context_), kLeastLight_s));
   }
 
   Status make_materials() {
@@ -167,24 +155,41 @@ class Bake {
     return {};
   }
 
+  Status find_reflectors() {
+    if (!options_.with_radiance) return {};
+    ORIEL_TRY(found_, timed_("reflectors", [&](auto&) {
+                return find_reflections(options_, prepared_, materials_.summaries, context_);
+              }));
+    return {};
+  }
+
+  // Each reflector's way, by what it shows; the viewpoints of those that have maps.
   Status plan_views() {
     if (options_.with_radiance) {
+      if (reflected_triangles_.empty())
+        reflected_triangles_.assign(found_.found.reflectors.size(), scene().triangles.size());
+      choose_ways(options_.ways, options_.target, reflected_triangles_, found_.found.reflectors);
       ORIEL_TRY(planned_, timed_("views", [&](auto&) {
-                  return plan_reflections(options_, prepared_, *lights_, materials_, budget_.for_views(), context_);
+                  return plan_reflections(options_, prepared_, *lights_, std::move(found_), budget_.for_views(),
+                                          context_);
                 }));
     }
-    if (planned_.empty()) return {};
+    if (!planned_.has_images()) return {};
     return timed_("mips", [&](auto&) { return make_mips(prepared_.imported->scene, context_); });
   }
 
   Status find_visible_sets() {
     mesh_ = assemble_mesh(scene(), prepared_.atlas);
-    ORIEL_TRY(pack().visible_sets, timed_("visibility", [&](std::uint64_t& rays) {
-                auto sets = bake_visibility(options_, accel(), planned_.all.region.grids, mesh_,
-                                            budget_.for_visible_sets(), context_, visibility_, result_.omissions);
+    ORIEL_TRY(SceneSets sets, timed_("visibility", [&](std::uint64_t& rays) {
+                auto found =
+                    bake_visibility(options_, accel(), {found_.region.grids, found_.eyes, found_.found.reflectors},
+                                    mesh_, budget_.for_visible_sets(), context_, visibility_, result_.omissions);
                 rays += visibility_.lines;
-                return sets;
+                return found;
               }));
+    pack().visible_sets = std::move(sets.visible);
+    pack().reflected_sets = std::move(sets.reflected);
+    reflected_triangles_ = std::move(sets.reflected_triangles);
     return {};
   }
 
@@ -201,6 +206,19 @@ class Bake {
     ORIEL_TRY(later_s_, timed_("timing", [&](auto&) {
                 return fit_reflections(options_, prepared_, *lights_, budget_, context_, planned_);
               }));
+    return {};
+  }
+
+  // A few of their pixels tell how long all take.
+  Status foretell_reflections() {
+    if (!planned_.has_images()) return {};
+    if (!budget_.limited()) {
+      Pack dark;
+      ORIEL_TRY_VOID(time_reflections(options_, prepared_, *lights_, dark, context_, planned_));
+    }
+    const double surround = planned_.surround_pixels() / std::max(planned_.pixels(), 1.0);
+    forecast_.expect("radiance", (1 - surround) * planned_.capture_s);
+    forecast_.expect("surroundings", surround * planned_.capture_s);
     return {};
   }
 
@@ -281,11 +299,15 @@ class Bake {
   }
 
   Status assemble() {
+    context_.foretell("writing", 0);
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
     ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
     if (!pack().visible_sets.empty())
       pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
+    if (pack().reflectors.empty()) pack().reflected_sets = {};
+    if (!pack().reflected_sets.empty())
+      pack().reflected_sets.made_for = reflected_hash(pack().visible_sets, pack().reflectors);
     return {};
   }
 
@@ -328,10 +350,16 @@ class Bake {
   TimeBudget budget_;
   BakeResult result_;
   WarningLog log_{context_, result_.warnings};
-  Stopwatch timed_{result_.times};
+  const std::function<void(const Progress&)> listener_ = context_.progress;
+  const ElapsedTime clock_;
+  Forecast forecast_;
+  std::string_view stage_;
+  Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage_ = stage, 0); }};
   PreparedScene prepared_;
   std::optional<LightSet> lights_;  // of the prepared scene
   MaterialMaps materials_;
+  FoundReflections found_;
+  std::vector<std::uint64_t> reflected_triangles_;  // by reflector
   PlannedReflections planned_;
   AssembledMesh mesh_;
   VisibilityReport visibility_;

@@ -1,6 +1,8 @@
 // The composition root: the only place that wires stages together.
 #pragma once
 
+#include <map>
+
 #include "bake/jobs/units.h"
 #include "bake/radiance/kept_maps.h"
 #include "bake/radiosity/ledger.h"
@@ -25,6 +27,8 @@ struct BakeResult {
   // Why it is less than what was asked for: it ended early, missed an error or a time that was named, or left a stage
   // out for want of time. A bake that ends by its default share of rays has none.
   std::vector<std::string> shortfalls;
+  // By name of a surface or mesh: the glTF node path of the first that is called so.
+  std::map<std::string, std::string> node_paths;
   std::vector<std::string> left_out;  // what failed the pack's own checks and is not in it; among the omissions too
 };
 

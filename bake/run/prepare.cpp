@@ -50,9 +50,10 @@ Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& contex
   if (!guess) return {};
   prepared.unit_guessed = true;
   context.warning(
-      fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
-                  "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
-                  guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
+      {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                   guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m),
+       WarningKind::kUnitGuessed});
   auto warn = std::exchange(context.warn, nullptr);  // all was said before
   const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
   context.warn = std::move(warn);
@@ -70,14 +71,17 @@ void settle_eye_height(const BakeOptions& options, bool unit_guessed, Context& c
   const auto told = guess_eye_height(*prepared.accel, unit_guessed);
   if (!told) return;
   prepared.walk = prepared.walk.scaled(told->eye_height_m / usual);
-  context.warning(fmt::format(
-      "people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to go with it: "
-      "{} "
-      "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells another unit",
-      told->eye_height_m, usual,
-      told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
-                        : std::string("without a camera"),
-      told->room_height_m, usual));
+  context.warning(
+      {fmt::format("people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to "
+                   "go with it: "
+                   "{} "
+                   "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells "
+                   "another unit",
+                   told->eye_height_m, usual,
+                   told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
+                                     : std::string("without a camera"),
+                   told->room_height_m, usual),
+       WarningKind::kEyesGuessed});
 }
 
 // Where people can be, and pieces of what they see both near and far.

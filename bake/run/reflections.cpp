@@ -7,10 +7,13 @@
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
 #include "bake/radiance/emitters.h"
+#include "bake/radiance/map_mesh.h"
 #include "bake/radiance/residual.h"
 #include "bake/radiance/surround_capture.h"
 #include "bake/run/baked_light.h"
+#include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
+#include "bake/run/lobe_share.h"
 #include "bake/run/option_table.h"
 
 namespace oriel {
@@ -18,10 +21,6 @@ namespace {
 
 constexpr std::uint32_t kTrainingEyes = 4096, kHeldOutEyes = 1000, kHeldOutSamples = 2048;
 constexpr std::uint32_t kFewest = 16, kFewer = 4;  // that samples of planning are divided by
-constexpr std::uint32_t kTried = 8;                // by which a map's sides are divided to time its capture
-constexpr std::uint32_t kLeastSide = 16;           // of a map that is made smaller
-constexpr double kPixel_s = 1e-6;                  // of surround maps, where no planar map tells
-constexpr double kJudging = 0.3;                   // of the seconds of planning: residual maps and held-out eyes
 
 std::vector<ReflectorMaterial> reflector_materials(std::span<const MaterialSummary> materials) {
   std::vector<ReflectorMaterial> out;
@@ -128,7 +127,23 @@ Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& 
   return {};
 }
 
-Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, std::span<const Vec3> eyes,
+// Of eyes that are given those that are asked one by one: the first, which are cameras, and some of the others, which
+// may be hundreds of a path's keys.
+std::vector<Vec3> cameras_of(std::span<const Vec3> given) {
+  constexpr std::size_t kFirst = 16, kOthers = 8;
+  const std::size_t first = std::min(given.size(), kFirst), others = given.size() - first;
+  std::vector<Vec3> cameras;
+  for (std::size_t i = 0; i < first; ++i) cameras.push_back(given[i]);
+  for (std::size_t i = 0; i < std::min(others, kOthers); ++i) cameras.push_back(given[first + i * others / kOthers]);
+  return cameras;
+}
+
+// Eyes that were not planned for, and cameras.
+struct Judges {
+  std::vector<Vec3> eyes, cameras;
+};
+
+Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, const Judges& judges,
              const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
              ReflectionReport& report) {
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
@@ -136,22 +151,28 @@ Status judge(const ReflectedSurroundings& surroundings, std::span<const Radiance
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
     ViewQuality q;
     ReflectedError e;
+    if (reflector.map_count == 0) {
+      report.quality.push_back(q);
+      report.errors.push_back(e);
+      continue;
+    }
     std::uint64_t traced = 0;
     const auto inputs = [&](Archive& key) {
-      key(r, eyes);
+      key(r, judges.eyes, judges.cameras);
       for (const RadianceMap& map : own) key(frame_of(map), map.residual ? hash_of(map) : Hash128());
     };
     const auto compute = [&]() -> Status {
       ORIEL_TRY(const auto samples,
-                sample_reflections(surroundings, r, eyes, kHeldOutSamples, context.seed + 1, context));
+                sample_reflections(surroundings, r, judges.eyes, kHeldOutSamples, context.seed + 1, context));
       q = judge_maps(surroundings, own, samples, context);
       std::atomic<std::uint64_t> judging{0};
+      ORIEL_TRY(q.worst, worst_seen(surroundings, r, own, judges.cameras, context));
       ORIEL_TRY(e, judge_light(surroundings, r, own, samples, outgoing, context, judging));
       traced = judging;
       return {};
     };
     ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
-      archive(q.seen, q.sharp, q.residual, e.samples, e.seen, e.relative_error, e.seen_error, traced);
+      archive(q.seen, q.sharp, q.residual, q.worst, e.samples, e.seen, e.relative_error, e.seen_error, traced);
     }));
     rays += traced;
     report.quality.push_back(q);
@@ -196,15 +217,6 @@ std::vector<bool> marked(const Scene& scene, std::span<const std::uint32_t> tria
   return is_marked;
 }
 
-// The light with the lobes of these triangles traced. Both must outlive it.
-OutgoingRadiance with_lobes_of(const std::vector<bool>& triangles, const OutgoingRadiance& outgoing) {
-  return [&](const SeenSurface& seen) {
-    SeenSurface shown = seen;
-    shown.glossy = seen.glossy || triangles[seen.hit.triangle];
-    return outgoing(shown);
-  };
-}
-
 std::vector<SeenOfTriangle> seen_triangles(const TexelDemand& demand) {
   std::vector<SeenOfTriangle> seen;
   for (const TriangleDemand& t : demand.triangles) seen.push_back({t.pixels, t.inverse_square});
@@ -236,11 +248,11 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 }
 
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found_ones, double seconds,
                                             Context& context) {
   const Accel& accel = *prepared.accel;
   PlannedReflections planned;
-  ORIEL_TRY(planned.all, find_reflections(options, prepared, materials.summaries, context));
+  planned.all = std::move(found_ones);
   const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};
@@ -275,57 +287,16 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
   return planned;
 }
 
-void leave_out_maps(const Warning& why, PlannedReflections& planned) {
-  planned.plan = {};
-  planned.all.found.reflectors.clear();
-  planned.all.curved = {};
-  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.kind);
-}
-
 double PlannedReflections::pixels() const {
-  double sum = 0;
+  double sum = surround_pixels();
   for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
-  for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
   return sum;
 }
 
-Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
-  std::vector<RadianceMap> maps = planned.plan.maps;
-  double tried = 0;
-  for (RadianceMap& map : maps) {
-    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
-    tried += double{1.0f * map.width} * map.height;
-  }
-  const std::uint32_t paths = lobe_paths(planned.pixels());
-  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
-    return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
-  };
-  const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
-  const ElapsedTime clock;
-  UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
-  const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
-  context.units = units;
-  ORIEL_TRY_VOID(captured);
-  const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
-  planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
-  return {};
-}
-
-void shrink_maps(double seconds, PlannedReflections& planned) {
-  std::uint32_t halved = 0;
-  const double judging = kJudging * planned.seconds;
-  while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
-    const double before = planned.pixels();
-    for (RadianceMap& map : planned.plan.maps)
-      map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
-    for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
-    if (planned.pixels() >= before) break;  // all are as small as they may be
-    planned.capture_s = judging + (planned.capture_s - judging) * planned.pixels() / before;
-    ++halved;
-  }
-  if (halved > 0)
-    planned.plan.omitted.push_back(
-        fmt::format("radiance maps: of 1/{} the pixels along each side, to stay within --time", 1u << halved));
+double PlannedReflections::surround_pixels() const {
+  double sum = 0;
+  for (const SurroundMap& map : all.curved.maps) sum += double{1.0f * map.size} * map.size;
+  return sum;
 }
 
 Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
@@ -339,7 +310,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   pack.walk_grids = region.grids;
   if (planned.empty()) return report;
   std::vector<FoundReflector>& reflectors = found.reflectors;
-  const std::uint32_t paths = lobe_paths(planned.pixels());
+  std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
   };
@@ -353,19 +324,23 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
     ORIEL_TRY_VOID(
         leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
+  ORIEL_TRY(const double share, lobe_share(baked, surroundings, plan.maps, is_curved, context));
+  paths = lobe_paths(share * planned.pixels());
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
   ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
   if (options.view_scheme == ViewScheme::kPlanned) {
-    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes};
+    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
     ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
-  const std::vector<Vec3> others = held_out_eyes(region, kHeldOutEyes, context.seed);
-  ORIEL_TRY_VOID(judge(surroundings, plan.maps, others, to_planar, context, rays, report));
+  ORIEL_TRY_VOID(judge(surroundings, plan.maps, judges, to_planar, context, rays, report));
+  ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);
+  for (const FoundReflector& r : reflectors) report.ways.push_back(r.why);
   keep(reflectors, mesh, pack.reflectors);
   pack.surround_maps = std::move(curved.maps);
   keep(curved.reflectors, mesh, pack.curved_reflectors);

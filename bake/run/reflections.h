@@ -32,6 +32,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
 struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
+  std::vector<std::string> ways;       // by reflector: why it is drawn as it is
   std::vector<Warning> omissions;      // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
   MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
@@ -47,25 +48,17 @@ struct PlannedReflections {
   std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
   bool light_reused = false;              // some of the lightmap is that of the bake before
   double pixels() const;                  // of all maps
-  bool empty() const { return plan.maps.empty() && all.curved.reflectors.empty(); }
+  double surround_pixels() const;         // of those of curved reflectors
+  bool has_images() const { return !plan.maps.empty() || !all.curved.reflectors.empty(); }
+  bool empty() const { return all.empty(); }
 };
 
-// Finds the reflectors, and plans their maps. Nothing is planned where there is no reflector or no
+// Plans the maps of reflectors that have maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
 Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, const MaterialMaps& materials, double seconds,
+                                            const LightSet& lights, FoundReflections found, double seconds,
                                             Context& context);
-
-// Nothing is captured, and the reason is among the omissions.
-void leave_out_maps(const Warning& why, PlannedReflections& planned);
-
-// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
-// residual maps go by what planning took. Error kStopped.
-Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
-
-// Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
-void shrink_maps(double seconds, PlannedReflections& planned);
 
 // Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
 // then as it was but for its emitters and walk grids.

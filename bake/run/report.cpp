@@ -65,15 +65,19 @@ Json reflectors_json(const BakeFacts& f) {
     out.push_back({{"name", r.name},
                    {"kind", "planar"},
                    {"why", fmt::format("within {:.2g} m of a plane", r.flatness_m)},
+                   {"way", r.map_count > 0 ? "maps" : "geometry"},
+                   {"why_that_way", f.reflections.ways[i]},
                    {"area_m2", r.area_m2},
                    {"elements", r.elements_x * r.elements_y},
                    {"maps", r.map_count},
-                   {"pixels", pixels},
-                   {"seen", f.reflections.quality[i].seen},
-                   {"sharp", f.reflections.quality[i].sharp},
-                   {"seen_in_residual", f.reflections.quality[i].residual},
-                   {"relative_error", f.reflections.errors[i].relative_error},
-                   {"relative_error_of_seen", f.reflections.errors[i].seen_error}});
+                   {"pixels", pixels}});
+    if (r.map_count == 0) continue;
+    out.back().update({{"seen", f.reflections.quality[i].seen},
+                       {"seen_by_worst_camera", f.reflections.quality[i].worst},
+                       {"sharp", f.reflections.quality[i].sharp},
+                       {"seen_in_residual", f.reflections.quality[i].residual},
+                       {"relative_error", f.reflections.errors[i].relative_error},
+                       {"relative_error_of_seen", f.reflections.errors[i].seen_error}});
   }
   for (const CurvedReflector& r : f.pack.curved_reflectors)
     out.push_back({{"name", r.name},

@@ -34,7 +34,9 @@ void remove_normal_textures(Pack& pack) {
 void remove_reflectors(Pack& pack) {
   pack.reflectors.clear();
   pack.radiance_maps.clear();
+  pack.map_meshes.clear();
   pack.emitters.clear();
+  pack.reflected_sets = {};
 }
 
 void remove_curved_reflectors(Pack& pack) {
@@ -55,6 +57,7 @@ void remove_movers(Pack& pack) {
 void remove_walk_grids(Pack& pack) {
   pack.walk_grids.clear();
   pack.visible_sets = {};
+  pack.reflected_sets = {};
 }
 
 const std::array<Removable, 11>& removables() {
@@ -62,13 +65,15 @@ const std::array<Removable, 11>& removables() {
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
-      {"radiance maps", {kReflectorSection, kRadianceMapSection, kEmitterSection}, remove_reflectors},
+      {"radiance maps", {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection}, remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
       {"kernels", {kKernelSection}, remove_kernels},
       {"cameras", {kCameraSection}, [](Pack& pack) { pack.cameras.clear(); }},
       {"camera paths", {kPathSection}, [](Pack& pack) { pack.paths.clear(); }},
       {"walk grids", {kWalkSection}, remove_walk_grids},
-      {"visible sets", {kVisibleSetsSection}, [](Pack& pack) { pack.visible_sets = {}; }},
+      {"visible sets",
+       {kVisibleSetsSection, kReflectedSetsSection},
+       [](Pack& pack) { pack.visible_sets = {}, pack.reflected_sets = {}; }},
       {"movers", {kMoverSection, kLightFieldSection}, remove_movers},
   }};
   return kAll;

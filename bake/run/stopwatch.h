@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,12 @@ struct StageTime {
 // Runs one stage, stage(rays) with rays to add to, and notes its wall clock.
 class Stopwatch {
  public:
-  explicit Stopwatch(std::vector<StageTime>& times) : times_(times) {}
+  // begins: told of each stage's name, may be empty.
+  explicit Stopwatch(std::vector<StageTime>& times, std::function<void(const char*)> begins = {})
+      : times_(times), begins_(std::move(begins)) {}
   template <class Stage>
   auto operator()(const char* name, const Stage& stage) {
+    if (begins_) begins_(name);
     const ElapsedTime elapsed;
     std::uint64_t rays = 0;
     auto result = stage(rays);
@@ -39,6 +43,7 @@ class Stopwatch {
 
  private:
   std::vector<StageTime>& times_;
+  std::function<void(const char*)> begins_;
 };
 
 }  // namespace oriel

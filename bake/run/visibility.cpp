@@ -1,5 +1,7 @@
 #include "bake/run/visibility.h"
 
+#include <algorithm>
+
 #include "bake/jobs/units.h"
 #include "bake/run/inputs.h"
 #include "bake/run/stopwatch.h"
@@ -10,7 +12,9 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kLeastTriangles =
-    500'000;                        // docs/visibility.md: sets of fewer cost the bake more than they save frames
+    500'000;  // docs/visibility.md: sets of fewer cost the bake more than they save frames
+// Images of reflectors are made of fewer at once.
+constexpr std::size_t kLeastReflected = 20'000;
 constexpr double kMostSeen = 0.75;  // of the triangles: more is next to all
 
 // By scene triangle: its group.
@@ -41,6 +45,93 @@ double mean_share(const VisibleSets& sets, const std::vector<std::uint32_t>& gro
   return sum / static_cast<double>(cells) / static_cast<double>(group_of_triangle.size());
 }
 
+// Triangles of each set.
+std::vector<std::uint64_t> triangles_of(std::span<const std::uint8_t> seen, std::size_t set_bytes,
+                                        const std::vector<std::uint32_t>& group_of_triangle) {
+  std::vector<std::uint64_t> out;
+  for (std::size_t first = 0; first < seen.size(); first += set_bytes) {
+    std::uint64_t& count = out.emplace_back(0);
+    for (const std::uint32_t g : group_of_triangle) count += seen[first + g / 8] >> (g % 8) & 1;
+  }
+  return out;
+}
+
+std::vector<SeenMirror> mirrors_of(std::span<const FoundReflector> reflectors) {
+  std::vector<SeenMirror> out;
+  for (const FoundReflector& found : reflectors) {
+    const Reflector& r = found.reflector;
+    const Vec3 normal(r.pack_from_reflector[2]);
+    out.push_back({Vec4(normal, -glm::dot(normal, Vec3(r.pack_from_reflector[3]))),
+                   r.flatness_m + 1e-5f * glm::length(r.upper - r.lower), found.triangles});
+  }
+  return out;
+}
+
+bool wants_reflected_sets(const BakeOptions& options, std::size_t triangles, const SetEyes& onlookers) {
+  return options.visible_sets != VisibleSetsWanted::kOff && options.ways != WaysWanted::kMaps &&
+         !onlookers.reflectors.empty() &&
+         (triangles >= kLeastReflected || options.visible_sets == VisibleSetsWanted::kOn);
+}
+
+// Finds sets, as units of work, within a time.
+class SetFinder {
+ public:
+  SetFinder(const BakeOptions& options, const GroupedScene& scene, const SetEyes& onlookers, double seconds,
+            Context& context)
+      : options_(options.visibility), scene_(scene), onlookers_(onlookers), seconds_(seconds), context_(context) {}
+
+  // Whether there was time for it.
+  Result<bool> visible(std::uint32_t side, std::vector<std::uint8_t>& seen, std::uint64_t& lines) {
+    return find(
+        "visibility",
+        [&](Archive& key) {
+          for (const WalkGrid& grid : onlookers_.grids)
+            key(grid.lower, grid.cell_m, grid.width, grid.height, grid.floor_y, grid.eye_height_m);
+          key(side);
+        },
+        [&] { return find_visible_sets(scene_, onlookers_.grids, side, options_, context_, lines); }, seen, lines);
+  }
+  Result<bool> reflected(std::vector<std::uint8_t>& seen, std::uint64_t& lines) {
+    const std::vector<SeenMirror> mirrors = mirrors_of(onlookers_.reflectors);
+    return find(
+        "reflected",
+        [&](Archive& key) {
+          key(onlookers_.eyes);
+          for (const SeenMirror& mirror : mirrors) key(mirror.plane, mirror.lift, mirror.triangles);
+        },
+        [&] { return find_reflected_sets(scene_, mirrors, onlookers_.eyes, options_, context_, lines); }, seen, lines);
+  }
+
+ private:
+  template <class Inputs, class Compute>
+  Result<bool> find(const char* name, const Inputs& inputs, const Compute& compute, std::vector<std::uint8_t>& seen,
+                    std::uint64_t& lines) {
+    const auto late = [&] { return clock_.spent() > seconds_; };
+    const Interruptible until(context_, late);
+    const Status done = one_unit(
+        context_, name,
+        [&](Archive& key) {
+          inputs(key);
+          key(scene_.group, options_.first_lines, options_.least_lines, options_.most_lines);
+        },
+        [&]() -> Status {
+          ORIEL_TRY(seen, compute());
+          return {};
+        },
+        [&](Archive& archive) { archive(seen, lines); });
+    if (done) return true;
+    if (done.error().code == ErrorCode::kStopped && !context_.stop && late()) return false;
+    return tl::unexpected(done.error());
+  }
+
+  const VisibilityOptions& options_;
+  const GroupedScene& scene_;
+  const SetEyes& onlookers_;
+  double seconds_;
+  Context& context_;
+  ElapsedTime clock_;
+};
+
 }  // namespace
 
 std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangles, std::span<const WalkGrid> grids) {
@@ -50,62 +141,57 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
                                  : "left out by --only, which finds no floors";
   if (options.visible_sets == VisibleSetsWanted::kAuto && triangles < kLeastTriangles)
     return fmt::format(
-        "{} triangles are few enough to draw all of them; from {} on, or with --pvs on, it is found which "
-        "can be seen from where",
+        "{} triangles are few enough to draw all of them; from {} on, or with --pvs on, the bake finds out "
+        "which can be seen from where people walk",
         triangles, kLeastTriangles);
   return {};
 }
 
-Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
-                                    AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                    std::vector<Warning>& omissions) {
-  const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), grids);
-  if (!why_not.empty()) {
-    omissions.push_back("visible sets: " + why_not);
-    return VisibleSets();
-  }
+Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
+                                  AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
+                                  std::vector<Warning>& omissions) {
+  const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);
+  if (!why_not.empty()) omissions.push_back("visible sets: " + why_not);
+  const bool reflected = wants_reflected_sets(options, mesh.first_index.size(), onlookers);
+  SceneSets sets;
+  if (!why_not.empty() && !reflected) return sets;
   const VisibilityOptions& o = options.visibility;
   const auto triangles = static_cast<std::uint32_t>(mesh.first_index.size());
   const TriangleGroups groups =
       group_triangles(mesh.mesh, std::max(o.group_triangles, triangles / o.most_groups * 2 + 1));
   const std::vector<std::uint32_t> group = groups_of_scene(mesh, groups);
-  VisibleSets sets;
-  sets.groups = groups.count;
-  sets.runs = groups.runs;
-  sets.side = eye_cell_side(grids, o);
-  sets.below_m = kEyeBelow_m;
-  sets.above_m = kEyeAbove_m;
+  VisibleSets& visible = sets.visible;
+  visible.groups = report.groups = groups.count;
+  visible.runs = groups.runs;
+  visible.side = eye_cell_side(onlookers.grids, o);
+  visible.below_m = kEyeBelow_m;
+  visible.above_m = kEyeAbove_m;
+  const GroupedScene scene{accel, group, groups.count};
+  SetFinder finder(options, scene, onlookers, seconds, context);
   const StageInputs inputs(context, SurfacesOf{accel.scene()});
-  const ElapsedTime clock;
-  const auto late = [&] { return clock.spent() > seconds; };
-  const Interruptible until(context, late);
-  const Status done = one_unit(
-      context, "visibility",
-      [&](Archive& key) {
-        for (const WalkGrid& grid : grids)
-          key(grid.lower, grid.cell_m, grid.width, grid.height, grid.floor_y, grid.eye_height_m);
-        key(group, sets.side, o.first_lines, o.least_lines, o.most_lines);
-      },
-      [&]() -> Status {
-        ORIEL_TRY(sets.seen,
-                  find_visible_sets({accel, group, groups.count}, grids, sets.side, o, context, report.lines));
-        return {};
-      },
-      [&](Archive& archive) { archive(sets.seen, report.lines); });
-  if (!done && done.error().code == ErrorCode::kStopped && !context.stop && late()) {
-    omissions.emplace_back(fmt::format("visible sets: left out, they would take more than {:.3g} s of --time", seconds),
+  const auto too_long = [&](const char* what) {
+    omissions.emplace_back(fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, seconds),
                            WarningKind::kTimeOver);
-    return VisibleSets();
+  };
+  if (why_not.empty()) {
+    ORIEL_TRY(const bool done, finder.visible(visible.side, visible.seen, report.lines));
+    if (!done) visible.seen.clear(), too_long("visible sets");
   }
-  ORIEL_TRY_VOID(done);
-  report.cells = static_cast<std::uint32_t>(sets.seen.size() / sets.set_bytes());
-  report.groups = sets.groups;
-  report.seen = mean_share(sets, group, report.cells);
-  if (options.visible_sets == VisibleSetsWanted::kAuto && report.seen > kMostSeen) {
-    omissions.push_back(fmt::format(
-        "visible sets: {:.0f} % of the triangles are seen from where people walk, on the mean", 100 * report.seen));
-    return VisibleSets();
+  if (!visible.seen.empty()) {
+    report.cells = static_cast<std::uint32_t>(visible.seen.size() / visible.set_bytes());
+    report.seen = mean_share(visible, group, report.cells);
+    if (options.visible_sets == VisibleSetsWanted::kAuto && report.seen > kMostSeen) {
+      omissions.push_back(fmt::format(
+          "visible sets: {:.0f} % of the triangles are seen from where people walk, on the mean", 100 * report.seen));
+      visible.seen.clear();
+    }
   }
+  if (reflected) {
+    ORIEL_TRY(const bool done, finder.reflected(sets.reflected.seen, report.lines));
+    if (!done) sets.reflected.seen.clear(), too_long("what is seen in reflectors");
+    sets.reflected_triangles = triangles_of(sets.reflected.seen, visible.set_bytes(), group);
+  }
+  if (visible.seen.empty() && sets.reflected.seen.empty()) return SceneSets();
   sort_triangles(groups.order, mesh);
   return sets;
 }

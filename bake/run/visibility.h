@@ -1,6 +1,7 @@
 // Which triangles are seen from where people walk, in a scene that has enough of them.
 #pragma once
 
+#include "bake/radiance/reflectors.h"
 #include "bake/run/assemble.h"
 #include "bake/run/options.h"
 #include "formats/query/visible_sets.h"
@@ -16,11 +17,24 @@ struct VisibilityReport {
 // Why no sets are to be found; empty where they are.
 std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangles, std::span<const WalkGrid> grids);
 
-// Sets for the eyes of the grids, unless that takes more than `seconds`; where they pay, mesh's triangles are sorted by
-// group within its parts. Where they do not, mesh stays as it is, the sets are empty and `omissions` says why. Error
-// kStopped.
-Result<VisibleSets> bake_visibility(const BakeOptions& options, const Accel& accel, std::span<const WalkGrid> grids,
-                                    AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                    std::vector<Warning>& omissions);
+// Who looks, and into which reflectors.
+struct SetEyes {
+  std::span<const WalkGrid> grids;
+  std::span<const Vec3> eyes;  // scene space
+  std::span<const FoundReflector> reflectors;
+};
+
+struct SceneSets {
+  VisibleSets visible;
+  ReflectedSets reflected;                         // of the reflectors; without made_for
+  std::vector<std::uint64_t> reflected_triangles;  // by reflector: what its set holds
+};
+
+// Sets for the eyes of the grids, and of what eyes see in reflectors, unless that takes more than `seconds`; where they
+// pay, mesh's triangles are sorted by group within its parts. Where they do not, mesh stays as it is, the sets are
+// empty and `omissions` says why. Error kStopped.
+Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
+                                  AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
+                                  std::vector<Warning>& omissions);
 
 }  // namespace oriel

@@ -74,6 +74,7 @@ auto texture_slots(M& m) {
 struct Surface {
   std::string name;  // the node's name, or "mesh/primitive" where it has none
   std::string mesh_name;
+  std::string node_path;  // of names from a root of the file down, "house/ground floor/wall"; nodes[3] for one without
   std::uint32_t material = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;  // into Scene::triangles
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces

@@ -14,12 +14,14 @@
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kEyes = 256;        // of a cell
-constexpr std::uint32_t kAllAround = 4096;  // lines from a cell in all directions
-constexpr std::size_t kBatch = 64;          // lines between looks at whether a group was seen
-constexpr float kNear_m = 0.3f;             // groups and cells so near are neighbours
-constexpr float kPixel_rad = 0.002f;        // of a frame of some 500 rows
+constexpr std::uint32_t kEyes = 256;             // of a cell
+constexpr std::uint32_t kAllAround = 4096;       // lines from a cell in all directions
+constexpr std::uint32_t kThroughMirror = 65536;  // to what a mirror shows to all eyes
+constexpr std::size_t kBatch = 64;               // lines between looks at whether a group was seen
+constexpr float kNear_m = 0.3f;                  // groups and cells so near are neighbours
+constexpr float kPixel_rad = 0.002f;             // of a frame of some 500 rows
 constexpr int kMostRounds = 64;
+constexpr std::uint32_t kFirstOfMirror = 4;  // times as many lines at first, to what all eyes see in a mirror
 
 struct Box {
   Vec3 lower{0}, upper{0};
@@ -86,16 +88,22 @@ struct Group {
   Box box;
 };
 
+Vec3 mirrored(const Vec3& p, const Vec4& plane) {
+  return p - 2 * glm::dot(plane, Vec4(p, 1)) * Vec3(plane);
+}
+
 class VisibleSetFinder {
  public:
+  // mirrors: none, or by cell the one that its eyes, mirrored, look through.
   VisibleSetFinder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
-                   std::uint64_t seed)
+                   std::uint64_t seed, std::span<const SeenMirror> mirrors = {})
       : scene_(scene),
         geometry_(scene.accel.scene()),
         lines_(scene.accel),
         cells_(cells),
         options_(options),
-        seed_(seed) {
+        seed_(seed),
+        mirrors_(mirrors) {
     groups_.resize(scene.groups);
     for (std::uint32_t t = 0; t < scene.group.size(); ++t) {
       Group& group = groups_[scene.group[t]];
@@ -114,7 +122,7 @@ class VisibleSetFinder {
     for (const Group& group : groups_) boxes.push_back(group.box);
     for (const CellOfEyes& cell : cells) places.push_back({cell.lower, cell.upper});
     near_groups_ = neighbours(boxes);
-    near_cells_ = neighbours(places);
+    near_cells_ = mirrors.empty() ? neighbours(places) : std::vector<std::vector<std::uint32_t>>(cells.size());
     joined_ = joined(geometry_, scene.group, scene.groups);
   }
 
@@ -124,12 +132,18 @@ class VisibleSetFinder {
     Numbers random(seed_ + cell);
     const float far = 4 * geometry_.radius() + 1;
     std::vector<SightLines::Line> lines;
-    for (std::uint32_t i = 0; i < kAllAround; ++i) {
-      const Vec3& eye = cells_[cell].eyes[i % kEyes];
+    for (std::uint32_t i = 0; i < (mirrors_.empty() ? kAllAround : kThroughMirror); ++i) {
+      const Vec3& eye = cells_[cell].eyes[i % cells_[cell].eyes.size()];
+      if (!mirrors_.empty()) {  // all that a mirror shows lies behind a point of it
+        const auto& own = mirrors_[cell].triangles;
+        const Vec3 through = point_of(own[random.below(own.size())], random);
+        lines.push_back({eye, eye + far * normalize_or(through - eye, Vec3(0, 0, 1)), ~0u});
+        continue;
+      }
       const float z = 1 - 2 * random.next(), turn = 2 * kPi * random.next(), r = std::sqrt(std::max(1 - z * z, 0.0f));
       lines.push_back({eye, eye + far * Vec3(r * std::cos(turn), z, r * std::sin(turn)), ~0u});
     }
-    trace(lines, found);
+    trace(cell, lines, found);
     for (std::uint32_t g = 0; g < scene_.groups; ++g)
       if (!found[g].seen()) ask(cell, g, options_.first_lines, {}, found);
   }
@@ -179,6 +193,18 @@ class VisibleSetFinder {
   const std::vector<Witness>& found(std::size_t cell) const { return found_[cell]; }
   void set_found(std::size_t cell, std::vector<Witness> found) { found_[cell] = std::move(found); }
   std::uint64_t rays() const { return rays_; }
+
+  // As VisibleSets::seen.
+  std::vector<std::uint8_t> sets(std::size_t cells) const {
+    const std::size_t set_bytes = (std::size_t{scene_.groups} + 7) / 8;
+    std::vector<std::uint8_t> seen(cells * set_bytes);
+    for (std::size_t c = 0; c < cells; ++c)
+      for (std::uint32_t g = 0; const bool may : may_see(c)) {
+        if (may) seen[c * set_bytes + g / 8] |= static_cast<std::uint8_t>(1u << (g % 8));
+        ++g;
+      }
+    return seen;
+  }
 
  private:
   // So many that what covers four pixels is met, as far as all of the group may be seen.
@@ -243,20 +269,47 @@ class VisibleSetFinder {
       for (; i < count && lines.size() < kBatch; ++i) {
         const bool hinted = !hints.empty() && i % 2 == 0;
         const Witness hint = hinted ? hints[random.below(hints.size())] : Witness{};
-        const Vec3& eye = hinted ? nearest_eye(cell, hint.eye, random) : cells_[cell].eyes[random.below(kEyes)];
+        const Vec3& eye =
+            hinted ? nearest_eye(cell, hint.eye, random) : cells_[cell].eyes[random.below(cells_[cell].eyes.size())];
         const std::uint32_t t = hinted && i % 4 == 0 ? hint.triangle : triangle_of(group, i % 4 == 1, random);
         if (lines_.is_drawn(t, eye)) lines.push_back({eye, point_of(t, random), t});
       }
-      trace(lines, found);
+      trace(cell, lines, found);
     }
   }
 
-  void trace(std::span<const SightLines::Line> lines, std::vector<Witness>& found) {
+  void trace(std::size_t cell, std::span<const SightLines::Line> lines, std::vector<Witness>& found) {
+    std::vector<SightLines::Line> behind;
+    if (!mirrors_.empty()) lines = through_mirror(mirrors_[cell], lines, behind);
     rays_.fetch_add(lines.size(), std::memory_order_relaxed);
     lines_.trace(lines, [&](std::size_t line, std::uint32_t triangle) {
       Witness& witness = found[scene_.group[triangle]];
       if (!witness.seen()) witness = {lines[line].eye, triangle};
     });
+  }
+
+  // Of lines from mirrored eyes those that the eyes see go through the mirror, from there on.
+  std::span<const SightLines::Line> through_mirror(const SeenMirror& mirror, std::span<const SightLines::Line> lines,
+                                                   std::vector<SightLines::Line>& behind) {
+    std::vector<SightLines::Line> to_mirror, from_mirror;
+    for (const SightLines::Line& line : lines) {
+      const float under = glm::dot(mirror.plane, Vec4(line.eye, 1)),
+                  over = glm::dot(mirror.plane, Vec4(line.target, 1));
+      if (!(under < 0 && over > mirror.lift)) continue;
+      const auto at = [&](float height) {
+        return line.eye + (height - under) / (over - under) * (line.target - line.eye);
+      };
+      to_mirror.push_back({mirrored(line.eye, mirror.plane), at(0), ~0u});
+      from_mirror.push_back({at(mirror.lift), line.target, line.triangle});
+    }
+    std::vector<bool> meets(to_mirror.size());
+    rays_.fetch_add(to_mirror.size(), std::memory_order_relaxed);
+    lines_.trace(to_mirror, [&](std::size_t line, std::uint32_t triangle) {
+      if (std::binary_search(mirror.triangles.begin(), mirror.triangles.end(), triangle)) meets[line] = true;
+    });
+    for (std::size_t i = 0; i < meets.size(); ++i)
+      if (meets[i]) behind.push_back(from_mirror[i]);
+    return behind;
   }
 
   const GroupedScene& scene_;
@@ -265,6 +318,7 @@ class VisibleSetFinder {
   const std::vector<CellOfEyes>& cells_;
   VisibilityOptions options_;
   std::uint64_t seed_;
+  std::span<const SeenMirror> mirrors_;
   std::vector<Group> groups_;
   std::vector<std::vector<std::uint32_t>> near_groups_, near_cells_, joined_;
   std::vector<std::vector<Witness>> found_;  // by cell and group
@@ -308,15 +362,29 @@ Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, s
   VisibleSetFinder finder(scene, cells, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "visibility", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
-  const std::size_t set_bytes = (std::size_t{scene.groups} + 7) / 8;
-  std::vector<std::uint8_t> seen(cells.size() * set_bytes);
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    for (std::uint32_t g = 0; const bool may : finder.may_see(c)) {
-      if (may) seen[c * set_bytes + g / 8] |= static_cast<std::uint8_t>(1u << (g % 8));
-      ++g;
-    }
   rays += finder.rays();
-  return seen;
+  return finder.sets(cells.size());
+}
+
+Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
+                                                      std::span<const Vec3> eyes, const VisibilityOptions& options,
+                                                      Context& context, std::uint64_t& rays) {
+  std::vector<CellOfEyes> cells;
+  for (const SeenMirror& mirror : mirrors) {
+    CellOfEyes& cell = cells.emplace_back();
+    for (const Vec3& eye : eyes)
+      if (glm::dot(mirror.plane, Vec4(eye, 1)) > 0) cell.eyes.push_back(mirrored(eye, mirror.plane));
+    if (cell.eyes.empty()) cell.eyes.push_back(eyes.empty() ? Vec3(0) : eyes[0]);  // sees nothing by it
+    cell.lower = cell.upper = cell.eyes[0];
+    for (const Vec3& eye : cell.eyes) cell.lower = glm::min(cell.lower, eye), cell.upper = glm::max(cell.upper, eye);
+  }
+  VisibilityOptions more = options;
+  more.first_lines *= kFirstOfMirror;
+  VisibleSetFinder finder(scene, cells, more, context.seed, mirrors);
+  ORIEL_TRY_VOID(parallel_for(context, "reflected", cells.size(), [&](std::size_t c) { finder.look(c); }));
+  ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
+  rays += finder.rays();
+  return finder.sets(cells.size());
 }
 
 }  // namespace oriel

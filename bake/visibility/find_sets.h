@@ -31,4 +31,17 @@ Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, s
                                                     std::uint32_t side, const VisibilityOptions& options,
                                                     Context& context, std::uint64_t& rays);
 
+// A planar mirror that shows the scene to eyes.
+struct SeenMirror {
+  Vec4 plane{0, 0, 1, 0};  // height over it: dot(plane, (point, 1)), metres
+  float lift = 0;          // height up to which it is the mirror itself
+  std::span<const std::uint32_t> triangles;
+};
+
+// By mirror one set as above: the groups of which an eye (scene space) may see anything in it. Eyes are mirrored, and
+// their lines of sight begin where they cross the mirror. Adds to `rays`. Error kStopped.
+Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene, std::span<const SeenMirror> mirrors,
+                                                      std::span<const Vec3> eyes, const VisibilityOptions& options,
+                                                      Context& context, std::uint64_t& rays);
+
 }  // namespace oriel

@@ -57,7 +57,11 @@ std::string why_text(const Why& why) {
   if (why.near_share > 0)
     text += fmt::format("sees    {:.0f} % of what it sees is nearer than {:.0f} cm, most of it '{}'\n",
                         100 * why.near_share, 100 * std::max(why.side_m, 0.02f), why.near_by);
-  if (why.refinements) text += fmt::format("refined {} times, as the whole lightmap\n", *why.refinements);
+  if (why.refinements)
+    text +=
+        *why.refinements == 0
+            ? "the whole lightmap was refined once, and not again after it was verified\n"
+            : fmt::format("the whole lightmap was refined {} times again, after it was verified\n", *why.refinements);
   return text;
 }
 

@@ -50,8 +50,8 @@ struct RadianceMap {
   // Where not, the emitters that the reflector lists are seen without their own light, but for their images in other
   // mirrors: those a closed form of the emitters alone does not show.
   bool has_emission = false;
-  // Shows only what no map of the reflector sees (second surfaces along the rays of another map with the same eye and
-  // element): valid is 0 everywhere else. Consulted last.
+  // Shows only what no map of the reflector before it sees (second surfaces along the rays of another map with the same
+  // eye and element, or the first ones from an eye of its own): valid is 0 everywhere else. Consulted last.
   bool residual = false;
   // Disparity: the eye's distance to the plane over the distance to the hit, both measured along the reflector's z:
   // 1 on the plane, 0 at infinity (a miss). Linear along a projected ray, so it interpolates.

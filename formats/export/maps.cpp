@@ -187,7 +187,8 @@ std::string reflections_html(const Pack& pack, const Limits& limits) {
   for (std::size_t i = 0; i < shown; ++i) {
     const Reflector& r = pack.reflectors[i];
     table.row({r.name, pack.materials[r.material].name, number_text(r.area_m2),
-               fmt::format("{} × {}", r.elements_x, r.elements_y), fmt::format("{}", r.map_count),
+               fmt::format("{} × {}", r.elements_x, r.elements_y),
+               r.map_count > 0 ? fmt::format("{}", r.map_count) : "mirrored geometry",
                fmt::format("{}", r.emitters.size())});
   }
   if (!table.empty()) html += table.html() + left_out(pack.reflectors.size(), shown, "reflectors");

@@ -27,7 +27,8 @@ align-items: center }} .bars i {{ background: #3f7cac; height: .8em; min-width: 
 img {{ max-width: 100%; height: auto; image-rendering: pixelated; border: 1px solid #e3e3e3 }}
 svg text {{ font: 11px system-ui, sans-serif; fill: #444 }} svg .frame {{ fill: none; stroke: #ccc }} svg {{ max-width: 100% }}
 .zoom {{ display: block; overflow: auto; max-height: 80vh; cursor: zoom-in }} .zoom input {{ display: none }}
-.zoom input:checked + span img {{ width: 300%; max-width: none; cursor: zoom-out }} .zoom img {{ width: 100% }}
+.zoom input:checked + span img {{ cursor: zoom-out }} .zoom img {{ width: 100%; box-sizing: border-box }}
+.pages figure:has(input:checked) {{ flex-basis: 100%; max-width: 100% }}
 .finding {{ border-left: 4px solid #c0392b; padding: .1rem .8rem; margin: .8rem 0 }} .finding img {{ image-rendering: auto }}
 details {{ margin: .6rem 0 }} summary {{ cursor: pointer }}
 </style></head><body>

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -126,6 +127,13 @@ bool is_input(const OptionChange& o) {
   return o.name.starts_with("inputs");
 }
 
+// Numbers as people wrote them: those of options are floats told to the last digit.
+std::string as_written(const std::string& value) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  return error == std::errc() && end == value.data() + value.size() ? fmt::format("{:.6g}", number) : shortened(value);
+}
+
 // First of all: whether what was baked differs, or how.
 std::string what_differs(const PackDiff& diff) {
   std::string settings;
@@ -134,8 +142,8 @@ std::string what_differs(const PackDiff& diff) {
     if (is_input(o)) {
       ++inputs;
     } else if (o.name.starts_with("options.")) {
-      settings += fmt::format("{}{} ({} → {})", settings.empty() ? "" : ", ", o.name.substr(8), shortened(o.before),
-                              shortened(o.after));
+      settings += fmt::format("{}{} ({} → {})", settings.empty() ? "" : ", ", o.name.substr(8), as_written(o.before),
+                              as_written(o.after));
     } else {
       ++versions;
     }

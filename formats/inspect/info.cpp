@@ -173,6 +173,11 @@ void print_visible_sets(const Pack& pack) {
   const VisibleSets& sets = pack.visible_sets;
   if (sets.empty()) return;
   const SetsSummary s = summarise(sets);
+  if (s.cells == 0) {
+    fmt::print("visible sets: {} groups of triangles in {} runs alone, for what mirrors show\n", sets.groups,
+               sets.runs.size());
+    return;
+  }
   fmt::print(
       "visible sets: {} groups of triangles in {} runs, {} eye cells of {} x {} walk cells, {:.3g} % seen on the "
       "mean{}\n",

@@ -23,6 +23,7 @@ Json reflectors_json(const Pack& pack) {
   for (const auto& r : pack.reflectors)
     out.push_back({{"name", r.name},
                    {"material", r.material},
+                   {"way", r.map_count > 0 ? "maps" : "geometry"},
                    {"area_m2", r.area_m2},
                    {"centre", triple(Vec3(r.pack_from_reflector * Vec4(0.5f * (r.lower + r.upper), 0, 1)))},
                    {"normal", triple(Vec3(r.pack_from_reflector[2]))},
@@ -94,11 +95,25 @@ Json walk_grids_json(const Pack& pack) {
   return out;
 }
 
+// Of a reflector without maps.
+std::string shows_text(const Pack& pack, std::size_t reflector) {
+  const VisibleSets& groups = pack.visible_sets;
+  const std::vector<std::uint8_t>& sets = pack.reflected_sets.seen;
+  if (sets.size() < (reflector + 1) * groups.set_bytes() || groups.empty()) return "the mirrored scene";
+  const std::uint8_t* set = sets.data() + reflector * groups.set_bytes();
+  std::uint64_t seen = 0;
+  for (const TriangleRun& run : groups.runs)
+    if (set[run.group / 8] >> (run.group % 8) & 1) seen += run.index_count / 3;
+  return fmt::format("the mirrored scene: {} of {} triangles may be seen in it", seen, pack.mesh.indices.size() / 3);
+}
+
 void print_planar(const PackIndex& index, const Pack& pack) {
   for (std::size_t i = 0; i < pack.reflectors.size(); ++i) {
     const auto& r = pack.reflectors[i];
-    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {} x {} elements, {} radiance maps from {}{}\n", i, r.name,
-               r.area_m2, r.material, r.elements_x, r.elements_y, r.map_count, r.first_map,
+    const std::string way = r.map_count > 0 ? fmt::format("{} x {} elements, {} radiance maps from {}", r.elements_x,
+                                                          r.elements_y, r.map_count, r.first_map)
+                                            : shows_text(pack, i);
+    fmt::print("reflector {}: '{}', {:.4g} m2, material {}, {}{}\n", i, r.name, r.area_m2, r.material, way,
                r.emitters.empty() ? "" : fmt::format(", {} emitters in closed form", r.emitters.size()));
   }
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {

@@ -104,6 +104,7 @@ void validate_cells(std::span<const std::uint32_t> cells, const IVec2& size, con
 void validate_pixels(const RadianceMap& map, IssueList& list);
 void validate_pixels(const SurroundMap& map, IssueList& list);
 void validate_elements(const Pack& pack, IssueList& list);
+void validate_map_meshes(const Pack& pack, IssueList& list);
 void validate_curved_reflectors(const Pack& pack, IssueList& list);
 void validate_surround_maps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_kernels(const Pack& pack, IssueList& list);
@@ -113,6 +114,7 @@ void validate_emitters(const Pack& pack, IssueList& list);
 void validate_kernel_fits(const Pack& pack, IssueList& list);
 void validate_walk_grids(const Pack& pack, IssueList& list);
 void validate_visible_sets(const Pack& pack, IssueList& list);
+void validate_reflected_sets(const Pack& pack, IssueList& list);
 void validate_cameras(const Pack& pack, IssueList& list);
 void validate_texts(const Pack& pack, IssueList& list);
 void validate_unknown(const Pack& pack, IssueList& list);

@@ -82,6 +82,7 @@ inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
 inline constexpr std::uint32_t kReflectorSection = fourcc("RFLT");
 inline constexpr std::uint32_t kRadianceMapSection = fourcc("RMAP");
+inline constexpr std::uint32_t kMapMeshSection = fourcc("MMSH");
 inline constexpr std::uint32_t kEmitterSection = fourcc("EMIT");
 inline constexpr std::uint32_t kCurvedReflectorSection = fourcc("CRFL");
 inline constexpr std::uint32_t kSurroundMapSection = fourcc("SMAP");
@@ -92,11 +93,12 @@ inline constexpr std::uint32_t kCameraSection = fourcc("CAMS");
 inline constexpr std::uint32_t kPathSection = fourcc("PATH");
 inline constexpr std::uint32_t kWalkSection = fourcc("WALK");
 inline constexpr std::uint32_t kVisibleSetsSection = fourcc("PVIS");
+inline constexpr std::uint32_t kReflectedSetsSection = fourcc("RVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 24> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -107,6 +109,7 @@ inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
     {kNormalTextureSection, "normal texture", true, false, true},
     {kReflectorSection, "reflectors", false, false, false},
     {kRadianceMapSection, "radiance map", false, false, true},
+    {kMapMeshSection, "map mesh", true, false, true},
     {kEmitterSection, "emitters", true, false, false},
     {kCurvedReflectorSection, "curved reflectors", true, false, false},
     {kSurroundMapSection, "surround map", true, false, true},
@@ -117,6 +120,7 @@ inline constexpr std::array<SectionKind, 22> kSectionKinds = {{
     {kPathSection, "camera paths", true, false, false},
     {kWalkSection, "walk grids", true, false, false},
     {kVisibleSetsSection, "visible sets", true, false, false},
+    {kReflectedSetsSection, "reflected sets", true, false, false},
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
 }};

@@ -1,6 +1,7 @@
 // Textures, lightmaps, radiance maps, surround maps.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "formats/core/half.h"
 #include "formats/pack/sections.h"
@@ -225,6 +226,52 @@ void describe(Serial& s, RadianceMap& map) {
       map.disparity, pixels, [&](float d) { return code_from_disparity(d, scale.shift); },
       [&](std::uint16_t code, std::size_t) { return disparity_from_code(code, scale.shift); });
   s.planes(map.valid, pixels);
+}
+
+namespace {
+
+std::uint16_t code_of_share(float share) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0f, 1.0f)));
+}
+
+// An index as how far it lies below the next vertex that none has used.
+void describe_indices(Serial& s, std::vector<std::uint32_t>& indices, std::uint32_t n, std::size_t vertices) {
+  std::uint32_t unused = 0;
+  s.coded<std::uint32_t>(
+      indices, n,
+      [&](std::uint32_t index) {
+        const std::uint32_t code = unused - index;
+        unused += code == 0;
+        return code;
+      },
+      [&](std::uint32_t code, std::size_t i) {
+        const std::uint32_t index = unused - code;
+        unused += code == 0;
+        if (index >= vertices) s.refuse("found index {} at {}, expected less than {} vertices", index, i, vertices);
+        return index;
+      });
+}
+
+}  // namespace
+
+void describe(Serial& s, MapMesh& mesh) {
+  float nearest = 0;
+  for (const Vec3& v : mesh.vertices) nearest = std::max(nearest, v.z);
+  std::int32_t shift = s.reading() ? 0 : disparity_shift(nearest);
+  s(shift);
+  if (shift < 0 || shift > kMaxDisparityShift)
+    s.refuse("found disparity shift {}, expected 0 to {}", shift, kMaxDisparityShift);
+  using Codes = std::array<std::uint16_t, 3>;
+  const std::uint32_t vertices = s.count(mesh.vertices), indices = s.count(mesh.indices);
+  s.coded<Codes>(
+      mesh.vertices, vertices,
+      [&](const Vec3& v) {
+        return Codes{code_of_share(v.x), code_of_share(v.y), code_from_disparity(v.z, shift)};
+      },
+      [&](const Codes& c, std::size_t) {
+        return Vec3(c[0] / 65535.0f, c[1] / 65535.0f, disparity_from_code(c[2], shift));
+      });
+  describe_indices(s, mesh.indices, indices, mesh.vertices.size());
 }
 
 void describe_place(Serial& s, SurroundMap& map, SurroundMapScale& scale) {

@@ -10,6 +10,7 @@
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/light_field.h"
 #include "formats/assets/lightmap.h"
+#include "formats/assets/map_mesh.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
 #include "formats/assets/mover.h"
@@ -44,7 +45,8 @@ struct Pack {
   std::vector<LightmapPage> lightmaps;
   std::vector<Reflector> reflectors;
   std::vector<RadianceMap> radiance_maps;
-  std::vector<Emitter> emitters;  // that reflectors show in closed form
+  std::vector<MapMesh> map_meshes;  // of each radiance map, or none
+  std::vector<Emitter> emitters;    // that reflectors show in closed form
   std::vector<CurvedReflector> curved_reflectors;
   std::vector<SurroundMap> surround_maps;
   std::vector<BrdfKernel> kernels;
@@ -54,6 +56,7 @@ struct Pack {
   std::vector<CameraPath> paths;
   std::vector<WalkGrid> walk_grids;  // by storey
   VisibleSets visible_sets;          // of mesh and walk grids; empty: all is drawn from everywhere
+  ReflectedSets reflected_sets;      // of reflectors, in the groups of visible_sets; empty: all is drawn in each
   std::vector<Mover> movers;
   LightField light_field;  // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;

@@ -14,6 +14,7 @@ void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
 void describe(Serial& s, RadianceMap& map);
+void describe(Serial& s, MapMesh& mesh);
 void describe(Serial& s, Emitter& emitter);
 void describe(Serial& s, CurvedReflector& reflector);
 void describe(Serial& s, SurroundMap& map);
@@ -24,6 +25,7 @@ void describe(Serial& s, Camera& camera);
 void describe(Serial& s, CameraPath& path);
 void describe(Serial& s, WalkGrid& grid);
 void describe(Serial& s, VisibleSets& sets);
+void describe(Serial& s, ReflectedSets& sets);
 void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
 
@@ -77,6 +79,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kNormalTextureSection, pack.normal_textures);
   v.list(kReflectorSection, pack.reflectors);
   v.each(kRadianceMapSection, pack.radiance_maps);
+  v.each(kMapMeshSection, pack.map_meshes);
   v.list(kEmitterSection, pack.emitters);
   v.list(kCurvedReflectorSection, pack.curved_reflectors);
   v.each(kSurroundMapSection, pack.surround_maps);
@@ -87,6 +90,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.list(kPathSection, pack.paths);
   v.list(kWalkSection, pack.walk_grids);
   v.one(kVisibleSetsSection, pack.visible_sets, !pack.visible_sets.empty());
+  v.one(kReflectedSetsSection, pack.reflected_sets, !pack.reflected_sets.empty());
   v.each(kMoverSection, pack.movers);
   v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
 }

@@ -203,6 +203,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_reflectors(pack, list);
   validate_radiance_maps(pack, pixels, list);
   validate_elements(pack, list);
+  validate_map_meshes(pack, list);
   validate_emitters(pack, list);
   validate_curved_reflectors(pack, list);
   validate_surround_maps(pack, pixels, list);
@@ -213,6 +214,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_cameras(pack, list);
   validate_walk_grids(pack, list);
   validate_visible_sets(pack, list);
+  validate_reflected_sets(pack, list);
   validate_movers(pack, list);
   validate_light_field(pack, list);
   validate_unknown(pack, list);

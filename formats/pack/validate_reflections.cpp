@@ -1,7 +1,5 @@
 // What reflections need beside their maps: walk grids, emitters, residual maps, lobes as cosines.
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <map>
 #include <set>
 
@@ -38,23 +36,15 @@ bool is_convex_polygon(const std::vector<Vec3>& corners) {
 }
 
 using ElementKey = std::pair<std::uint32_t, std::uint32_t>;  // reflector and element
-// And eye; floats by their bits, so that NaN has an order too.
-using ViewKey = std::array<std::uint32_t, 5>;
-
-ViewKey view_key(const RadianceMap& map) {
-  const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v + 0.0f); };  // -0 as 0
-  return {map.reflector, map.element, bits(map.eye.x), bits(map.eye.y), bits(map.eye.z)};
-}
-
 }  // namespace
 
 void validate_elements(const Pack& pack, IssueList& list) {
-  std::set<ViewKey> views;
+  std::set<ElementKey> shown;                // by maps that are no residuals
   std::map<ElementKey, std::size_t> counts;  // maps by element
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
-    if (!map.residual) views.insert(view_key(map));
+    if (!map.residual) shown.insert({map.reflector, map.element});
     std::size_t& count = counts[{map.reflector, map.element}];
     const RadianceMap* before = i > 0 ? &pack.radiance_maps[i - 1] : nullptr;
     const bool beside = before != nullptr && before->reflector == map.reflector && before->element == map.element;
@@ -69,13 +59,33 @@ void validate_elements(const Pack& pack, IssueList& list) {
   for (std::size_t i = 0; i < pack.radiance_maps.size(); ++i) {
     const RadianceMap& map = pack.radiance_maps[i];
     list.in_section(kRadianceMapSection, i);
-    if (map.residual && !views.contains(view_key(map)))
-      list.error(418, "is a residual, but no other map has its eye and element");
+    if (map.residual && !shown.contains({map.reflector, map.element}))
+      list.error(418, "is a residual, but its element has no other map");
     if (map.reflector >= pack.reflectors.size()) continue;  // another issue
     const Reflector& reflector = pack.reflectors[map.reflector];
     const std::uint64_t elements = std::uint64_t{reflector.elements_x} * reflector.elements_y;
     if (map.element >= elements)
       list.error(426, "found element {}, expected less than {} of reflector {}", map.element, elements, map.reflector);
+  }
+}
+
+void validate_map_meshes(const Pack& pack, IssueList& list) {
+  list.in_section(kMapMeshSection);
+  const std::size_t meshes = pack.map_meshes.size();
+  if (meshes != 0 && meshes != pack.radiance_maps.size())
+    list.error(427, "found {} meshes of {} radiance maps, expected one each, or none", meshes,
+               pack.radiance_maps.size());
+  for (std::size_t i = 0; i < meshes; ++i) {
+    const MapMesh& mesh = pack.map_meshes[i];
+    list.in_section(kMapMeshSection, i);
+    list.each(
+        428, "vertices", mesh.vertices, [](const Vec3& v) { return within(v, 0, 1); },
+        [](const Vec3& v) { return text_of(v); }, "0 to 1");
+    const auto bad = std::count_if(mesh.indices.begin(), mesh.indices.end(),
+                                   [&](std::uint32_t v) { return v >= mesh.vertices.size(); });
+    if (bad > 0 || mesh.indices.size() % 3 != 0)
+      list.error(429, "found {} indices, {} of them not below {}, expected triangles of those vertices",
+                 mesh.indices.size(), bad, mesh.vertices.size());
   }
 }
 

@@ -56,9 +56,23 @@ void validate_visible_sets(const Pack& pack, IssueList& list) {
   }
   validate_runs(pack, list);
   const std::uint32_t cells = number_eye_cells(pack.walk_grids, sets.side).count;
-  if (sets.seen.size() != cells * sets.set_bytes())
-    list.error(754, "found {} bytes of sets, expected {} for each of {} eye cells", sets.seen.size(), sets.set_bytes(),
-               cells);
+  if (!sets.seen.empty() && sets.seen.size() != cells * sets.set_bytes())
+    list.error(754, "found {} bytes of sets, expected none or {} for each of {} eye cells", sets.seen.size(),
+               sets.set_bytes(), cells);
+}
+
+void validate_reflected_sets(const Pack& pack, IssueList& list) {
+  const ReflectedSets& sets = pack.reflected_sets;
+  if (sets.empty()) return;
+  list.in_section(kReflectedSetsSection);
+  if (sets.made_for != reflected_hash(pack.visible_sets, pack.reflectors)) {
+    list.warning(757, "was made for other reflectors or other visible sets and is ignored: mirrors show all");
+    return;
+  }
+  const std::size_t expected = pack.reflectors.size() * pack.visible_sets.set_bytes();
+  if (pack.visible_sets.empty() || sets.seen.size() != expected)
+    list.error(756, "found {} bytes of sets, expected {} for {} reflectors and {} groups", sets.seen.size(), expected,
+               pack.reflectors.size(), pack.visible_sets.groups);
 }
 
 }  // namespace oriel

@@ -24,4 +24,10 @@ void describe(Serial& s, VisibleSets& sets) {
   sets.seen = std::move(changes);
 }
 
+void describe(Serial& s, ReflectedSets& sets) {
+  const std::uint32_t bytes = s.count(sets.seen);
+  s(sets.made_for.high, sets.made_for.low);
+  s.array(sets.seen, bytes);
+}
+
 }  // namespace oriel

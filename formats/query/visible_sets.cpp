@@ -60,6 +60,23 @@ Hash128 visibility_hash(const Mesh& mesh, std::span<const Material> materials, s
   return hasher.result();
 }
 
+Hash128 reflected_hash(const VisibleSets& sets, std::span<const Reflector> reflectors) {
+  Hasher hasher;
+  const std::array<std::uint64_t, 2> groups{sets.made_for.high, sets.made_for.low};
+  add(hasher, groups);
+  for (const Reflector& r : reflectors) {
+    const std::array<float, 17> place = [&] {
+      std::array<float, 17> numbers{};
+      for (int i = 0; i < 16; ++i) numbers[static_cast<std::size_t>(i)] = r.pack_from_reflector[i / 4][i % 4];
+      numbers[16] = r.flatness_m;
+      return numbers;
+    }();
+    add(hasher, place);
+    add(hasher, r.indices);
+  }
+  return hasher.result();
+}
+
 bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const Material> materials,
               std::span<const WalkGrid> grids) {
   return !sets.empty() && sets.made_for == visibility_hash(mesh, materials, grids);
@@ -69,7 +86,7 @@ SeenGroups::SeenGroups(const VisibleSets& sets, std::span<const WalkGrid> grids)
     : sets_(&sets), grids_(grids), cells_(number_eye_cells(grids, sets.side)) {}
 
 std::optional<std::vector<std::uint8_t>> SeenGroups::from(const Vec3& eye) const {
-  if (sets_ == nullptr || sets_->empty() || !is_finite(eye)) return std::nullopt;
+  if (sets_ == nullptr || sets_->seen.empty() || !is_finite(eye)) return std::nullopt;
   std::vector<std::int32_t> places;
   for (std::size_t g = 0; g < grids_.size(); ++g) {
     const WalkGrid& grid = grids_[g];

@@ -7,6 +7,7 @@
 
 #include "formats/assets/material.h"
 #include "formats/assets/mesh.h"
+#include "formats/assets/radiance_map.h"
 #include "formats/assets/walk_grid.h"
 #include "formats/core/hash.h"
 
@@ -18,8 +19,9 @@ struct TriangleRun {
   std::uint32_t group = 0;
 };
 
-// Potentially visible sets (Airey et al. 1990). An eye cell is a square of `side` x `side` walk cells of a grid, where
-// one of them at least is walkable; eye cells are numbered by grid, then row by row. Empty where groups is 0.
+// Potentially visible sets (Airey et al. 1990). Without any in `seen` there are groups alone. An eye cell is a square
+// of `side` x `side` walk cells of a grid, where one of them at least is walkable; eye cells are numbered by grid, then
+// row by row. Empty where groups is 0.
 struct VisibleSets {
   std::uint32_t groups = 0;
   std::vector<TriangleRun> runs;
@@ -32,6 +34,14 @@ struct VisibleSets {
   std::size_t set_bytes() const { return (std::size_t{groups} + 7) / 8; }
 };
 
+// By planar reflector what any eye sees in it, drawn where it shows the mirrored scene: groups of VisibleSets.
+struct ReflectedSets {
+  std::vector<std::uint8_t> seen;  // reflector by reflector VisibleSets::set_bytes() each, bits as there
+  Hash128 made_for;                // reflected_hash() of groups and reflectors
+
+  bool empty() const { return seen.empty(); }
+};
+
 // By walk grid: the eye cell of each walk cell, -1 where nobody can stand. count: of all eye cells. side: > 0; grids
 // valid.
 struct EyeCells {
@@ -42,6 +52,9 @@ EyeCells number_eye_cells(std::span<const WalkGrid> grids, std::uint32_t side);
 
 // Of what sets speak of: positions, indices, floors.
 Hash128 visibility_hash(const Mesh& mesh, std::span<const Material> materials, std::span<const WalkGrid> grids);
+
+// Of what reflected sets speak of: the groups, planes and triangles of reflectors.
+Hash128 reflected_hash(const VisibleSets& sets, std::span<const Reflector> reflectors);
 
 // Whether sets speak of this mesh and these grids: a program that does not know them may have changed those.
 bool made_for(const VisibleSets& sets, const Mesh& mesh, std::span<const Material> materials,

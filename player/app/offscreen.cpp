@@ -19,6 +19,7 @@
 #include "player/output/video.h"
 #include "player/passes/frame.h"
 #include "player/session/session.h"
+#include "player/window/paced_frame.h"
 
 namespace oriel {
 namespace {
@@ -36,6 +37,10 @@ class Studio {
         zone_(planned_zone(scene.pack())) {
     options_.timed = !arguments.stats.empty();
     options_.samples = samples_of_picture(arguments);
+    if (arguments.quality == Quality::kFast) {
+      options_ = coarse_options(options_, false);
+      scene.make_fewer();
+    }
     session_.shown_ev100 = arguments.ev100.value_or(0.0f);
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }

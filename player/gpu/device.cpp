@@ -50,6 +50,9 @@ Result<Device> open_device() {
     return fail(ErrorCode::kRuntime, "OpenGL", "found {} on {}, expected OpenGL 3.3 core or OpenGL ES 3.0",
                 device.version, device.renderer);
   }
+  if (!desktop && !epoxy_has_gl_extension("GL_EXT_texture_norm16"))
+    return fail(ErrorCode::kRuntime, "OpenGL ES", "found {} on {}, expected GL_EXT_texture_norm16", device.version,
+                device.renderer);
   device.dialect = desktop ? Dialect::kDesktop330 : Dialect::kEs300;
   GLint texture_size = 0;
   GLint layers = 0;

@@ -30,6 +30,16 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d* color
   return framebuffer;
 }
 
+Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d& color, const Texture2d& more,
+                                        const Texture2d& depth) {
+  ORIEL_TRY(Framebuffer framebuffer, create(what, &color, &depth, true));
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, more.name(), 0);
+  const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(2, both);
+  ORIEL_TRY_VOID(check_complete(what, color.width(), color.height()));
+  return framebuffer;
+}
+
 Result<Framebuffer> Framebuffer::create(const char* what, const MultisampleTexture& color,
                                         const MultisampleTexture& depth) {
   Framebuffer framebuffer;

@@ -14,6 +14,10 @@ class Framebuffer {
   static Result<Framebuffer> create(const char* what, const Texture2d* color, const Texture2d* depth,
                                     bool stencil = false);
 
+  // Two images that one pass draws into at once, of the same size as the depth with its stencil.
+  static Result<Framebuffer> create(const char* what, const Texture2d& color, const Texture2d& more,
+                                    const Texture2d& depth);
+
   // Both of the same number of samples; depth with its stencil.
   static Result<Framebuffer> create(const char* what, const MultisampleTexture& color, const MultisampleTexture& depth);
 

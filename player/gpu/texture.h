@@ -27,7 +27,9 @@ inline constexpr TextureFormat kR8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TextureFormat kR32ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
 inline constexpr TextureFormat kRgb9e5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4};
 inline constexpr TextureFormat kR32f{GL_R32F, GL_RED, GL_FLOAT, 4};
-inline constexpr TextureFormat kRg32f{GL_RG32F, GL_RG, GL_FLOAT, 8};
+// These two are extensions there (EXT_texture_norm16).
+inline constexpr TextureFormat kR16{GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
+inline constexpr TextureFormat kRg16{GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
 inline constexpr TextureFormat kDepthStencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV,
                                              8};
 inline constexpr TextureFormat kDepth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};

@@ -1,6 +1,7 @@
 #include "player/images/map_array.h"
 
 #include <algorithm>
+#include <array>
 
 #include "formats/core/parallel.h"
 
@@ -22,12 +23,37 @@ MapArrayData shape_of(const IVec2& size, int layers) {
     return data;
   };
   MapArrayData out{
-      shape(gpu::kRgb9e5, size), shape(gpu::kR32f, size), shape(gpu::kRg32f, {range_size.x, 2 * range_size.y}), {}};
+      shape(gpu::kRgb9e5, size), shape(gpu::kR16, size), shape(gpu::kRg16, {range_size.x, range_size.y * 3 / 2}), {}};
   for (TextureData* filtered : {&out.disparity, &out.light})
     filtered->options.min_filter = filtered->options.mag_filter = GL_LINEAR;
   out.light.options.levels = gpu::mip_levels(size.x, size.y);
   out.light.options.min_filter = GL_LINEAR_MIPMAP_LINEAR;
   return out;
+}
+
+using RangeCode = std::array<std::uint16_t, 2>;
+
+std::vector<RangeCode> coded(std::span<const Vec2> ranges) {
+  std::vector<RangeCode> codes;
+  codes.reserve(ranges.size());
+  for (const Vec2& r : ranges)  // of nothing: the largest number, then the least
+    codes.push_back({disparity_code(std::clamp(r.x, 0.0f, kUnseenDisparity)),
+                     disparity_code(std::clamp(r.y, 0.0f, kUnseenDisparity))});
+  return codes;
+}
+
+// Level 1, and above it the others beside each other: `width` and `height` are those of level 1 of the array.
+void add_ranges(const Relief& relief, int layer, int width, int height, TextureData& ranges) {
+  const IVec2 first = relief.range_size(1);
+  ranges.add(0, layer, 0, first.x, first.y, coded(relief.ranges[0]));
+  std::vector<RangeCode> strip(static_cast<std::size_t>(width) * static_cast<std::size_t>(height / 2));
+  for (int level = 2; level <= kRangeLevels; ++level) {
+    const IVec2 cells = relief.range_size(level);
+    const std::vector<RangeCode> codes = coded(relief.ranges[static_cast<std::size_t>(level - 1)]);
+    for (int y = 0; y < cells.y; ++y)
+      std::copy_n(codes.begin() + y * cells.x, cells.x, strip.begin() + y * width + width - (width >> (level - 2)));
+  }
+  ranges.add(0, layer, height, width, height / 2, std::move(strip));
 }
 
 }  // namespace
@@ -49,12 +75,11 @@ MapArrayData MapArrayData::make(std::span<const RadianceMap* const> maps) {
   for (int layer = 0; layer < out.light.layers; ++layer) {
     auto [relief, levels] = std::move(made[static_cast<std::size_t>(layer)]);
     const IVec2 of_map = relief.size;
-    for (int level = 1; level <= kRangeLevels; ++level) {
-      const IVec2 cells = relief.range_size(level);
-      const int row = out.ranges.height - (2 * out.ranges.height >> level);
-      out.ranges.add(0, layer, row, cells.x, cells.y, std::move(relief.ranges[static_cast<std::size_t>(level - 1)]));
-    }
-    out.disparity.add(0, layer, 0, of_map.x, of_map.y, std::move(relief.disparity));
+    add_ranges(relief, layer, out.ranges.width, out.ranges.height * 2 / 3, out.ranges);
+    std::vector<std::uint16_t> codes;
+    codes.reserve(relief.disparity.size());
+    for (const float s : relief.disparity) codes.push_back(disparity_code(s));
+    out.disparity.add(0, layer, 0, of_map.x, of_map.y, std::move(codes));
     for (int level = 0; of_map != size && level < out.light.options.levels;
          ++level) {  // filters may touch what is beside it
       const int w = std::max(size.x >> level, 1), h = std::max(size.y >> level, 1);

@@ -20,7 +20,7 @@ struct MapArrayData {
 std::size_t map_array_bytes(std::span<const IVec2> sizes);
 
 struct MapArray {
-  // Disparity stays in 32 bits: half floats are decoded in software on CPUs, and a quarter of the memory is light.
+  // Disparities and their ranges in 16 bits (relief.h).
   gpu::TextureArray light, disparity, ranges;
   std::vector<float> scale;
   std::vector<IVec2> sizes;  // of the layers' maps, pixels

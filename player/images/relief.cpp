@@ -91,7 +91,8 @@ Relief make_relief(const RadianceMap& map) {
   relief.disparity.reserve(map.disparity.size());
   raw.cells.reserve(map.disparity.size());
   for (std::size_t i = 0; i < map.disparity.size(); ++i) {
-    const float s = !is_usable(map, i) ? kUnseenDisparity : map.valid[i] == 2 ? 0.0f : map.disparity[i];
+    const float seen = !is_usable(map, i) ? kUnseenDisparity : map.valid[i] == 2 ? 0.0f : map.disparity[i];
+    const float s = static_cast<float>(disparity_code(seen)) / kDisparityCodes;
     relief.disparity.push_back(s);
     raw.cells.emplace_back(s, s);
   }

@@ -10,6 +10,12 @@ namespace oriel {
 
 // Stands for pixels that saw nothing usable: nearer than any ray, so that rays pass behind them.
 inline constexpr float kUnseenDisparity = 2;
+// Disparities are multiples of 1 / kDisparityCodes, which the device has in 16 bits: off by no more than a 64th of a
+// pixel of 1024, seen from as far away as the element is wide.
+inline constexpr float kDisparityCodes = 32767;
+inline std::uint16_t disparity_code(float s) {
+  return static_cast<std::uint16_t>(s * kDisparityCodes + 0.5f);
+}
 // Ranges are kept for squares of 2 to 2^kRangeLevels pixels.
 inline constexpr int kRangeLevels = 6;
 

@@ -63,6 +63,7 @@ void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<co
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.color_write = false;
+  state.mirrored = view.mirrored;
   for (const PlacedMover& placed : movers) {
     depth_.set("u_clip_from_pack", clip_from_object(view, placed));
     glBindVertexArray(placed.mover->vertex_array.name());
@@ -81,6 +82,21 @@ void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<co
 void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
                      const MoverChange* change, FrameStats& stats) const {
   light_.use();
+  light_.set("u_alpha_kind", 0);
+  light_.set("u_changed", change != nullptr ? 1 : 0);
+  if (change != nullptr) change->light->bind(kChangeUnit), change->surfaces->bind(kPlaceUnit);
+  draw_light(scene, view, movers, weights, stats);
+}
+
+void MoverPass::draw_reflected(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                               FrameStats& stats) const {
+  set_distance_alpha(light_, view);
+  light_.set("u_changed", 0);
+  draw_light(scene, view, movers, Vec3(1), stats);
+}
+
+void MoverPass::draw_light(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                           const Vec3& weights, FrameStats& stats) const {
   light_.set("u_eye", view.eye);
   light_.set("u_base_texture", kBaseUnit);
   light_.set("u_reflectance", kReflectanceUnit);
@@ -90,12 +106,10 @@ void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const Pl
   light_.set("u_codes", kWeightUnit);
   light_.set("u_table", kTableUnit);
   light_.set("u_weights", weights);
-  light_.set("u_alpha_kind", 0);
-  light_.set("u_changed", change != nullptr ? 1 : 0);
   light_.set("u_reflectance_count", scene.reflectance_tables().width());
   scene.reflectance_tables().bind(kReflectanceUnit);
-  if (change != nullptr) change->light->bind(kChangeUnit), change->surfaces->bind(kPlaceUnit);
   gpu::RasterState state;
+  state.mirrored = view.mirrored;
   state.depth_test = true;
   state.stencil_ref = static_cast<GLint>(kMoverBits);
   state.stencil_write = kMoverBits;

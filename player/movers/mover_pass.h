@@ -52,8 +52,13 @@ class MoverPass {
   // null.
   void draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
             const MoverChange* change, FrameStats& stats) const;
+  // The same into the image of a mirror, without change; alpha tells the distance.
+  void draw_reflected(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
+                      FrameStats& stats) const;
 
  private:
+  void draw_light(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
+                  FrameStats& stats) const;
   gpu::Program depth_, light_;
 };
 

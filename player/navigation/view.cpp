@@ -63,7 +63,10 @@ Mat4 clip_from_view_to(const View& view, float far) {
   Mat4 clip(0);
   clip[0][0] = 1 / view.tangents.x;
   clip[1][1] = 1 / view.tangents.y;
+  const Vec2 aside = view.centre / view.tangents;
   if (view.orthographic) {
+    clip[3][0] = -aside.x;
+    clip[3][1] = -aside.y;
     clip[2][2] = -2.0f / depth;
     clip[3][2] = -(far + view.near) / depth;
     clip[3][3] = 1;
@@ -71,8 +74,23 @@ Mat4 clip_from_view_to(const View& view, float far) {
     clip[2][2] = -(far + view.near) / depth;
     clip[3][2] = -2.0f * far * (view.near / depth);
     clip[2][3] = -1;
+    clip[2][0] = aside.x;
+    clip[2][1] = aside.y;
   }
   return clip;
+}
+
+View part_of(const View& view, const Vec2& origin, int width, int height) {
+  View part = view;
+  const Vec2 whole(static_cast<float>(view.width), static_cast<float>(view.height));
+  const Vec2 size(static_cast<float>(width), static_cast<float>(height));
+  part.width = width;
+  part.height = height;
+  part.tangents = view.tangents * size / whole;
+  part.centre = view.centre + view.tangents * ((2.0f * origin + size) / whole - 1.0f);
+  part.clip_from_view = clip_from_view_to(part, part.far);
+  part.clip_from_pack = part.clip_from_view * part.view_from_pack;
+  return part;
 }
 
 }  // namespace oriel

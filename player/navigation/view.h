@@ -14,6 +14,7 @@ struct View {
   Vec4 eye{0, 0, 0, 1};
   // View-space x and y over -z at the edge of the picture; half its size in metres for an orthographic camera.
   Vec2 tangents{1};
+  Vec2 centre{0};  // the same of the picture's middle: not 0 where it is part of a larger one
   bool orthographic = false;
   bool mirrored = false;            // clip_from_pack turns left into right
   float near = 0.1f, far = 100.0f;  // metres along the view, near may be negative for an orthographic camera
@@ -27,5 +28,9 @@ View make_view(const Camera& camera, int width, int height, const Bounds& bounds
 
 // The view's projection with another far plane, at least 0.1 % behind the near one.
 Mat4 clip_from_view_to(const View& view, float far);
+
+// What the view shows in a rectangle of its picture's plane, which may reach beyond it: lower left corner and size in
+// pixels. near and far stay.
+View part_of(const View& view, const Vec2& origin, int width, int height);
 
 }  // namespace oriel

@@ -3,27 +3,10 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
-#include "player/passes/geometry_pass.h"
-#include "player/passes/holes.h"
-#include "player/reflections/reflected_view.h"
 
 namespace oriel {
 namespace {
 
-// Nearer to the plane than this share of the reflector's size, an eye sees nothing in it but its edge.
-constexpr float kEdgeOn = 1e-5f;
-
-// Of the frame, from which a reflector is large.
-constexpr float kLargeShare = 0.02f;
-
-float share_of_frame(const NdcRect& rect) {
-  const Vec2 size = glm::max(glm::min(rect.upper, Vec2(1)) - glm::max(rect.lower, Vec2(-1)), Vec2(0));
-  return 0.25f * size.x * size.y;
-}
-
-bool shows_reflectors(Show show) {
-  return show != Show::kD;
-}
 bool shows_scene(Show show) {
   return show == Show::kAll || show == Show::kD;
 }
@@ -40,7 +23,14 @@ std::vector<DrawBatch> choose_shown(GpuScene& scene, const View& view, const Fra
     stats.groups = static_cast<std::uint32_t>(seen->size());
     stats.groups_seen = static_cast<std::uint32_t>(std::count(seen->begin(), seen->end(), 1));
   }
-  return scene.show(make_frustum(view.clip_from_pack), seen);
+  return options.coarse ? scene.show_fewer(view, seen) : scene.show(make_frustum(view.clip_from_pack), seen);
+}
+
+// Movers as mirrors show them: bright lights are among their harmonics, without shadows.
+std::vector<PlacedMover> in_mirrors(const GpuScene& scene, const FrameOptions& options) {
+  FrameOptions unshadowed = options;
+  unshadowed.mover_lights = MoverLights::kHarmonics;
+  return scene.reflectors().empty() ? std::vector<PlacedMover>() : place_movers(scene, unshadowed);
 }
 
 void count_images(GpuScene& scene, FrameStats& stats) {
@@ -75,12 +65,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
   ORIEL_TRY(renderer->bright_pass_, BrightPass::create(device.dialect));
-  ORIEL_TRY(renderer->reflector_pass_, ReflectorPass::create(device.dialect));
-  ORIEL_TRY(renderer->march_pass_, MarchPass::create(device.dialect));
-  ORIEL_TRY(renderer->reproject_pass_, ReprojectPass::create(device));
-  ORIEL_TRY(renderer->fill_pass_, FillPass::create(device.dialect));
-  ORIEL_TRY(renderer->convolve_pass_, ConvolvePass::create(device.dialect));
-  ORIEL_TRY(renderer->curved_pass_, CurvedPass::create(device.dialect));
+  ORIEL_TRY(renderer->reflections_, ReflectionRenderer::create(device));
   ORIEL_TRY(renderer->survey_pass_, SurveyPass::create(device.dialect));
   ORIEL_TRY(renderer->display_, DisplayPass::create(device.dialect));
   ORIEL_TRY_VOID(gpu::check_gl("compiling shaders"));
@@ -100,137 +85,6 @@ Status Renderer::ensure_frame(int width, int height, int samples) {
   ORIEL_TRY(FrameTarget frame, make_frame_target(width, height, given));
   frame_ = std::move(frame);
   return {};
-}
-
-Result<std::vector<Renderer::Candidate>> Renderer::draw_masks(GpuScene& scene, const View& view,
-                                                              const FrameOptions& options, FrameStats& stats) {
-  std::vector<Candidate> candidates;
-  marked_.clear();
-  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return candidates;
-  if (options.maps_per_element <= 0) return candidates;
-  for (const GpuReflector& reflector : scene.reflectors()) {
-    if (reflector.elements.empty() || reflector.index_count == 0) continue;
-    const Vec4 eye = eye_in_reflector(reflector, view);
-    if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
-    Candidate candidate{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
-                        kMaskQueries * candidates.size(), false};
-    if (candidate.screen.empty || (options.few_reflections && share_of_frame(candidate.screen) < kLargeShare)) continue;
-    ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
-    candidate.waits = !shows;
-    const bool see_through = scene.is_transparent(reflector.material);
-    if (!see_through && marked_.size() + 1 >= kMoverBits) continue;  // more than the stencil counts
-    if (!see_through && !candidate.waits) {
-      marked_.push_back(reflector.material);
-      candidate.value = static_cast<GLint>(marked_.size());
-    }
-    while (queries_.size() < candidate.query + kMaskQueries) queries_.push_back(gpu::make_query());
-    reflector_pass_.draw_mask(scene, reflector, view, candidate.screen,
-                              see_through ? static_cast<GLint>(kSeeThroughBit) : candidate.value,
-                              candidate.waits ? 0
-                              : see_through   ? kSeeThroughBit
-                                              : kReflectorBits,
-                              std::span(queries_).subspan(candidate.query, kMaskQueries), stats);
-    candidates.push_back(candidate);
-  }
-  for (Candidate& candidate : candidates) {
-    candidate.screen =
-        ReflectorPass::visible_part(candidate.screen, view, std::span(queries_).subspan(candidate.query, kMaskQueries));
-  }
-  for (const Candidate& candidate : candidates)
-    if (candidate.waits && !candidate.screen.empty) scene.want_maps(*candidate.reflector);
-  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.screen.empty || candidate.waits; });
-  return candidates;
-}
-
-// M into the image.
-Status Renderer::draw_mirrored_world(GpuScene& scene, const Candidate& candidate, const GpuKernel* kernel,
-                                     const View& view, const ImageRect& rect, const FrameOptions& options,
-                                     FrameStats& stats) {
-  const GpuReflector& reflector = *candidate.reflector;
-  const ShownPixels shown{&frame_->framebuffer, candidate.value, kReflectorBits};
-  switch (options.reflections) {
-    case Reflections::kPoints:
-      return reproject_pass_.draw(scene, reflector, view, rect, *image_, options, stats);
-    case Reflections::kGeometry:
-      draw_geometry(scene_pass_, scene, reflector, view, rect, *image_, options.white, stats);
-      return {};
-    default:
-      march_pass_.draw(scene, reflector, kernel, view, rect, *image_, shown, options, stats);
-      return {};
-  }
-}
-
-Status Renderer::draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view,
-                                 const FrameOptions& options, FrameStats& stats) {
-  const GpuReflector& reflector = *candidate.reflector;
-  ORIEL_TRY(const bool there, scene.bring_maps(reflector));
-  if (!there) return {};  // another reflector's took their room
-  const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
-  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
-  const ImageRect rect =
-      choose_image(candidate.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
-  ORIEL_TRY_VOID(ensure_image_target(image_, rect.width, rect.height, device_.texture_size));
-  stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
-  const bool counted = options.count_holes && candidate.value > 0;
-  if (counted && !kernel.blurs() && options.reflections == Reflections::kMarch) {
-    march_pass_.measure(scene, reflector, view, rect, *image_, options);
-    const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_sharp);
-    stats.mirror_pixels += count.pixels;
-    stats.sharp += count.counted;
-  }
-  ORIEL_TRY_VOID(clock_.time(Pass::kReflect, [&] {
-    return draw_mirrored_world(scene, candidate, blurs ? &kernel : nullptr, view, rect, options, stats);
-  }));
-  if (counted) {
-    const PixelCount count = count_pixels(*frame_, candidate.value, *image_, rect, is_hole);
-    stats.reflected_pixels += count.pixels;
-    stats.holes += count.counted;
-  }
-  clock_.time(Pass::kFill, [&] { fill_pass_.draw(rect, *image_, blurs, stats); });
-  if (rect.coarse > 1) {
-    clock_.time(Pass::kConvolve, [&] {
-      convolve_pass_.draw(reflector, kernel, view, rect, *image_, scene.bounds().radius(), options.blur, stats);
-    });
-  }
-  frame_->drawn().bind();
-  glViewport(0, 0, view.width, view.height);
-  clock_.time(blurs ? Pass::kConvolve : Pass::kCompose, [&] {
-    if (blurs) {
-      reflector_pass_.draw_convolved(scene, reflector, kernel, view, rect, *image_, candidate.value, options, stats);
-    } else {
-      reflector_pass_.draw_light(scene, reflector, view, rect, image_->filled, candidate.value, options, stats);
-    }
-  });
-  clock_.time(Pass::kEmitters,
-              [&] { reflector_pass_.draw_emitters(scene, reflector, view, candidate.value, options, stats); });
-  ++stats.reflectors;
-  return {};
-}
-
-// Gives the see-through ones, whose light is added once the scene is drawn.
-Result<std::vector<const GpuCurvedReflector*>> Renderer::draw_curved(GpuScene& scene, const View& view,
-                                                                     const FrameOptions& options,
-                                                                     std::set<std::uint32_t>& reflective,
-                                                                     FrameStats& stats) {
-  std::vector<const GpuCurvedReflector*> see_through;
-  if (!shows_reflectors(options.show) || options.reflections == Reflections::kOff) return see_through;
-  if (options.few_reflections) return see_through;
-  const Frustum frustum = make_frustum(view.clip_from_pack);
-  for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
-    if (!may_be_visible(frustum, reflector.bounds)) continue;
-    ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
-    if (!there) continue;
-    if (scene.is_transparent(reflector.material)) {
-      curved_pass_.draw_mask(scene, reflector, view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
-      see_through.push_back(&reflector);
-    } else if (marked_.size() + 1 < kMoverBits) {
-      marked_.push_back(reflector.material);
-      curved_pass_.draw_light(scene, reflector, view, static_cast<GLint>(marked_.size()), kReflectorBits, options,
-                              stats);
-      reflective.insert(reflector.material);
-    }
-  }
-  return see_through;
 }
 
 Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene, const View& view,
@@ -284,21 +138,23 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   }
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
   if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
-  ORIEL_TRY(const std::vector<Candidate> candidates,
-            clock_.time(Pass::kMask, [&] { return draw_masks(scene, view, options, stats); }));
-  if (!candidates.empty()) frame_->resolve_depth_stencil();
-  std::set<std::uint32_t> reflective;
-  for (const Candidate& candidate : candidates) {
-    if (candidate.value == 0) continue;
-    ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
-    reflective.insert(candidate.reflector->material);
-  }
+  const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
+  ReflectionWork work{scene, options, stats, scene_pass_, mover_pass_, mirrored};
+  const ReflectionTarget target{view, &*frame_};
+  ReflectionMarks marks;
+  ORIEL_TRY(const std::vector<MarkedReflector> marked,
+            clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(work, target, marks); }));
+  if (!marked.empty()) frame_->resolve_depth_stencil();
+  for (const MarkedReflector& m : marked)
+    if (m.value > 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));
   ORIEL_TRY(const auto see_through,
-            clock_.time(Pass::kCurved, [&] { return draw_curved(scene, view, options, reflective, stats); }));
+            clock_.time(Pass::kCurved, [&] { return reflections_.draw_curved(work, target, marks); }));
+  marked_ = std::move(marks.materials);
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
     ORIEL_TRY(const auto change, draw_change(scene, view, shown, movers, options, stats));
-    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(scene, view, shown, weights, reflective, change, stats); });
+    clock_.time(Pass::kScene,
+                [&] { scene_pass_.draw_opaque(scene, view, shown, weights, marks.reflective, change, stats); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
         mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission},
@@ -308,14 +164,9 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
     ORIEL_TRY(const float white, white_for(scene, options));
     clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
   }
-  for (const Candidate& candidate : candidates) {
-    if (candidate.value == 0) ORIEL_TRY_VOID(draw_reflection(scene, candidate, view, options, stats));
-  }
-  clock_.time(Pass::kCurved, [&] {
-    for (const GpuCurvedReflector* reflector : see_through)
-      if (scene.images().has({ImageKind::kSurround, reflector->map}))
-        curved_pass_.draw_light(scene, *reflector, view, 0, 0, options, stats);
-  });
+  for (const MarkedReflector& m : marked)
+    if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));
+  clock_.time(Pass::kCurved, [&] { reflections_.add_curved(work, target, see_through); });
   frame_->resolve_light();
   count_images(scene, stats);
   stats.ms = clock_.read();

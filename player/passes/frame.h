@@ -9,14 +9,9 @@
 #include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
 #include "player/passes/pass_clock.h"
-#include "player/passes/reflector_pass.h"
+#include "player/passes/reflection_renderer.h"
 #include "player/passes/scene_pass.h"
 #include "player/passes/survey_pass.h"
-#include "player/reflections/convolve_pass.h"
-#include "player/reflections/curved_pass.h"
-#include "player/reflections/fill_pass.h"
-#include "player/reflections/march_pass.h"
-#include "player/reflections/reproject_pass.h"
 
 namespace oriel {
 
@@ -48,28 +43,8 @@ class Renderer {
   Result<std::vector<std::uint8_t>> read_display(float ev100, ToneCurve curve);
 
  private:
-  // A reflector whose mask was drawn.
-  struct Candidate {
-    const GpuReflector* reflector = nullptr;
-    NdcRect screen;         // around what is visible of it
-    GLint value = 0;        // in the stencil; 0: see-through
-    std::size_t query = 0;  // first of kMaskQueries
-    bool waits = false;     // for its maps: nothing of it is drawn
-  };
-
   Renderer() = default;
   Status ensure_frame(int width, int height, int samples);
-  Result<std::vector<Candidate>> draw_masks(GpuScene& scene, const View& view, const FrameOptions& options,
-                                            FrameStats& stats);
-  // kernel: the one that will blur it, if any.
-  Status draw_mirrored_world(GpuScene& scene, const Candidate& candidate, const GpuKernel* kernel, const View& view,
-                             const ImageRect& rect, const FrameOptions& options, FrameStats& stats);
-  Status draw_reflection(GpuScene& scene, const Candidate& candidate, const View& view, const FrameOptions& options,
-                         FrameStats& stats);
-  // Curved reflectors in view: opaque ones whole, of see-through ones the mask. Their materials join `reflective`.
-  Result<std::vector<const GpuCurvedReflector*>> draw_curved(GpuScene& scene, const View& view,
-                                                             const FrameOptions& options,
-                                                             std::set<std::uint32_t>& reflective, FrameStats& stats);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
                                                   std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,
@@ -80,18 +55,11 @@ class Renderer {
   ScenePass scene_pass_;
   MoverPass mover_pass_;
   BrightPass bright_pass_;
-  ReflectorPass reflector_pass_;
-  MarchPass march_pass_;
-  ReprojectPass reproject_pass_;
-  FillPass fill_pass_;
-  ConvolvePass convolve_pass_;
-  CurvedPass curved_pass_;
+  ReflectionRenderer reflections_;
   SurveyPass survey_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_, spare_;  // spare_: the one before of another size, which often comes back
-  std::optional<ImageTarget> image_;
-  bool in_window_ = false;  // the frame was shown there
-  std::vector<gpu::Query> queries_;
+  bool in_window_ = false;                    // the frame was shown there
   PassClock clock_;
   std::vector<std::uint32_t> marked_;  // of value i + 1 in the last frame's stencil: the reflector's material
 };

@@ -24,18 +24,19 @@ IVec2 strip_edge(const NdcRect& screen, const View& view, int i) {
   return lower + (upper - lower) * i / kMaskStrips;
 }
 
-// Over what the mask marked with `value`; 0: added wherever the depth leaves the reflector visible.
-gpu::RasterState where_marked(GLint value) {
+// Over what the mask marked with `value`; kAdded…: wherever the depth leaves the reflector visible.
+gpu::RasterState where_marked(const View& view, GLint value) {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;
-  if (value != 0) {
+  state.mirrored = view.mirrored;
+  if (value > 0) {
     state.stencil_func = GL_EQUAL;
     state.stencil_ref = value;
     state.stencil_read = kReflectorBits;
   } else {
     state.blend = gpu::Blend::kAdd;
-    state.alpha_write = false;
+    state.alpha_write = value == kAddedWithDistance;
   }
   return state;
 }
@@ -59,6 +60,7 @@ void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflect
   state.depth_test = true;
   state.color_write = false;
   state.cull = gpu::Cull::kBack;
+  state.mirrored = view.mirrored;
   state.stencil_ref = value;
   mask_.use();
   mask_.set("u_clip_from_pack", view.clip_from_pack);
@@ -104,9 +106,10 @@ NdcRect ReflectorPass::visible_part(const NdcRect& screen, const View& view, std
 void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                                const gpu::Texture2d& image, GLint value, const FrameOptions& options,
                                FrameStats& stats) const {
-  gpu::apply(where_marked(value));
+  gpu::apply(where_marked(view, value));
   compose_.use();
   compose_.set("u_image", 0);
+  compose_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
@@ -119,9 +122,10 @@ void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, c
 void ReflectorPass::draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel,
                                    const View& view, const ImageRect& rect, const ImageTarget& target, GLint value,
                                    const FrameOptions& options, FrameStats& stats) const {
-  gpu::apply(where_marked(value));
+  gpu::apply(where_marked(view, value));
   convolve_.use();
   convolve_.set("u_origin", rect.origin);
+  convolve_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
   convolve_.set("u_missing", reflector.mean_radiance);
   set_surface(convolve_, scene, reflector, view, options);
   convolve_.set("u_blurred", 6);
@@ -134,7 +138,7 @@ void ReflectorPass::draw_emitters(GpuScene& scene, const GpuReflector& reflector
                                   const FrameOptions& options, FrameStats& stats) const {
   const gpu::Program* const emitters = set_emitters(scene, reflector, options);
   if (emitters == nullptr) return;
-  gpu::RasterState state = where_marked(value);
+  gpu::RasterState state = where_marked(view, value);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);

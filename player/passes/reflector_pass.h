@@ -14,6 +14,9 @@ namespace oriel {
 inline constexpr int kMaskStrips = 8;
 inline constexpr std::size_t kMaskQueries = 2 * kMaskStrips;
 
+// In place of a mark: added to what is there; into an image, with the distance of what the reflector shows.
+inline constexpr GLint kAdded = 0, kAddedWithDistance = -1;
+
 class ReflectorPass {
  public:
   static Result<ReflectorPass> create(gpu::Dialect dialect);
@@ -26,7 +29,7 @@ class ReflectorPass {
   // queries.
   static NdcRect visible_part(const NdcRect& screen, const View& view, std::span<const gpu::Query> queries);
   // An image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
-  // 0: adds to the frame wherever the depth leaves the reflector visible.
+  // kAdded: adds to it wherever the depth leaves the reflector visible.
   void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
                   const gpu::Texture2d& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
   // The same of an image that is as fine as the frame (rect.scale 1) and is convolved on the way: target.filled, all

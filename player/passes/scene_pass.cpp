@@ -54,21 +54,28 @@ Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   ORIEL_TRY(pass.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   ORIEL_TRY(pass.opaque_, gpu::Program::create("scene", dialect));
   ORIEL_TRY(pass.plain_opaque_, gpu::Program::create("scene", dialect, "PLAIN"));
+  ORIEL_TRY(pass.reflected_opaque_, gpu::Program::create("scene", dialect, "REFLECTED"));
   ORIEL_TRY(pass.transparent_, gpu::Program::create("transparent", dialect));
   return pass;
 }
 
 void ScenePass::draw_depth(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
                            FrameStats& stats) const {
+  scene.bind_shown();
+  draw_depths(scene, view, shown, stats);
+}
+
+void ScenePass::draw_depths(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
+                            FrameStats& stats) const {
   for (const gpu::Program* program : {&plain_depth_, &depth_}) {
     program->use();
     program->set("u_clip_from_pack", view.clip_from_pack);
     program->set("u_base_texture", kBaseUnit);
   }
-  scene.bind_shown();
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   state.color_write = false;
+  state.mirrored = view.mirrored;
   for (const DrawBatch& batch : shown) {
     const Material& m = scene.pack().materials[batch.material];
     state.cull = cull_of(m);
@@ -120,27 +127,42 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, std::span<c
   }
 }
 
-void ScenePass::draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
-                               std::span<const std::uint32_t> dark, FrameStats& stats) const {
-  set_frame(opaque_, scene, view);
-  opaque_.set("u_alpha_kind", view.orthographic ? 2 : 1);
-  opaque_.set("u_depth_row", depth_row);
-  opaque_.set("u_closest", closest);
+void ScenePass::draw_reflected_depth(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const {
+  scene.bind_geometry();
+  draw_depths(scene, mirrored.view, mirrored.shown, stats);
+}
+
+void ScenePass::draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const {
+  for (const gpu::Program* program : {&reflected_opaque_, &opaque_}) {
+    set_frame(*program, scene, mirrored.view);
+    set_distance_alpha(*program, mirrored.view);
+  }
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
-  state.mirrored = view.mirrored;
-  const Frustum frustum = make_frustum(view.clip_from_pack);
-  const auto draw = [&](const std::vector<DrawRange>& ranges, float emission) {
-    opaque_.set("u_weights", Vec3(1, 1, emission));
-    for (const DrawBatch& batch : visible_batches(ranges, frustum)) {
-      state.cull = cull_of(scene.pack().materials[batch.material]);
-      gpu::apply(state);
-      set_material(opaque_, scene, batch.material, batch.lightmap_page);
-      draw_batch(batch, stats);
-    }
+  state.mirrored = mirrored.view.mirrored;
+  state.stencil_read = kReflectorBits;
+  const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
+    const Material& m = scene.pack().materials[batch.material];
+    const gpu::Program& program = is_plain(m) ? reflected_opaque_ : opaque_;
+    program.use();
+    state.cull = cull_of(m);
+    gpu::apply(state);
+    set_material(program, scene, batch.material, batch.lightmap_page);
+    program.set("u_weights", Vec3(1, undirected, emission));
+    draw_batch(batch, stats);
   };
-  draw(scene.opaque(), 1);
-  for (const std::uint32_t emitter : dark) draw(scene.emitter(emitter), 0);  // the same depths again
+  for (const DrawBatch& batch : mirrored.shown) {
+    const bool twice = mirrored.reflective.contains(batch.material);
+    state.stencil_func = twice ? GL_EQUAL : GL_ALWAYS;
+    draw(batch, 1, 1);
+    if (!twice) continue;
+    state.stencil_func = GL_NOTEQUAL;
+    draw(batch, 0, 1);
+  }
+  state.stencil_func = GL_ALWAYS;
+  const Frustum frustum = make_frustum(mirrored.view.clip_from_pack);
+  for (const std::uint32_t emitter : mirrored.dark)  // the same depths again
+    for (const DrawBatch& batch : visible_batches(scene.emitter(emitter), frustum)) draw(batch, 1, 0);
 }
 
 void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,

@@ -24,6 +24,15 @@ struct SceneWeights {
 inline constexpr GLuint kReflectorBits = 0x7f;
 inline constexpr GLuint kSeeThroughBit = 0x80;
 
+// What a mirror shows of the opaque scene.
+struct MirroredScene {
+  const View& view;
+  std::vector<DrawBatch> shown;
+  std::span<const std::uint32_t> dark;  // of Pack::emitters, those that do not shine
+  // Materials of reflectors that are marked in the stencil: there the undirected part is left out.
+  std::set<std::uint32_t> reflective;
+};
+
 class ScenePass {
  public:
   static Result<ScenePass> create(gpu::Dialect dialect);
@@ -36,18 +45,21 @@ class ScenePass {
   void draw_opaque(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
                    const SceneWeights& weights, const std::set<std::uint32_t>& reflective,
                    const std::optional<BrightChange>& change, FrameStats& stats) const;
-  // Light of the opaque scene as a mirror shows it, with depth; a: 1 / distance from the view's eye, or for an
-  // orthographic view 1 / dot(depth_row, point). At least `closest`. dark: of Pack::emitters, those that do not shine.
-  void draw_reflected(const GpuScene& scene, const View& view, const Vec4& depth_row, float closest,
-                      std::span<const std::uint32_t> dark, FrameStats& stats) const;
+  // Depth of that part of the scene, of all of the scene's indices.
+  void draw_reflected_depth(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
+  // Its light as the mirror shows it, and its depth where it is not there yet; a: 1 / distance from the view's eye, or
+  // for an orthographic view 1 / its depth, at least kClosest.
+  void draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
   // which has no stencil, everywhere. white: as FrameOptions.
   void draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
                         FrameStats& stats) const;
 
  private:
-  // plain: of surfaces without normal map, cut-outs or change by movers, that are lit.
-  gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, transparent_;
+  void draw_depths(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, FrameStats& stats) const;
+  // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
+  // a mirror.
+  gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, reflected_opaque_, transparent_;
 };
 
 // Whether a see-through surface is unlit, so that the frame's white must be known to draw it.

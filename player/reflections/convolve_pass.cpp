@@ -67,7 +67,8 @@ void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, 
                     const View& view, const ImageRect& rect, float scene_radius, Blur blur) {
   const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
-  program.set("u_ndc_from_image", ndc_from_image(rect, view));
+  const Vec2 aside = view.centre / view.tangents;
+  program.set("u_ndc_from_image", ndc_from_image(rect, view) + Vec4(0, 0, aside.x, aside.y));
   program.set("u_tangents", view.tangents);
   program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
   program.set("u_plane_normal", normal);

@@ -1,31 +1,69 @@
 #include "player/reflections/curved_pass.h"
 
+#include <algorithm>
+
+#include "player/scene/surface.h"
+
 namespace oriel {
 namespace {
 
-enum Unit {
-  kLightUnit = 0,
-  kDistanceUnit = 1,
-  kReflectanceUnit = 2,
-  kTapsUnit = 3,
-  kNormalUnit = 4,
+enum CurvedUnit {
+  kCurvedLight = 0,
+  kCurvedDistance = 1,
+  kCurvedReflectance = 2,
+  kCurvedTaps = 3,
+  kCurvedNormal = 4,
+  kCurvedPlaces = 5,
+  kCurvedNormals = 6,
+  kCurvedShaded = 7,
 };
 
 void draw_reflector(const GpuScene& scene, const GpuCurvedReflector& reflector, FrameStats& stats) {
-  scene.bind_geometry();
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(reflector.index_count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(std::uintptr_t{reflector.first_index} * sizeof(std::uint32_t)));
-  ++stats.draws;
-  stats.triangles += reflector.index_count / 3;
+  for (const DrawRange& range : scene.bind_curved(reflector)) draw_indices(range.first_index, range.index_count, stats);
 }
 
-gpu::RasterState state_for(GLint value, GLuint bits) {
+gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
   gpu::RasterState state;
   state.depth_test = true;
   state.cull = gpu::Cull::kBack;
+  state.mirrored = view.mirrored;
   state.stencil_ref = value;
   state.stencil_write = bits;
   return state;
+}
+
+// Only the pixels around the box, for what is drawn over the whole image.
+void scissor_to(const Bounds& box, const View& view) {
+  NdcRect all;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<Vec3, 4> corners;
+    for (int c = 0; c < 4; ++c) {
+      Vec3 p = side % 2 == 0 ? box.lower : box.upper;
+      p[u] = c == 1 || c == 2 ? box.upper[u] : box.lower[u];
+      p[v] = c >= 2 ? box.upper[v] : box.lower[v];
+      corners[static_cast<std::size_t>(c)] = p;
+    }
+    const NdcRect face = project_polygon(view.clip_from_pack, corners);
+    if (face.empty) continue;
+    if (all.empty) all = face;
+    all.lower = glm::min(all.lower, face.lower), all.upper = glm::max(all.upper, face.upper);
+  }
+  const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+  const IVec2 lower(glm::floor((glm::clamp(all.lower, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
+  const IVec2 upper(glm::ceil((glm::clamp(all.upper, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
+  glScissor(lower.x, lower.y, all.empty ? 0 : upper.x - lower.x, all.empty ? 0 : upper.y - lower.y);
+}
+
+void set_normals(const gpu::Program& program, const GpuScene& scene, const GpuCurvedReflector& reflector,
+                 const View& view) {
+  const Material& material = scene.pack().materials[reflector.material];
+  scene.normal_map(material.normal_texture).bind(kCurvedNormal);
+  program.set("u_clip_from_pack", view.clip_from_pack);
+  program.set("u_eye", view.eye);
+  program.set("u_normal_texture", kCurvedNormal);
+  program.set("u_normal_mapped", material.normal_texture >= 0 && !scene.pack().mesh.normal_uvs.empty() ? 1 : 0);
+  program.set("u_normal_scale", material.normal_scale);
 }
 
 }  // namespace
@@ -33,13 +71,29 @@ gpu::RasterState state_for(GLint value, GLuint bits) {
 Result<CurvedPass> CurvedPass::create(gpu::Dialect dialect) {
   CurvedPass pass;
   ORIEL_TRY(pass.mask_, gpu::Program::create("reflector_mask", dialect));
+  ORIEL_TRY(pass.surface_, gpu::Program::create("curved_surface", dialect));
+  ORIEL_TRY(pass.shade_, gpu::Program::create("screen_curved", dialect));
   ORIEL_TRY(pass.light_, gpu::Program::create("curved_light", dialect));
+  ORIEL_TRY(pass.shaded_light_, gpu::Program::create("curved_light", dialect, "SHADED"));
+  pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
+}
+
+Status CurvedPass::Canvas::make(int width, int height) {
+  if (light && light.width() >= width && light.height() >= height) return {};
+  if (light) width = std::max(width, light.width()), height = std::max(height, light.height());
+  places = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  normals = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  depth = gpu::Texture2d(gpu::kDepthStencil, width, height, nullptr);
+  light = gpu::Texture2d(gpu::kRgba16f, width, height, nullptr);
+  ORIEL_TRY(surfaces, gpu::Framebuffer::create("curved surfaces", places, normals, depth));
+  ORIEL_TRY(shaded, gpu::Framebuffer::create("their light", &light, &depth, true));
+  return gpu::check_gl("making the images of curved reflectors");
 }
 
 void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
                            GLuint bits, FrameStats& stats) const {
-  gpu::RasterState state = state_for(value, bits);
+  gpu::RasterState state = state_for(view, value, bits);
   state.color_write = false;
   gpu::apply(state);
   mask_.use();
@@ -47,50 +101,117 @@ void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& refl
   draw_reflector(scene, reflector, stats);
 }
 
-void CurvedPass::draw_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
-                            GLuint bits, const FrameOptions& options, FrameStats& stats) const {
-  gpu::RasterState state = state_for(value, bits);
-  if (bits == 0) {
-    state.blend = gpu::Blend::kAdd;
-    state.alpha_write = false;
-  }
+void CurvedPass::draw_surface(const GpuScene& scene, const Shown& shown, const View& view, FrameStats& stats) const {
+  gpu::RasterState state = state_for(view, shown.value, 0xff);
+  state.depth_write = true;
   gpu::apply(state);
-  const Pack& pack = scene.pack();
-  const Material& material = pack.materials[reflector.material];
+  set_normals(surface_, scene, *shown.reflector, view);
+  draw_reflector(scene, *shown.reflector, stats);
+}
+
+Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const View& view, const FrameOptions& options,
+                         FrameStats& stats) {
+  if (shown.empty()) return {};
+  ORIEL_TRY_VOID(canvas_.make(view.width, view.height));
+  const auto begin = [&](const gpu::Framebuffer& target, GLbitfield what) {
+    target.bind();
+    glViewport(0, 0, view.width, view.height);
+    glScissor(0, 0, view.width, view.height);
+    gpu::RasterState all;
+    all.depth_write = true;
+    all.stencil_write = 0xff;
+    gpu::apply(all);
+    glClearColor(0, 0, 0, 0);
+    glClearStencil(0);
+    glClear(what);
+  };
+  glEnable(GL_SCISSOR_TEST);
+  begin(canvas_.surfaces, GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  surface_.use();
+  for (const Shown& one : shown) draw_surface(scene, one, view, stats);
+  begin(canvas_.shaded, GL_COLOR_BUFFER_BIT);
+  canvas_.places.bind(kCurvedPlaces);
+  canvas_.normals.bind(kCurvedNormals);
+  shade_.use();
+  for (const Shown& one : shown) {
+    gpu::RasterState state;
+    state.stencil_func = GL_EQUAL;
+    state.stencil_ref = one.value;
+    gpu::apply(state);
+    set_lobe(shade_, scene, *one.reflector, view, options);
+    shade_.set("u_places", kCurvedPlaces);
+    shade_.set("u_normals", kCurvedNormals);
+    shade_.set("u_id", static_cast<float>(one.value));
+    scissor_to(one.reflector->triangles.bounds, view);
+    glBindVertexArray(no_vertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++stats.draws;
+  }
+  glDisable(GL_SCISSOR_TEST);
+  return {};
+}
+
+void CurvedPass::draw_shaded(GpuScene& scene, const Shown& shown, const View& view, GLuint bits,
+                             const FrameOptions& options, FrameStats& stats) const {
+  gpu::apply(state_for(view, shown.value, bits));
+  shaded_light_.use();
+  set_lobe(shaded_light_, scene, *shown.reflector, view, options);
+  set_reflectance(shaded_light_, scene, *shown.reflector, view, options);
+  canvas_.light.bind(kCurvedShaded);
+  shaded_light_.set("u_shaded", kCurvedShaded);
+  shaded_light_.set("u_id", static_cast<float>(shown.value));
+  draw_reflector(scene, *shown.reflector, stats);
+  ++stats.reflectors;
+  ++stats.maps;
+}
+
+void CurvedPass::add_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view,
+                           const FrameOptions& options, FrameStats& stats) const {
+  gpu::RasterState state = state_for(view, 0, 0);
+  state.blend = gpu::Blend::kAdd;
+  state.alpha_write = false;
+  gpu::apply(state);
+  light_.use();
+  set_lobe(light_, scene, reflector, view, options);
+  set_reflectance(light_, scene, reflector, view, options);
+  draw_reflector(scene, reflector, stats);
+  ++stats.reflectors;
+  ++stats.maps;
+}
+
+void CurvedPass::set_lobe(const gpu::Program& program, GpuScene& scene, const GpuCurvedReflector& reflector,
+                          const View& view, const FrameOptions& options) const {
   const SurroundTextures& map = scene.surround_map(reflector.map);
   const bool sharp = options.show == Show::kM || options.blur == Blur::kOff;
   const GpuKernel& kernel =
       sharp ? scene.mirror_kernel() : scene.kernel(reflector.material, options.kernel, options.coarse);
-  map.light.bind(kLightUnit);
-  map.inverse_distance.bind(kDistanceUnit);
-  scene.reflectance_tables().bind(kReflectanceUnit);
-  kernel.taps.bind(kTapsUnit);
-  scene.normal_map(material.normal_texture).bind(kNormalUnit);
-  light_.use();
-  light_.set("u_clip_from_pack", view.clip_from_pack);
-  light_.set("u_eye", view.eye);
-  light_.set("u_centre", pack.surround_maps[reflector.map].centre);
-  light_.set("u_size", map.size);
-  light_.set("u_light", kLightUnit);
-  light_.set("u_light_scale", map.scale);
-  light_.set("u_inverse_distance", kDistanceUnit);
-  light_.set("u_range", map.range);
-  light_.set("u_taps", kTapsUnit);
-  light_.set("u_tap_count", kernel.count);
-  light_.set("u_tap_rows", kernel.rows);
-  light_.set("u_normal_texture", kNormalUnit);
-  light_.set("u_normal_mapped", material.normal_texture >= 0 && !pack.mesh.normal_uvs.empty() ? 1 : 0);
-  light_.set("u_normal_scale", material.normal_scale);
-  light_.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
-  light_.set("u_reflectance", kReflectanceUnit);
-  light_.set("u_reflectance_row", material.fresnel_map);
-  if (material.fresnel_map >= 0) {
-    const auto& table = pack.fresnel_maps[static_cast<std::size_t>(material.fresnel_map)].table;
-    light_.set("u_reflectance_count", static_cast<int>(table.size()));
-  }
-  draw_reflector(scene, reflector, stats);
-  ++stats.reflectors;
-  ++stats.maps;
+  map.light.bind(kCurvedLight);
+  map.inverse_distance.bind(kCurvedDistance);
+  kernel.taps.bind(kCurvedTaps);
+  program.set("u_eye", view.eye);
+  program.set("u_centre", scene.pack().surround_maps[reflector.map].centre);
+  program.set("u_size", map.size);
+  program.set("u_light", kCurvedLight);
+  program.set("u_light_scale", map.scale);
+  program.set("u_inverse_distance", kCurvedDistance);
+  program.set("u_range", map.range);
+  program.set("u_taps", kCurvedTaps);
+  program.set("u_tap_count", kernel.count);
+  program.set("u_tap_rows", kernel.rows);
+}
+
+void CurvedPass::set_reflectance(const gpu::Program& program, const GpuScene& scene,
+                                 const GpuCurvedReflector& reflector, const View& view,
+                                 const FrameOptions& options) const {
+  set_normals(program, scene, reflector, view);
+  const auto row = scene.pack().materials[reflector.material].fresnel_map;
+  scene.reflectance_tables().bind(kCurvedReflectance);
+  program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
+  program.set("u_reflectance", kCurvedReflectance);
+  program.set("u_reflectance_row", row);
+  if (row < 0) return;
+  const auto& table = scene.pack().fresnel_maps[static_cast<std::size_t>(row)].table;
+  program.set("u_reflectance_count", static_cast<int>(table.size()));
 }
 
 }  // namespace oriel

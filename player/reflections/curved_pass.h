@@ -1,7 +1,10 @@
-// Reflections on curved surfaces, drawn straight into the frame: their images are as curved as they are, so that there
-// is none to make first.
+// Reflections on curved surfaces. Their light is found once by pixel, from where they are and how they are turned
+// there, and then drawn: shaded triangle by triangle, dense meshes cost a block of pixels for each triangle.
 #pragma once
 
+#include <span>
+
+#include "player/gpu/framebuffer.h"
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
 #include "player/navigation/view.h"
@@ -14,16 +17,42 @@ class CurvedPass {
  public:
   static Result<CurvedPass> create(gpu::Dialect dialect);
 
+  // An opaque one in view, and what it is called in the stencil, from 1.
+  struct Shown {
+    const GpuCurvedReflector* reflector = nullptr;
+    GLint value = 0;
+  };
+
   // Where the frame's depth leaves the reflector visible, its pixels get `value` in the bits `bits` of the stencil.
   void draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value, GLuint bits,
                  FrameStats& stats) const;
-  // (M * K) R there, or the stage that options ask for: into the frame, with `value` in those bits of the stencil; or,
-  // with bits 0, added to the frame.
-  void draw_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value, GLuint bits,
-                  const FrameOptions& options, FrameStats& stats) const;
+  // M * K of opaque ones at the middle of each pixel, into images of its own. Leaves its own framebuffer bound.
+  Status shade(GpuScene& scene, std::span<const Shown> shown, const View& view, const FrameOptions& options,
+               FrameStats& stats);
+  // (M * K) R, or the stage that options ask for, into the frame: of one that shade() has shaded, with its value in
+  // those bits of the stencil;
+  void draw_shaded(GpuScene& scene, const Shown& shown, const View& view, GLuint bits, const FrameOptions& options,
+                   FrameStats& stats) const;
+  // of a see-through one, added to the frame.
+  void add_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, const FrameOptions& options,
+                 FrameStats& stats) const;
 
  private:
-  gpu::Program mask_, light_;
+  // As large as the largest frame so far.
+  struct Canvas {
+    gpu::Texture2d places, normals, depth, light;
+    gpu::Framebuffer surfaces, shaded;
+    Status make(int width, int height);
+  };
+  void draw_surface(const GpuScene& scene, const Shown& shown, const View& view, FrameStats& stats) const;
+  void set_lobe(const gpu::Program& program, GpuScene& scene, const GpuCurvedReflector& reflector, const View& view,
+                const FrameOptions& options) const;
+  void set_reflectance(const gpu::Program& program, const GpuScene& scene, const GpuCurvedReflector& reflector,
+                       const View& view, const FrameOptions& options) const;
+
+  gpu::Program mask_, surface_, shade_, light_, shaded_light_;
+  gpu::VertexArray no_vertices_;
+  Canvas canvas_;
 };
 
 }  // namespace oriel

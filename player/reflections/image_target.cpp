@@ -15,18 +15,6 @@ Vec4 ndc_from_image(const ImageRect& rect, const View& view) {
   return Vec4(scale, offset);
 }
 
-Mat4 image_from_clip(const ImageRect& rect, const View& view) {
-  const Vec4 ndc = ndc_from_image(rect, view);
-  const Vec2 half = 0.5f * Vec2(ndc.x, ndc.y) * Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height));
-  const Vec2 center = Vec2(ndc.z, ndc.w) + half;
-  Mat4 m(1);
-  m[0][0] = 1 / half.x;
-  m[1][1] = 1 / half.y;
-  m[3][0] = -center.x / half.x;
-  m[3][1] = -center.y / half.y;
-  return m;
-}
-
 Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit) {
   if (current && current->sharp.width() >= width && current->sharp.height() >= height) return {};
   const auto rounded = [&](int size, int had) {

@@ -16,10 +16,15 @@ struct ImageRect {
   int marched = 1;            // of M, where the lobe is wide or the reflector is not seen: 1 or 4
 };
 
+// Where the frame shows a reflector: its stencil holds `value` in `bits`. value 0: the stencil does not tell.
+struct ShownPixels {
+  const gpu::Framebuffer* frame = nullptr;
+  GLint value = 0;
+  GLuint bits = 0;
+};
+
 // Image pixels to normalised device coordinates of the frame: scale in xy, offset in zw.
 Vec4 ndc_from_image(const ImageRect& rect, const View& view);
-// Clip space of the frame to the clip space whose picture is the rectangle.
-Mat4 image_from_clip(const ImageRect& rect, const View& view);
 
 // The reflected image: rgb light, a 1 / distance (0: hole). sharp: as drawn, with its coarser levels; filled: without
 // holes, with its coarser levels; blurred: convolved. Textures are powers of two; an image uses their lower left
@@ -36,8 +41,5 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
 void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0), GLint stencil = 0);
 // Binds the image, and gives it the stencil (and depth) of the frame of that view, where it lies within.
 void copy_stencil(const ImageTarget& target, const ImageRect& rect, const gpu::Framebuffer& frame, const View& view);
-
-// 1 / distance is never stored smaller than this where something is seen, the sky too.
-inline constexpr float kClosest = 1e-15f;
 
 }  // namespace oriel

@@ -5,6 +5,7 @@
 #include "player/gpu/raster_state.h"
 #include "player/reflections/convolve_pass.h"
 #include "player/reflections/reflected_view.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {

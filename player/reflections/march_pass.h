@@ -8,13 +8,6 @@
 
 namespace oriel {
 
-// Where the frame shows a reflector: its stencil holds `value` in `bits`. value 0: the stencil does not tell.
-struct ShownPixels {
-  const gpu::Framebuffer* frame = nullptr;
-  GLint value = 0;
-  GLuint bits = 0;
-};
-
 class MarchPass {
  public:
   static Result<MarchPass> create(gpu::Dialect dialect);

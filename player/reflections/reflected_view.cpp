@@ -31,8 +31,8 @@ ReflectedView reflect_view(const GpuReflector& reflector, const View& view, cons
   mirror[2][2] = -1;
   out.view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
   out.view_from_mirrored = out.view_from_reflector * mirror;
-  const float far = std::max(view.far, mirrored_far(scene, out.view_from_mirrored, reflector.reflector_from_pack));
-  out.image_from_view = image_from_clip(rect, view) * clip_from_view_to(view, far);
+  out.far = std::max(view.far, mirrored_far(scene, out.view_from_mirrored, reflector.reflector_from_pack));
+  out.image_from_view = clip_from_view_to(part_of(view, rect.origin, rect.width, rect.height), out.far);
   return out;
 }
 

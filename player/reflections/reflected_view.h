@@ -13,7 +13,8 @@ struct ReflectedView {
   Vec4 mirrored_eye{0};         // eye_in_reflector with z negated
   Mat4 view_from_reflector{1};  // as things lie
   Mat4 view_from_mirrored{1};   // reflector space with z negated first: where the mirror shows them
-  Mat4 image_from_view{1};      // clip space of the image's rectangle; its far plane lies behind the mirrored scene
+  Mat4 image_from_view{1};      // clip space of the image's rectangle
+  float far = 1;                // its far plane, metres along the view: behind the mirrored scene
 };
 ReflectedView reflect_view(const GpuReflector& reflector, const View& view, const ImageRect& rect, const Bounds& scene);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "player/reflections/reflected_view.h"
+#include "player/scene/surface.h"
 
 namespace oriel {
 namespace {

@@ -19,9 +19,10 @@ inline constexpr int kShows = 11;
 inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
-// How M is made: by marching rays through radiance maps; from their pixels as points, as published; by drawing the
-// mirrored scene; or not at all.
-enum class Reflections { kMarch, kPoints, kGeometry, kOff };
+// How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; from their
+// pixels as points, as published; by drawing the mirrored scene; or not at all. A reflector without maps is always
+// drawn as the mirrored scene.
+enum class Reflections { kChosen, kMarch, kMesh, kPoints, kGeometry, kOff };
 // How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
 enum class Blur { kDistance, kConstant, kOff };
 enum class Reflectance { kTable, kSphereMap };
@@ -31,7 +32,8 @@ enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 
 struct FrameOptions {
   Show show = Show::kAll;
-  Reflections reflections = Reflections::kMarch;
+  Reflections reflections = Reflections::kChosen;
+  int orders = 2;            // mirrors on the way of a reflection, where the mirrored scene is drawn
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
   Blur blur = Blur::kDistance;

@@ -10,6 +10,8 @@ namespace oriel {
 namespace {
 
 constexpr int kKernelTaps = 48, kCoarseTaps = 12;
+constexpr std::size_t kFewTriangles = 20000;  // that no device minds
+constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
 
 // Where the images of ranges are seen.
 void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
@@ -23,6 +25,30 @@ void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::fu
     add(ImageKind::kNormal, m.normal_texture, range);
     add(ImageKind::kLight, range.lightmap_page, range);
   }
+}
+
+// What the pack knows of a reflector's image.
+SeenMask seen_in(const Pack& pack, std::uint32_t reflector) {
+  const VisibleSets& groups = pack.visible_sets;
+  const std::vector<std::uint8_t>& sets = pack.reflected_sets.seen;
+  std::vector<std::uint8_t> seen(groups.groups);
+  for (std::size_t g = 0; g < seen.size(); ++g) seen[g] = sets[reflector * groups.set_bytes() + g / 8] >> (g % 8) & 1;
+  return seen;
+}
+
+// Over the plane of a reflector, of the triangles before it, by their area.
+float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
+  const Vec4 height = glm::transpose(reflector_from_pack)[2];
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+               &c = mesh.positions[mesh.indices[i + 2]];
+    const float above = glm::dot(height, Vec4((a + b + c) / 3.0f, 1));
+    if (!(above > 0)) continue;
+    const double area = glm::length(glm::cross(b - a, c - a));
+    sum += area * above, total += area;
+  }
+  return total > 0 ? static_cast<float>(sum / total) : 0.0f;
 }
 
 Status first_of(const std::vector<Error>& errors) {
@@ -39,6 +65,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
   static std::atomic<std::uint64_t> scenes{0};
   scene->serial_ = ++scenes;
   scene->pack_ = std::move(pack.pack);
+  scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
   scene->upload_geometry();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
   scene->upload_images(std::move(pack.images), loading);
@@ -63,7 +90,8 @@ void GpuScene::upload_geometry() {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
-  make_reflectors(indices);
+  make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
+                               pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));
   make_emitters(indices);
   make_curved_reflectors(indices);
 
@@ -72,11 +100,12 @@ void GpuScene::upload_geometry() {
   upload_vertices(mesh, buffers_);
   index_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
-  if (known) indices_ = std::move(indices);
+  indices_ = std::move(indices);
 }
 
 std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& seen) {
   shown_buffer_.reset();
+  chosen_ = {};
   if (!seen) return visible_batches(opaque_, frustum);
   ShownTriangles shown = gather_visible(opaque_, indices_, frustum, seen);
   glBindVertexArray(vertex_array_.name());
@@ -84,7 +113,45 @@ std::vector<DrawBatch> GpuScene::show(const Frustum& frustum, const SeenMask& se
   return std::move(shown.batches);
 }
 
-void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
+void GpuScene::begin_fewer() {
+  coming_ = std::async(std::launch::async, [this] {
+    std::vector<std::uint32_t> kept;
+    for (const Reflector& r : pack_.reflectors) kept.insert(kept.end(), r.indices.begin(), r.indices.end());
+    FewerTriangles::DrawnAgain again{kept, {}};
+    for (const CurvedReflector& r : pack_.curved_reflectors) again.curved.emplace_back(r.indices);
+    return FewerTriangles(pack_.mesh, opaque_, indices_, again);
+  });
+}
+
+void GpuScene::make_fewer() {
+  if (fewer_ || pack_.mesh.indices.size() <= 3 * kFewTriangles) return;
+  if (!coming_.valid()) begin_fewer();
+  fewer_ = coming_.get();
+  glBindVertexArray(vertex_array_.name());
+  fewer_buffer_ = gpu::Buffer(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(fewer_->indices()));
+}
+
+std::vector<DrawBatch> GpuScene::show_fewer(const View& view, const SeenMask& seen) {
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  if (!fewer_ && !coming_.valid() && pack_.mesh.indices.size() > 3 * kFewTriangles) begin_fewer();
+  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) make_fewer();
+  if (!fewer_) return show(frustum, seen);
+  chosen_ = fewer_->choose(view, kFewerPixels);
+  ShownTriangles shown = gather_visible(chosen_.ranges, fewer_->indices(), frustum, seen);
+  glBindVertexArray(vertex_array_.name());
+  shown_buffer_.emplace(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(shown.indices));
+  return std::move(shown.batches);
+}
+
+std::span<const DrawRange> GpuScene::bind_curved(const GpuCurvedReflector& reflector) const {
+  glBindVertexArray(vertex_array_.name());
+  const bool fewer = !chosen_.ranges.empty() && !is_transparent(reflector.material);
+  (fewer ? fewer_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
+  if (fewer) return chosen_.curved[reflector.index];
+  return {&reflector.triangles, 1};
+}
+
+void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known) {
   for (std::uint32_t i = 0; i < pack_.reflectors.size(); ++i) {
     const Reflector& r = pack_.reflectors[i];
     GpuReflector out;
@@ -101,6 +168,8 @@ void GpuScene::make_reflectors(std::vector<std::uint32_t>& indices) {
     for (int c = 0; c < 4; ++c) out.corners[c] = Vec3(r.pack_from_reflector * Vec4(corners[c], 0, 1));
     out.size = glm::length(r.upper - r.lower);
     out.elements = group_by_element(r, pack_.radiance_maps);
+    if (out.elements.empty()) out.mean_distance = mean_height(pack_.mesh, out.reflector_from_pack);
+    if (sets_known) out.seen = seen_in(pack_, i);
     out.emitters = upload_emitters(pack_, r, out.reflector_from_pack, out.size);
     reflectors_.push_back(std::move(out));
   }
@@ -180,13 +249,12 @@ void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {
 }
 
 void GpuScene::make_curved_reflectors(std::vector<std::uint32_t>& indices) {
-  for (const CurvedReflector& r : pack_.curved_reflectors) {
-    GpuCurvedReflector out{r.material,
-                           r.map,
-                           static_cast<std::uint32_t>(indices.size()),
-                           static_cast<std::uint32_t>(r.indices.size()),
-                           {}};
-    for (const std::uint32_t index : r.indices) out.bounds.extend(pack_.mesh.positions[index]);
+  for (std::uint32_t i = 0; i < pack_.curved_reflectors.size(); ++i) {
+    const CurvedReflector& r = pack_.curved_reflectors[i];
+    GpuCurvedReflector out{r.material, r.map, i, {}};
+    out.triangles.first_index = static_cast<std::uint32_t>(indices.size());
+    out.triangles.index_count = static_cast<std::uint32_t>(r.indices.size());
+    for (const std::uint32_t index : r.indices) out.triangles.bounds.extend(pack_.mesh.positions[index]);
     indices.insert(indices.end(), r.indices.begin(), r.indices.end());
     curved_reflectors_.push_back(out);
   }
@@ -217,7 +285,7 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
     elements.push_back(reflector.elements);
   }
   for (const GpuCurvedReflector& reflector : curved_reflectors_)
-    uses.push_back({{ImageKind::kSurround, reflector.map}, reflector.bounds, DrawRange::kNoGroup});
+    uses.push_back({{ImageKind::kSurround, reflector.map}, reflector.triangles.bounds, DrawRange::kNoGroup});
   images_ = std::make_unique<SceneImages>(ImageSource(pack_, std::move(deferred), std::move(elements)), uses, loading);
 }
 

@@ -1,6 +1,7 @@
 // A pack as the passes draw it.
 #pragma once
 
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,7 +11,9 @@
 #include "player/gpu/device.h"
 #include "player/images/scene_images.h"
 #include "player/navigation/view.h"
+#include "player/scene/fewer_triangles.h"
 #include "player/scene/gpu_emitters.h"
+#include "player/scene/gpu_map_meshes.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/textures.h"
@@ -25,17 +28,20 @@ struct GpuReflector {
   std::array<Vec3, 4> corners{};  // of its bounds, pack space, in order around
   float size = 0;                 // diagonal of its bounds, metres
   std::vector<ReflectorElement> elements;
+  SeenMask seen;  // groups that any eye may see in it; nothing: all
+  // From the plane to what its maps show, metres; the sky does not count. Once bring_maps() has been called; without
+  // maps it is that of all triangles before it.
+  float mean_distance = 0;
   // Once bring_maps() has been called:
-  Vec3 mean_radiance{0};    // of its maps: shown where none of them has anything
-  float mean_distance = 0;  // from the plane to what its maps show, metres; the sky does not count
-  GpuEmitters emitters;     // that its maps leave out
+  Vec3 mean_radiance{0};  // of its maps: shown where none of them has anything
+  GpuEmitters emitters;   // that its maps leave out
 };
 
 struct GpuCurvedReflector {
   std::uint32_t material = 0;  // into Pack::materials
   std::uint32_t map = 0;       // into Pack::surround_maps
-  std::uint32_t first_index = 0, index_count = 0;
-  Bounds bounds;
+  std::uint32_t index = 0;     // into Pack::curved_reflectors
+  DrawRange triangles;
 };
 
 // K as shaders read it.
@@ -93,6 +99,13 @@ class GpuScene {
   // The opaque triangles in the frustum, without groups that are not seen; uploads their indices. For draws after
   // bind_shown(), until the next call.
   std::vector<DrawBatch> show(const Frustum& frustum, const SeenMask& seen);
+  // The same for a coarse frame, with fewer triangles where the scene has many. They are made in the background, from
+  // the first such frame on: until they are there, it is all of them.
+  std::vector<DrawBatch> show_fewer(const View& view, const SeenMask& seen);
+  // Waits for them.
+  void make_fewer();
+  // A curved reflector's triangles, those of them that are shown; binds what they are of.
+  std::span<const DrawRange> bind_curved(const GpuCurvedReflector& reflector) const;
   void bind_shown() const {
     glBindVertexArray(vertex_array_.name());
     (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
@@ -118,11 +131,15 @@ class GpuScene {
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];
   }
+  // Whether the pack has meshes of its radiance maps; that of Pack::radiance_maps[index], uploaded on first use and
+  // kept.
+  bool has_map_meshes() const { return !map_meshes_.empty(); }
+  const GpuMapMesh& map_mesh(std::uint32_t index) { return map_meshes_.get(index, pack_.map_meshes); }
   const SurroundTextures& surround_map(std::uint32_t index) const { return images_->surround(index); }
   // Of Pack::lightmaps with all that the bake knows; null: not yet.
   Result<const LightmapPage*> page(std::uint32_t index) { return images_->page(index, pack_.lightmaps[index]); }
   // Of radiance and surround maps on the device.
-  std::uint64_t map_bytes() const { return images_->map_bytes(); }
+  std::uint64_t map_bytes() const { return images_->map_bytes() + map_meshes_.bytes(); }
   const gpu::Texture2d& sphere_map(std::uint32_t fresnel_map);
   // A material's, made on first use and kept. centred: as published, all of its directions weigh alike.
   // coarse: of few taps.
@@ -136,9 +153,10 @@ class GpuScene {
   void upload_geometry();
   void upload_images(std::shared_ptr<const DeferredImages> deferred, const LoadingOptions& loading);
   void keep_texels();
-  void make_reflectors(std::vector<std::uint32_t>& indices);
+  void make_reflectors(std::vector<std::uint32_t>& indices, bool sets_known);
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
+  void begin_fewer();
   Pack pack_;
   std::uint64_t serial_ = 0;
   SeenGroups seen_groups_;
@@ -152,11 +170,16 @@ class GpuScene {
   std::vector<gpu::Buffer> buffers_;
   gpu::Buffer index_buffer_;
   std::optional<gpu::Buffer> shown_buffer_;  // of what is shown, where that is not a few ranges of all
-  std::vector<std::uint32_t> indices_;       // of index_buffer_, where groups are known
+  std::vector<std::uint32_t> indices_;       // of index_buffer_
+  std::optional<FewerTriangles> fewer_;      // once they are made
+  gpu::Buffer fewer_buffer_;                 // of their indices
+  std::future<FewerTriangles> coming_;       // reads pack_, opaque_ and indices_
+  FewerTriangles::Chosen chosen_;            // of the frame, empty where it shows all
   std::vector<gpu::Texture2d> sphere_maps_;
   gpu::Texture2d white_, flat_, reflectance_tables_;
   LoadedLightmap no_lightmap_;
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
+  GpuMapMeshes map_meshes_;
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

@@ -56,6 +56,17 @@ inline void draw_batch(const DrawBatch& batch, FrameStats& stats) {
   for (const std::int32_t count : batch.counts) stats.triangles += static_cast<std::uint64_t>(count) / 3;
 }
 
+// 1 / distance is never stored smaller than this where something is seen, the sky too.
+inline constexpr float kClosest = 1e-15f;
+
+// That alpha tells 1 / distance, as in images of what reflectors show (shaders/passes/opaque.glsl). Uses the program.
+inline void set_distance_alpha(const gpu::Program& program, const View& view) {
+  program.use();
+  program.set("u_alpha_kind", view.orthographic ? 2 : 1);
+  program.set("u_depth_row", -glm::transpose(view.view_from_pack)[2]);
+  program.set("u_closest", kClosest);
+}
+
 // Albedo, reflectance, emission and normal map. normal_mapped: the mesh has coordinates for normal maps.
 inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
                         bool normal_mapped) {

@@ -110,9 +110,14 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "(overdraw); or where reflections were planned for (zones)",
        choice(out.frame.show, kStages), Use::kEveryday, "show"},
       {"--reflections", kPicture,
-       "What reflectors show: rays marched through their radiance maps, the maps' pixels as points as Bastos et al. "
-       "published it, the mirrored scene drawn again, or nothing",
+       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
+       "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
+       "the mirrored scene",
        choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
+      {"--orders", kPicture,
+       "Mirrors on the way of a reflection, where the mirrored scene is drawn: 1 shows a mirror in a mirror as its "
+       "diffuse light only",
+       number(out.frame.orders, 1, 16), Use::kRare, "orders"},
       {"--maps", kPicture,
        "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
        number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},
@@ -201,7 +206,10 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
        {},
        {},
        {"--compare", "--path", "--frames"}},
-      {"--stats", kOffscreen, "Offscreen: time each pass and write times, counts and the options as JSON",
+      {"--stats", kOffscreen,
+       "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
+       "frames came "
+       "while something moved and how soon the whole one after it",
        text(out.stats, "FILE")},
   };
 }
@@ -320,7 +328,6 @@ std::string contradiction(const PlayArguments& out) {
   if (out.offscreen && !out.list && !compares && !measures && out.output.empty())
     return "--offscreen draws into files: -o FILE is missing";
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
-  if (!out.offscreen && !out.stats.empty()) return "--stats needs --offscreen";
   if (!out.offscreen && (!out.video.empty() || out.fps > 0 || out.smooth_s > 0 || out.panorama))
     return "--video, --fps, --smooth and --panorama need --offscreen";
   if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";

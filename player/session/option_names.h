@@ -17,10 +17,9 @@ inline const std::map<std::string, Show> kStages{
     {"MKR", Show::kMKR},           {"D", Show::kD},           {"lux", Show::kLux},
     {"error", Show::kError},       {"texels", Show::kTexels}, {"charts", Show::kCharts},
     {"overdraw", Show::kOverdraw}, {"zones", Show::kZones}};
-inline const std::map<std::string, Reflections> kReflections{{"march", Reflections::kMarch},
-                                                             {"points", Reflections::kPoints},
-                                                             {"geometry", Reflections::kGeometry},
-                                                             {"off", Reflections::kOff}};
+inline const std::map<std::string, Reflections> kReflections{
+    {"chosen", Reflections::kChosen}, {"march", Reflections::kMarch},       {"mesh", Reflections::kMesh},
+    {"points", Reflections::kPoints}, {"geometry", Reflections::kGeometry}, {"off", Reflections::kOff}};
 inline const std::map<std::string, Selection> kSelections{{"angle", Selection::kAngle},
                                                           {"distance", Selection::kDistance}};
 inline const std::map<std::string, Blur> kBlurs{

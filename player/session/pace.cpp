@@ -5,16 +5,18 @@
 namespace oriel {
 namespace {
 
-constexpr float kAim = 0.85f;      // of the slowest frame: views along a walk differ
-constexpr float kRoom = 0.6f;      // of it, below which whole frames will do
-constexpr int kSteady = 12;        // frames before they do
+constexpr float kAim = 0.85f;  // of the slowest frame: views along a walk differ
+constexpr float kRoom = 0.6f;  // of it, below which whole frames will do
+constexpr int kSteady = 12;    // frames before they do, and at most after finer ones were too slow
+constexpr int kMostSteady = 600;
 constexpr float kLessWork = 0.7f;  // a coarse frame of the whole one's size, beside that
 constexpr int kSlowLevel = 4;
 constexpr double kPatience = 0.25, kLongestStill_s = 0.4;  // of the last whole frame's time
 
 }  // namespace
 
-Pace::Pace(bool slow_device, const PaceOptions& options) : options_(options), level_(slow_device ? kSlowLevel : 0) {}
+Pace::Pace(bool slow_device, const PaceOptions& options)
+    : options_(options), level_(slow_device ? kSlowLevel : 0), steady_(kSteady) {}
 
 Pace::Draw Pace::next(bool moved, bool altered, Quality quality, double now_s) {
   if (moved) moved_s_ = now_s;
@@ -45,6 +47,7 @@ void Pace::fit(float ms) {
   level_ = level;
   frames_ = 0;
   mean_ms_ = 0;
+  tries_ = false;
 }
 
 void Pace::took(Draw drawn, float ms) {
@@ -58,12 +61,23 @@ void Pace::took(Draw drawn, float ms) {
   }
   ++frames_;
   mean_ms_ = mean_ms_ == 0 ? ms : mean_ms_ + (ms - mean_ms_) / 4;
-  if (frames_ > 2 && mean_ms_ > options_.slowest_ms * 0.95f) return fit(mean_ms_);
-  if (level_ <= 1 || frames_ < kSteady) return;
+  if (frames_ > 2 && mean_ms_ > options_.slowest_ms * 0.95f) {
+    // What a frame shows does not say what a finer one would: each try that failed makes the next one later.
+    if (tries_ && frames_ < kSteady) steady_ = std::min(4 * steady_, kMostSteady), failed_ = level_;
+    return fit(mean_ms_);
+  }
+  if (frames_ < kSteady) return;
+  if (tries_ && level_ <= failed_) steady_ = kSteady;
+  tries_ = false;
+  if (level_ > 1 && frames_ >= (level_ - 1 <= failed_ ? steady_ : kSteady)) go_finer();
+}
+
+void Pace::go_finer() {
   if (mean_ms_ * coarse(level_ - 1).work() / now().work() > kAim * options_.slowest_ms) return;
   --level_;
   frames_ = 0;
   mean_ms_ = 0;
+  tries_ = true;
 }
 
 }  // namespace oriel

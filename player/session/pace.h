@@ -62,11 +62,15 @@ class Pace {
   static const CoarseLevel& coarse(int level) { return kCoarse[static_cast<std::size_t>(level > 0 ? level - 1 : 0)]; }
   const CoarseLevel& now() const { return coarse(level_); }
   void fit(float ms);
+  void go_finer();
 
   PaceOptions options_;
   int level_ = 0;
   float mean_ms_ = 0;   // of the last coarse frames
   int frames_ = 0;      // since the level changed
+  int steady_ = 0;      // frames until a finer level is tried; more after one that was too slow
+  bool tries_ = false;  // this level is such a try
+  int failed_ = 0;      // the last level that was too slow a try
   float whole_ms_ = 0;  // the last whole frame took; 0: none was drawn
   double moved_s_ = -1e9;
   bool shows_whole_ = false, drawn_ = false;

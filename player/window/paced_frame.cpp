@@ -25,6 +25,8 @@ FrameOptions looks_of(const Session& session, bool white_matters) {
   return out;
 }
 
+}  // namespace
+
 FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.coarse = true;
   options.few_reflections = few_reflections;
@@ -32,8 +34,6 @@ FrameOptions coarse_options(FrameOptions options, bool few_reflections) {
   options.maps_per_element = std::min(options.maps_per_element, 1);
   return options;
 }
-
-}  // namespace
 
 PacedFrame::PacedFrame(const gpu::Device& device) : pace_(is_software(device.renderer)) {}
 
@@ -47,6 +47,7 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
   const bool altered = asked != asked_ || loaded;
   quality_ = seen.whole ? Quality::kFull : session.quality;
   const double now_s = std::chrono::duration<double>(begun_ - start_).count();
+  if (moved) moved_s_ = now_s;
   choice_ = pace_.next(moved, altered, quality_, now_s);
   if (choice_ == Pace::Draw::kKeep) return choice_;
   camera_ = session.camera;
@@ -62,7 +63,10 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
 }
 
 void PacedFrame::shown() {
-  const float ms = std::chrono::duration<float, std::milli>(Clock::now() - begun_).count();
+  const Clock::time_point now = Clock::now();
+  const float ms = std::chrono::duration<float, std::milli>(now - begun_).count();
+  const double now_s = std::chrono::duration<double>(now - start_).count();
+  record_.add(choice_, pace_.scale(), 1e-3 * double{ms}, now_s - moved_s_, now_s);
   pace_.took(choice_, ms);
   if (choice_ == Pace::Draw::kCoarse) coarse_ms_ = coarse_ms_ == 0 ? ms : coarse_ms_ + (ms - coarse_ms_) / 4;
   choice_ = Pace::Draw::kKeep;

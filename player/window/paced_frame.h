@@ -5,9 +5,13 @@
 #include <string>
 
 #include "player/gpu/device.h"
+#include "player/session/pace_record.h"
 #include "player/session/session.h"
 
 namespace oriel {
+
+// What a frame is drawn with while something moves. few_reflections: Pace::few_reflections.
+FrameOptions coarse_options(FrameOptions options, bool few_reflections);
 
 class PacedFrame {
  public:
@@ -32,12 +36,14 @@ class PacedFrame {
   bool is_whole() const { return drawn_ == Pace::Draw::kWhole; }
   void redraw() { images_ = ~std::uint64_t{0}; }  // another scene, say
 
+  const PaceRecord& record() const { return record_; }
   // For the panel: how finely frames are drawn now, and when.
   std::string text() const;
 
  private:
   using Clock = std::chrono::steady_clock;
   Pace pace_;
+  PaceRecord record_;
   Clock::time_point start_ = Clock::now(), begun_ = start_;
   Pace::Draw choice_ = Pace::Draw::kKeep, drawn_ = Pace::Draw::kKeep;
   Quality quality_ = Quality::kAutomatic;
@@ -47,6 +53,7 @@ class PacedFrame {
   IVec2 size_{0}, window_{0};
   std::uint64_t images_ = ~std::uint64_t{0};
   float coarse_ms_ = 0;
+  double moved_s_ = 0;  // when something moved last, since start_
 };
 
 }  // namespace oriel

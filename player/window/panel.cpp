@@ -33,7 +33,7 @@ void draw_quality(const FrameMeter& meter, Session& session) {
   ImGui::TextWrapped("%s", meter.pace.c_str());
   bool reflects = session.frame.reflections != Reflections::kOff;
   if (ImGui::Checkbox("reflections", &reflects))
-    session.frame.reflections = reflects ? Reflections::kMarch : Reflections::kOff;
+    session.frame.reflections = reflects ? Reflections::kChosen : Reflections::kOff;
   // The published blur is a choice of the advanced ones.
   Blur blur = session.frame.blur == Blur::kOff ? Blur::kOff : Blur::kDistance;
   choose("their sharpness", kSharpness, blur);

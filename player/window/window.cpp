@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "formats/core/file.h"
 #include "formats/query/camera_spec.h"
 #include "formats/query/path.h"
 #include "player/images/loading_watch.h"
@@ -76,6 +77,8 @@ class Loop {
     meter_.device = device.renderer;
     glfwSetWindowTitle(window.get(), (scene_name(scene_->pack(), arguments.pack) + " – Oriel").c_str());
   }
+
+  const PaceRecord& pace() const { return paced_.record(); }
 
   Status run(const std::function<bool()>& stopped) {
     Clock::time_point last = Clock::now();
@@ -384,8 +387,12 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
     ORIEL_TRY(path, choose_path(arguments.path, shown.paths, shown.mesh.origin));
   }
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  return Loop(*window, std::move(scene), *renderer, arguments, camera, path, device, std::move(other), started)
-      .run(stopped);
+  Loop loop(*window, std::move(scene), *renderer, arguments, camera, path, device, std::move(other), started);
+  const Status ended = loop.run(stopped);
+  if (arguments.stats.empty()) return ended;
+  const std::string text = loop.pace().json();
+  ORIEL_TRY_VOID(write_file_atomically(arguments.stats, std::as_bytes(std::span(text))));
+  return ended;
 }
 
 }  // namespace oriel

@@ -1,7 +1,9 @@
 // Marching a reflected ray through a radiance map (formats/assets/radiance_map.h), the same as tests/player/twins/march.h, which tells
 // what the numbers mean. Disparity is linear along the projected ray, so that the map is a height field the ray falls onto.
 
-const float kConnected = 0.1;
+const float kNear = 0.1;
+const float kGap = 0.5;
+const float kSteep = 4.0;
 const float kTouching = 0.003;
 const float kDistrust = 128.0;
 const float kBorder = 1e-3;
@@ -56,6 +58,13 @@ float next_border(MapRay ray, float at) {
   return at + min(steps.x, steps.y);
 }
 
+// 16 bits hold a disparity as a share of 65535 / 32767.
+const float kOfCodes = 65535.0 / 32767.0;
+
+float texel_disparity(sampler2DArray disparity, int layer, ivec2 texel) {
+  return kOfCodes * texelFetch(disparity, ivec3(texel, layer), 0).r;
+}
+
 // Where the ray meets a surface: pixel position, disparity, and trust in (0, 1]; trust 0: the map does not see it.
 struct MapHit {
   vec2 at;
@@ -66,20 +75,26 @@ struct MapHit {
 // Disparity, bilinear.
 float disparity_at(sampler2DArray disparity, int layer, ivec2 size, vec2 at) {
   vec2 inside = clamp(at, vec2(0.5), vec2(size) - 0.5) / vec2(textureSize(disparity, 0).xy);
-  return textureLod(disparity, vec3(inside, float(layer)), 0.0).r;
+  return kOfCodes * textureLod(disparity, vec3(inside, float(layer)), 0.0).r;
 }
 
 // The same over the surface around a texel of it.
 float on_surface(float s, float surface) {
-  return clamp(s, surface / (1.0 + kConnected), surface * (1.0 + kConnected));
+  return clamp(s, surface / (1.0 + kNear), surface * (1.0 + kNear));
 }
 
-// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
-bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, float end, float surface) {
-  float last = texelFetch(disparity, ivec3(map_texel(ray, begin, size), layer), 0).r;
-  float after = texelFetch(disparity, ivec3(map_texel(ray, min(end + 1.0, ray.length), size), layer), 0).r;
-  float rise = surface - last, further = (rise < 0.0 ? -2.0 : 2.0) * (after - surface);
-  return surface <= 1.0 && abs(rise) <= max(kConnected * surface, further);
+// Whether a texel of disparity `surface` goes on the surface at `begin`, in the texel before it: both are on one plane by the
+// slopes before and behind, or those planes meet between them.
+bool is_connected(sampler2DArray disparity, int layer, ivec2 size, MapRay ray, float begin, ivec2 texel, float surface) {
+  ivec2 beside = map_texel(ray, begin, size), way = texel - beside;
+  float last = texel_disparity(disparity, layer, beside);
+  float earlier = texel_disparity(disparity, layer, clamp(beside - way, ivec2(0), size - 1));
+  float after = texel_disparity(disparity, layer, clamp(texel + way, ivec2(0), size - 1));
+  float unit = float(max(size.x, size.y));
+  float first = unit * (last - (surface - (after - surface))), second = unit * (last + (last - earlier) - surface);
+  float least = min(abs(first), abs(second)), most = max(abs(first), abs(second));
+  bool meet = (first <= 0.0) != (second <= 0.0) || least <= kGap;
+  return surface <= 1.0 && last <= 1.0 && (most <= kGap || (meet && unit * abs(surface - last) <= kSteep));
 }
 
 // How far the ray is above the surface.
@@ -111,9 +126,9 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
   MapHit miss = MapHit(vec2(0.0), 0.0, 0.0);
   if (ray.length < 0.0) return miss;
   float at = 0.0, s = ray.s_begin, hidden = ray.hidden, surface = -1.0;
-  bool before = texelFetch(disparity, ivec3(map_texel(ray, 0.0, size), layer), 0).r <= s * (1.0 + kTouching);
+  bool before = texel_disparity(disparity, layer, map_texel(ray, 0.0, size)) <= s * (1.0 + kTouching);
   int level = clamp(int(ceil(log2(ray.length))), 1, kRangeLevels);
-  int level_rows = textureSize(ranges, 0).y;  // of all levels, one below the other
+  ivec2 first_level = textureSize(ranges, 0).xy * ivec2(3, 2) / 3;  // above it lie the others, beside each other
   ivec2 texel = ivec2(0);
   bool hit = false;
   // Squares in a loop of their own: a machine that runs a branch for all pixels or none looks up texels only at their end.
@@ -122,8 +137,8 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
       float next = min(at + float(1 << level), ray.length);
       float s_next = ray_disparity(ray, next);
       ivec2 cell = map_texel(ray, 0.5 * (at + next), size) >> level;
-      cell.y += level_rows - (2 * level_rows >> level);
-      vec2 range = texelFetch(ranges, ivec3(cell, layer), 0).rg;
+      if (level > 1) cell += ivec2(first_level.x - (first_level.x >> (level - 2)), first_level.y);
+      vec2 range = kOfCodes * texelFetch(ranges, ivec3(cell, layer), 0).rg;
       if (before ? range.y < s_next : range.x > s) {
         hidden += before ? 0.0 : next - at;
         at = next;
@@ -141,12 +156,12 @@ MapHit march(sampler2DArray disparity, sampler2DArray ranges, int layer, ivec2 s
     float next = min(next_border(ray, at), ray.length);
     float s_next = ray_disparity(ray, next);
     texel = map_texel(ray, 0.5 * (at + next), size);
-    surface = texelFetch(disparity, ivec3(texel, layer), 0).r;
+    surface = texel_disparity(disparity, layer, texel);
     // It comes out behind an edge, or through the back of a surface, which it does not meet again at once.
     if (!before)
-      before = surface < s_next || (surface < s && !is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, at + 0.5, surface));
+      before = surface < s_next || (surface < s && !is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, texel, surface));
     if (before && surface >= s_next) {
-      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, at + 0.5, surface);
+      hit = surface <= s * (1.0 + kTouching) || is_connected(disparity, layer, size, ray, at - 2.0 * kBorder, texel, surface);
       if (hit) break;
       before = false;
     }

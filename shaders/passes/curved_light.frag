@@ -1,67 +1,45 @@
-// Curved reflectors: the eye ray is reflected about the normal and marched through the distances around; the lobe is taps of
-// the kernel, each from the level of the surround map as wide as the tap at the distance that was met.
+// Curved reflectors. SHADED: their light is there by pixel (screen_curved), for the middles of pixels that they cover: edges
+// between take a neighbour's. A program of its own for it: software rasterisers run every branch, and a whole block of pixels
+// for each triangle that touches it.
 #include "passes/surface.glsl"
-#include "lib/kernel.glsl"
-#include "lib/surround.glsl"
+#include "passes/curved_lobe.glsl"
+#include "lib/mirrored.glsl"
 
-uniform vec3 u_centre;
-uniform int u_size;
-uniform sampler2D u_light;  // over u_light_scale
-uniform float u_light_scale;
-uniform sampler2D u_inverse_distance;
-uniform vec2 u_range;
-uniform sampler2D u_taps;  // see kernel_tap()
-uniform int u_tap_count;   // 1: a mirror
-uniform int u_tap_rows;
-uniform bool u_modulate;   // by R
+uniform bool u_modulate;  // by R
+#ifdef SHADED
+uniform sampler2D u_shaded;  // a: whose light it is
+uniform float u_id;
+#endif
 layout(location = 0) out vec4 o_light;
 
-// Light from around a direction of a bundle that leaves the surface at `origin` and meets something at that distance; spread is
-// its width in radians.
-vec3 light_along(vec3 origin, vec3 direction, float inverse_distance, float spread) {
-  vec3 from_centre = direction + origin * inverse_distance;
-  float stretch = length(from_centre);
-  if (stretch < 1e-3) return vec3(0.0);
-  from_centre /= stretch;
-  float texels = spread / stretch * octahedral_density(from_centre, u_size);
-  return pyramid_light(u_light, u_size, from_centre, log2(max(texels, 1.0)));
-}
-
-vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float inverse_distance, float spread) {
-  vec3 along = normal - dot(normal, mirror) * mirror;
-  vec3 side = cross(mirror, abs(mirror.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
-  along = dot(along, along) > 1e-8 ? normalize(along) : normalize(side);
-  vec3 across = cross(mirror, along);
-  vec2 row = kernel_row(cos_theta, u_tap_rows);
-  vec3 sum = vec3(0.0);
-  float total = 0.0;
-  for (int i = 0; i < u_tap_count; ++i) {
-    vec4 tap = kernel_tap(u_taps, i, row);
-    vec3 direction = lobe_direction(mirror, across, along, tap.xy);
-    if (dot(direction, normal) <= 0.0) continue;
-    sum += tap.w * light_along(origin, direction, inverse_distance, max(tap.z, spread));
-    total += tap.w;
+#ifdef SHADED
+vec3 shaded_light(vec3 mirror) {
+  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(u_shaded, 0) - 1;
+  vec4 found = texelFetch(u_shaded, at, 0);
+  float away = found.a == u_id ? 0.0 : 9.0;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 step = ivec2(i % 3, i / 3) - 1;
+    vec4 beside = texelFetch(u_shaded, clamp(at + step, ivec2(0), last), 0);
+    float here = float(abs(step.x) + abs(step.y));
+    if (beside.a != u_id || here >= away) continue;
+    found = beside;
+    away = here;
   }
-  return total > 0.0 ? sum / total : light_along(origin, mirror, inverse_distance, spread);
+  if (away < 9.0) return found.rgb;
+  // Thinner than a pixel: about the same, without its parallax.
+  return pyramid_light(u_light, u_size, mirror, u_tap_count > 1 ? log2(float(u_size)) - 2.0 : 0.0);
 }
+#endif
 
 void main() {
-  vec3 tilted = tilted_by_map();
-  float length2 = dot(tilted, tilted);
-  vec3 normal = length2 > 0.0 ? tilted * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
-  vec3 view = normalize(v_position * u_eye.w - u_eye.xyz);
-  float cos_theta = -dot(normal, view);
-  if (cos_theta < 0.0) {  // it turns away at the silhouette: bent back until the view grazes it
-    normal = normalize(normal + (cos_theta - 1e-4) * view);
-    cos_theta = 0.0;
-  }
-  vec3 mirror = normalize(reflect(view, normal));
-  float spread = min(0.5 * (length(dFdx(mirror)) + length(dFdy(mirror))), 2.0);
-
-  vec3 origin = v_position - u_centre;
-  vec4 hit = march_surroundings(u_inverse_distance, u_size, u_range, origin, mirror);
-  vec3 light = u_tap_count > 1 ? lobe_light(origin, normal, mirror, cos_theta, hit.w, spread)
-                               : light_along(origin, mirror, hit.w, spread);
+  vec3 tilted = tilted_by_map(), normal;
+  float cos_theta;
+  vec3 mirror = mirrored(tilted, normalize(v_position * u_eye.w - u_eye.xyz), normal, cos_theta);
+#ifdef SHADED
+  vec3 light = shaded_light(mirror);
+#else
+  vec3 light = curved_light(v_position, normal, mirror, cos_theta, spread_of(mirror));
+#endif
   light *= u_light_scale;
   o_light = vec4(u_modulate ? light * reflectance_of(tilted) : light, 1.0);
 }

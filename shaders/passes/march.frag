@@ -4,6 +4,7 @@
 
 const int kMaps = 16;             // kMostMapsPerElement
 const float kLeastTrust = 0.2;    // below, what is hidden before a hit (a 30th of the map's width) may be nearer: filled from beside it errs less
+const float kSure = 0.6;          // from here on (a 200th of the width) a hit is one: others count only where no map has such a one
 const float kLeastWeight = 0.01;  // of a map whose own weight is 0
 const float kSameDepth = 0.05;   // hits whose distances differ by less, relatively, are of one surface
 
@@ -58,7 +59,7 @@ void main() {
   bool inside = all(greaterThanEqual(v_on_plane, u_lower)) && all(lessThanEqual(v_on_plane, u_upper));
   int count = inside ? u_count : min(u_count, 1);
   vec2 place = v_on_plane;
-  bool at_edge = inside;
+  bool at_edge = inside, sure = false;
   vec4 sum = vec4(0.0);
   float total = 0.0;
   int i = 0;
@@ -67,7 +68,12 @@ void main() {
     vec3 eye = u_eyes[i].xyz;
     MapRay ray = map_ray(eye, u_lower, u_upper, map.xy, place, direction);
     MapHit hit = march(u_disparity, u_ranges, int(map.z), ivec2(map.xy), ray);
-    if (hit.trust > kLeastTrust) {
+    if (hit.trust > (sure ? kSure : kLeastTrust)) {
+      if (!sure && hit.trust > kSure) {
+        sure = true;
+        sum = vec4(0.0);
+        total = 0.0;
+      }
       float inverse = clamp(inverse_distance(hit.s, eye.z, to_plane, pace, direction.z), u_closest, 1e18);
       float s_distance = hit.s * to_plane - eye.z * (1.0 - hit.s) * pace / max(direction.z, 1e-6 * pace);
       float pixels = map_pixels(hit, map, s_distance);
@@ -89,6 +95,6 @@ void main() {
       place = clamp(v_on_plane, u_lower, u_upper);
       i = 0;
     }
-  } while (i < count && (i < u_blended || total == 0.0));
+  } while (i < count && (i < u_blended || !sure));
   if (total > 0.0) o_light = sum / total;
 }

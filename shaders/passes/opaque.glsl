@@ -4,10 +4,13 @@ uniform vec4 u_base_color;
 #ifdef PLAIN
 const float u_alpha_cutoff = -1.0;
 const bool u_unlit = false;
-const int u_alpha_kind = 0;
 #else
 uniform float u_alpha_cutoff;  // negative: no cut-outs
 uniform bool u_unlit;
+#endif
+#if defined(PLAIN) && !defined(REFLECTED)
+const int u_alpha_kind = 0;
+#else
 uniform int u_alpha_kind;  // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
 #endif
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)

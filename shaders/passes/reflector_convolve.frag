@@ -5,6 +5,7 @@
 uniform vec2 u_origin;           // of the image in the frame, pixels
 uniform sampler2D u_blurred;     // M * K at a pixel in u_coarse
 uniform vec3 u_missing;          // light where no map shows anything
+uniform bool u_with_distance;     // a: the image's 1 / distance; else the kind of light
 layout(location = 0) out vec4 o_light;
 
 // The least radius of the lobe in coarse pixels for those to do.
@@ -21,5 +22,5 @@ void main() {
     image = convolved(pixel);
   }
   vec3 light = image.a > 0.0 ? image.rgb : u_missing;
-  o_light = vec4(light * reflector_reflectance(reflector_cosine()), 1.0);
+  o_light = vec4(light * reflector_reflectance(reflector_cosine()), u_with_distance ? image.a : 1.0);
 }

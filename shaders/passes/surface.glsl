@@ -6,6 +6,9 @@
 uniform vec4 u_eye;
 uniform sampler2D u_normal_texture;
 uniform float u_normal_scale;
+#ifdef REFLECTED  // what is plain, in the image of a mirror
+#define PLAIN
+#endif
 #ifdef PLAIN  // a program of its own for what most surfaces are: software rasterisers run every branch
 const bool u_normal_mapped = false;
 #else

@@ -75,6 +75,20 @@ void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
   pack.reflectors.push_back(reflector);
 }
 
+void add_pixel_meshes(Pack& pack) {
+  for (const RadianceMap& map : pack.radiance_maps) {
+    MapMesh& mesh = pack.map_meshes.emplace_back();
+    for (std::uint32_t i = 0; i < map.valid.size(); ++i) {
+      if (map.valid[i] == 0) continue;
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)})
+        mesh.vertices.emplace_back((Vec2(i % map.width, i / map.width) + corner) / Vec2(map.width, map.height),
+                                   map.valid[i] == 2 ? 0.0f : map.disparity[i]);
+      for (const std::uint32_t v : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + v);
+    }
+  }
+}
+
 Vec3 Picture::at(int x, int y) const {
   const std::size_t i =
       (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3;

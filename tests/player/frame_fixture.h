@@ -30,6 +30,9 @@ void add_mirror(Pack& pack, const std::vector<Vec3>& eyes, std::uint32_t size,
 // A reflectance that is the same at every angle.
 FresnelMap flat_reflectance(const Vec3& reflectance);
 
+// A mesh for each map: every pixel that saw something as a square at its disparity.
+void add_pixel_meshes(Pack& pack);
+
 struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgb;

@@ -162,7 +162,7 @@ TEST_F(March, ASlitIsAsWideAsItsPixels) {
     // Within kTouching of a border both are right.
     if (is_wall(pixel - Vec2(0.4f, 0)) != expected || is_wall(pixel + Vec2(0.4f, 0)) != expected) continue;
     const MapHit hit = shoot(map, relief, {on_plane, Vec3(at - on_plane, 0.5f)});
-    const bool at_wall = std::fabs(hit.s / s_wall - 1) < kConnected;
+    const bool at_wall = std::fabs(hit.s / s_wall - 1) < kNear;
     (expected ? stopped : passed) += 1;
     wrong += (hit.trust == 1 && at_wall) != expected;
     const float left = std::floor(hit.at.x - 0.5f), share = hit.at.x - 0.5f - left;

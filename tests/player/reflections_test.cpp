@@ -2,7 +2,7 @@
 // extremes.
 #include "formats/query/camera.h"
 #include "formats/query/lobe_light.h"
-#include "player/passes/geometry_pass.h"
+#include "player/passes/mirrored_view.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {

@@ -269,6 +269,10 @@ Pack tiny_mapped_pack() {
   pack.kernels[1].fits = {{0.5f, 0.25f, 2, -0.5f, 0.75f}, {}};
   pack.radiance_maps.push_back(tiny_radiance_map(0.5f));
   pack.radiance_maps.back().residual = true;
+  // The second map's mesh uses its vertices in another order than they have; the residual's has no triangle.
+  pack.map_meshes = {{{{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.25f}, {0, 1, 0.25f}}, {0, 1, 2, 0, 2, 3}},
+                     {{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}}, {0, 2, 1}},
+                     {}};
   pack.emitters = {{{{-1, 3, 0}, {1, 3, 0}, {1, 3, 1}, {-1, 3, 1}}, {4000, 3000, 2000}, false},
                    {{{0, 1, -2}, {1, 1, -2}, {0, 2, -2}}, {100, 100, 100}, true}};
   Reflector& reflector = pack.reflectors[0];
@@ -291,6 +295,9 @@ Pack tiny_mapped_pack() {
   sets.above_m = 0.25f;
   sets.seen = {3, 1, 2};
   sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
+  for (const Reflector& r : pack.reflectors)
+    pack.reflected_sets.seen.push_back(static_cast<std::uint8_t>(r.map_count > 0 ? 3 : 1));
+  pack.reflected_sets.made_for = reflected_hash(sets, pack.reflectors);
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
   return pack;

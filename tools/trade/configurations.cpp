@@ -90,8 +90,10 @@ class Planner {
       skip("views, reflections points and geometry, maps, select", "no planar reflector");
       return;
     }
-    add("reflections", "points", {}, {{"--reflections", "points"}}, "point splatting (Bastos 1999)");
-    add("reflections", "geometry", {}, {{"--reflections", "geometry"}}, "mirrored geometry (Diefenbach 1997)");
+    const Settings maps_baked{{"--reflections", "maps"}};
+    add("reflections", "march", maps_baked, {{"--reflections", "march"}});
+    add("reflections", "points", maps_baked, {{"--reflections", "points"}}, "point splatting (Bastos 1999)");
+    add("reflections", "geometry", {{"--reflections", "geometry"}}, {}, "mirrored geometry (Diefenbach 1997)");
     for (const std::string& views : either({"2"}, {"1", "2", "4"}))
       add("views", "planned:" + views, {{"--views", "planned:" + views}}, {});
     for (const std::string& views : either({"16"}, {"4", "16", "64"}))
@@ -99,8 +101,8 @@ class Planner {
     Settings published{{"--reflections", "points"}, {"--fresnel", "sphere"}, {"--select", "distance"}};
     if (facts_.glossy) published.merge(Settings{{"--blur", "constant"}, {"--kernel", "centred"}});
     add("as published", "", {{"--views", "hemisphere:16"}}, published, "all of Bastos 1999");
-    for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, {}, {{"--maps", maps}});
-    if (!quick_) add("select", "distance", {}, {{"--select", "distance"}}, "nearest eye (Bastos 1999)");
+    for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});
+    if (!quick_) add("select", "distance", maps_baked, {{"--select", "distance"}}, "nearest eye (Bastos 1999)");
   }
 
   void glossy() {

@@ -9,6 +9,7 @@
 #include "bake/radiosity/estimators/part.h"
 #include "bake/radiosity/estimators/patches.h"
 #include "bake/radiosity/estimators/reuse.h"
+#include "bake/radiosity/estimators/work_left.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/gather/survival.h"
 #include "bake/radiosity/texels/frame_error.h"
@@ -196,10 +197,8 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  bool out_of_rays() const {
-    const std::uint64_t most = std::max(options_.most_rays, kMostTexelMean * texels_.count());
-    return options_.most_rays > 0 && task_.work() - first_work_ >= most;
-  }
+  double refined() const { return static_cast<double>(task_.work() - first_work_); }
+  bool out_of_rays() const { return refined() >= task_.most_work(texels_.count()); }
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }
 
   // Runs a refinement, which each texel gets whole or not at all, until there is enough.
@@ -282,6 +281,7 @@ class CachedEstimator : public LightEstimator {
     if (error <= 0) return {};
     if (options_.enough) context_.finishable = true;
     const double goal = error * error;
+    WorkLeft left(goal, static_cast<double>(first_work_), task_.most_work(texels_.count()));
     for (;;) {
       const Part direct = part({direct_.per_half, std::max(kFirstDirect, most_gathered()), kDirectGain,
                                 static_cast<double>(direct_rays_), frames_.squares(light(), smooth_direct_.variance)});
@@ -290,6 +290,7 @@ class CachedEstimator : public LightEstimator {
                                   frames_.squares(light(), estimate_.variance)});
       double now = direct.mean + gathered.mean;
       if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
+      context_.foretell("refinement", left.done(refined(), now));
       if (now <= goal) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };

@@ -57,10 +57,22 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity&
   std::atomic<std::uint64_t> rays{0}, quick_rays{0};
   const RadiosityTask own{task.transport, task.atlas,   task.map, task.pixels,
                           task.options,   task.context, rays,     quick_rays};
-  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) {
+  const auto cells_of = [&](std::uint8_t level) {
     std::size_t cells = 0;
     for (const auto& page : levels) cells += static_cast<std::size_t>(std::count(page.begin(), page.end(), level));
+    return cells;
+  };
+  // About as many points, each level's as many times finer.
+  const auto points_of = [&](std::uint8_t level) {
+    return std::ldexp(static_cast<double>(cells_of(level)), 2 * level);
+  };
+  double all = 0, done = 0;
+  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) all += points_of(level);
+  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) {
+    const std::size_t cells = cells_of(level);
     if (cells == 0) continue;
+    task.context.foretell("detail", done / all);
+    done += points_of(level);
     ORIEL_TRY(const DetailPoints of_level, list_points(task.atlas, levels, level, task.context));
     ORIEL_TRY(PointLight lit, light_points(own, known, of_level));
     report.cells += cells, report.points += lit.texels.count();

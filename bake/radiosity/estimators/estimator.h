@@ -1,7 +1,9 @@
 // What estimates the light on an atlas' texels: bake_radiosity refines it until the error asked for holds.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +27,11 @@ struct RadiosityTask {
   // Rays of paths that take about the time of all: measured, two and a half to four quick ones do.
   std::uint64_t work() const { return rays + quick_rays / kQuickRays; }
   static constexpr std::uint64_t kQuickRays = 3;
+  // At which refinement ends (RadiosityOptions::most_rays); may be infinite.
+  double most_work(std::size_t texels) const {
+    if (options.most_rays == 0) return HUGE_VAL;
+    return static_cast<double>(std::max(options.most_rays, kMostTexelMean * texels));
+  }
 };
 
 // What an estimate is refined to.

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bake/run/fit_maps.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/prepare.h"
-#include "bake/run/reflections.h"
 #include "formats/core/file.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"

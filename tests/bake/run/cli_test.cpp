@@ -126,7 +126,7 @@ TEST_F(BakeCli, ExitCodesAndMessages) {
 // The gallery has reflectors too, so that every stage takes part.
 TEST_F(BakeCli, SameBytesForAnyThreadsAndTwiceInARow) {
   ASSERT_EQ(run("oriel-scenes gallery -o gallery.glb"), 0) << log();
-  const std::string options = " --texel 25cm --samples 16 --quiet";
+  const std::string options = " --texel 25cm --samples 16 --reflections maps --quiet";
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o one.oriel --threads 1" + options), 0) << log();
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o two.oriel --threads 2" + options), 0) << log();
   ASSERT_EQ(run("oriel-bake gallery.glb --no-cache -o again.oriel --threads 2" + options), 0) << log();

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -101,6 +102,49 @@ TEST_F(BakeOutcome, TheReportIsThereOnFailureToo) {
   EXPECT_EQ(report()["exit_code"], 2);
   ASSERT_EQ(run("oriel-bake cornell.glb -o nowhere/a.oriel --report report.json"), 2) << log();
   EXPECT_EQ(report()["exit_code"], 2);
+}
+
+// Warnings and findings say where in the file their object is.
+TEST_F(BakeOutcome, RecordsNameTheNodePath) {
+  // Two triangles and one without area, on a node below another.
+  std::ofstream(folder_.path() / "nested.gltf")
+      << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+         R"("nodes":[{"name":"house","children":[1]},{"children":[2]},{"name":"wall","mesh":0}],)"
+         R"("meshes":[{"name":"plaster","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
+         R"({"bufferView":1,"componentType":5123,"count":9,"type":"SCALAR"}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":18}],)"
+         R"("buffers":[{"byteLength":66,"uri":"data:application/octet-stream;base64,)"
+         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8AAAAAAAABAAIAAQADAAIAAAAAAAEA"}]})";
+  ASSERT_EQ(run("oriel-bake nested.gltf -o a.oriel --sky 10 --texel 20cm --samples 16 --quiet --report report.json"), 0)
+      << log();
+  const json r = report();
+  const auto& warnings = r["warnings"];
+  const auto found =
+      std::find_if(warnings.begin(), warnings.end(), [](const json& w) { return w["object"] == "plaster"; });
+  ASSERT_NE(found, warnings.end()) << warnings;
+  EXPECT_EQ((*found)["node"], "house/nodes[1]/wall");
+}
+
+// Nothing can be written after a kill: what was written before says what it is.
+TEST_F(BakeOutcome, AReportOfAKilledBakeSaysThatItRuns) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c",
+            ("cd '" + folder_.path().string() + "' && exec '" + ORIEL_BIN_DIR +
+             "'/oriel-bake cornell.glb -o a.oriel --texel 1cm --error 0.05% --report report.json --json-log 2>log")
+                .c_str(),
+            static_cast<char*>(nullptr));
+    ::_exit(98);
+  }
+  for (int i = 0; i < 1200 && log().empty(); ++i) ::usleep(50000);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  const json r = report();
+  EXPECT_EQ(r["status"], "running");
+  EXPECT_TRUE(r["exit_code"].is_null());
+  EXPECT_EQ(r["running"]["pid"], child);
+  EXPECT_NE(r["running"]["text"].get<std::string>().find("it was killed"), std::string::npos);
 }
 
 TEST_F(BakeOutcome, EveryLineOfTheLogIsJson) {

@@ -200,5 +200,45 @@ TEST(FindSets, RandomEyesSeeNothingElse) {
   EXPECT_EQ(missing, 0);
 }
 
+// Two rooms without a door; a mirror on the wall between them shows all of the first room that lies before it, and
+// nothing of the second. Behind a screen that hides the mirror from all eyes it shows nothing.
+TEST(ReflectedSets, HoldWhatEyesSeeInAMirror) {
+  for (const bool hidden : {false, true}) {
+    SceneParts parts = two_rooms(false);
+    const auto grey = parts.diffuse(Vec3(0.5f));
+    parts.quad("mirror", grey, {3.89f, 1, 1.5f}, {0, 0, 1}, {0, 1, 0});  // to -x
+    parts.box("ball", grey, {1, 1, 1}, {1.2f, 1.2f, 1.2f});
+    parts.box("next door", grey, {6, 1, 1}, {6.2f, 1.2f, 1.2f});
+    if (hidden) parts.box("screen", grey, {3.6f, 0, 0.01f}, {3.7f, 2.59f, 3.99f});
+    const Scene scene = parts.finish();
+    const auto accel = Accel::build(scene);
+    ASSERT_TRUE(accel);
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+      if (scene.triangle_surface[t] == surface(scene, "mirror")) own.push_back(t);
+    ASSERT_EQ(own.size(), 2u);
+    ASSERT_LT(geometric_normal(scene, own[0]).x, -0.9f);
+    const SeenMirror mirror{Vec4(-1, 0, 0, 3.89f), 1e-5f, own};
+    std::vector<Vec3> eyes;
+    for (int i = 0; i < 64; ++i)
+      eyes.emplace_back(0.5f + 0.04f * static_cast<float>(i), 1.6f, 0.5f + 0.3f * static_cast<float>(i % 10));
+    const std::vector<std::uint32_t> groups = by_surface(scene);
+    Context context;
+    std::uint64_t rays = 0;
+    const auto seen = find_reflected_sets({*accel, groups, static_cast<std::uint32_t>(scene.surfaces.size())},
+                                          std::span(&mirror, 1), eyes, {}, context, rays);
+    ASSERT_TRUE(seen);
+    const auto has = [&](const std::string& name) {
+      const std::uint32_t g = surface(scene, name);
+      return ((*seen)[g / 8] >> (g % 8) & 1) != 0;
+    };
+    EXPECT_EQ(has("ball"), !hidden);
+    EXPECT_EQ(has("room"), !hidden);
+    EXPECT_FALSE(has("next door"));
+    EXPECT_FALSE(has("mirror")) << "it does not see itself";
+    EXPECT_GT(rays, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace oriel

@@ -113,7 +113,7 @@ TEST(Report, EverySectionMayBeAbsent) {
   const std::vector<void (*)(Pack&)> takers = {
       [](Pack& p) { p.provenance.clear(); },
       [](Pack& p) { p.plan.clear(); },
-      [](Pack& p) { p.radiance_maps.clear(), p.reflectors.clear(), p.emitters.clear(); },
+      [](Pack& p) { p.radiance_maps.clear(), p.map_meshes.clear(), p.reflectors.clear(), p.emitters.clear(); },
       [](Pack& p) { p.curved_reflectors.clear(), p.surround_maps.clear(); },
       [](Pack& p) {
         p.kernels.clear(), p.fresnel_maps.clear();
@@ -163,6 +163,7 @@ TEST(Report, SizeIsBoundedAndTheRestIsSaid) {
   const RadianceMap map = pack.radiance_maps[0];
   const MeshPart part = pack.mesh.parts[0];
   pack.radiance_maps.assign(3000, map);
+  pack.map_meshes.clear();
   pack.mesh.parts.assign(20000, part);
   for (MeshPart& p : pack.mesh.parts) p.name = std::string(3000, 'n');
   LightmapPage page;

@@ -223,6 +223,7 @@ TEST(Hostile, VisibleSets) {
   expect_refusal(with_raw(kVisibleSetsSection, 8, 0u), sets + "found eye cells of 0 walk cells a side");
   expect_refusal(with_raw(kVisibleSetsSection, 20, ~0u), sets + "its counts need more");
   expect_refusal(with_raw(kVisibleSetsSection, 20, 2u), sets + "holds 1 bytes more");
+  expect_refusal(with_raw(kReflectedSetsSection, 0, ~0u), "section RVIS (reflected sets): its counts need more");
 }
 
 TEST(Hostile, WhatReflectionsNeed) {
@@ -257,13 +258,24 @@ TEST(Hostile, CurvedReflectors) {
   expect_refusal(with_raw(kSurroundMapSection, 16, 113), map + "element 0: found scale exponent 113");
 }
 
+TEST(Hostile, MapMeshes) {
+  const std::string mesh = "section MMSH 0 (map mesh): ";
+  expect_refusal(with_raw(kMapMeshSection, 0, 31), mesh + "element 0: found disparity shift 31, expected 0 to 30");
+  expect_refusal(with_raw(kMapMeshSection, 4, ~0u), mesh + "its counts need more");
+  expect_refusal(with_raw(kMapMeshSection, 8, 9u), mesh + "its counts need more");
+  // The first index of six, by planes of bytes behind four vertices.
+  expect_refusal(with_raw(kMapMeshSection, 12 + 24, std::uint8_t{1}),
+                 mesh + "element 0: found index 4294967295 at 0, expected less than 4 vertices");
+}
+
 // Sections may come in any order.
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
   std::reverse(forge.sections.begin(), forge.sections.end());
-  // All but the radiance maps, whose number is their order.
+  // All but the radiance maps and their meshes, whose number is their order.
   std::erase_if(forge.sections, [](const auto& s) {
-    return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection;
+    return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
+           s.record.kind == kMapMeshSection || s.record.kind == kReflectedSetsSection;
   });
   const auto pack = decode_pack(forge.file());
   ASSERT_TRUE(pack) << pack.error().text();

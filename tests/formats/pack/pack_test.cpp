@@ -193,6 +193,25 @@ TEST(Pack, VisibleSetsComeBack) {
   EXPECT_TRUE(made_for(b, out.mesh, out.materials, out.walk_grids));
 }
 
+TEST(Pack, MapMeshesComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_EQ(out.map_meshes.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MapMesh &a = in.map_meshes[i], &b = out.map_meshes[i];
+    EXPECT_EQ(b.indices, a.indices);
+    ASSERT_EQ(b.vertices.size(), a.vertices.size());
+    for (std::size_t v = 0; v < a.vertices.size(); ++v)
+      EXPECT_LE(max_component(glm::abs(b.vertices[v] - a.vertices[v])), 1.001f / 131070);
+  }
+}
+
+TEST(Pack, ReflectedSetsComeBack) {
+  const Pack in = tiny_mapped_pack(), out = round_trip(in);
+  ASSERT_FALSE(in.reflected_sets.empty());
+  EXPECT_EQ(out.reflected_sets.seen, in.reflected_sets.seen);
+  EXPECT_EQ(out.reflected_sets.made_for, reflected_hash(out.visible_sets, out.reflectors));
+}
+
 TEST(Pack, CurvedReflectorsComeBack) {
   const Pack in = tiny_mapped_pack(), out = round_trip(in);
   ASSERT_EQ(out.curved_reflectors.size(), 1u);

@@ -63,6 +63,21 @@ TEST(PaceTest, ItBecomesFinerWhereThereIsRoom) {
   EXPECT_LE(walk.last_ms, 1000 / 15.0f);
 }
 
+// Where a finer level shows what takes long, tries of it become rare, instead of one slow frame in ten.
+TEST(PaceTest, FinerFramesThatWereTooSlowAreTriedLessOften) {
+  Pace pace(true);
+  double now_s = 0;
+  int slow = 0, frames = 0;
+  for (; frames < 2000; ++frames) {
+    const Draw draw = pace.next(true, false, Quality::kAutomatic, now_s);
+    const float ms = pace.few_reflections() ? 20.0f : 120.0f;
+    slow += ms > 1000 / 15.0f ? 1 : 0;
+    pace.took(draw, ms);
+    now_s += 1e-3 * ms;
+  }
+  EXPECT_LE(slow, frames / 50);
+}
+
 TEST(PaceTest, AsTheUserAsks) {
   Walk walk{Pace(true), 400};
   for (int i = 0; i < 5; ++i) EXPECT_EQ(walk.step(true, Quality::kFull), Draw::kWhole);

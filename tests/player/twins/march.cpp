@@ -26,15 +26,23 @@ float disparity_at(const Relief& relief, const Vec2& at) {
 
 // The same over the surface around a texel of it.
 float on_surface(float s, float surface) {
-  return std::clamp(s, surface / (1 + kConnected), surface * (1 + kConnected));
+  return std::clamp(s, surface / (1 + kNear), surface * (1 + kNear));
 }
 
-// Whether the texel at `end`, of disparity `surface`, goes on the surface at `begin`.
-bool is_connected(const Relief& relief, const MapRay& ray, float begin, float end, float surface) {
-  const float last = relief.at(map_texel(ray, begin, relief.size));
-  const float after = relief.at(map_texel(ray, std::min(end + 1, ray.length), relief.size));
-  const float rise = surface - last, further = std::copysign(2.0f, rise) * (after - surface);
-  return surface <= 1 && std::fabs(rise) <= std::max(kConnected * surface, further);
+// Whether a texel of disparity `surface` goes on the surface at `begin`, in the texel before it: both are on one plane
+// by the slopes before and behind, or those planes meet between them.
+bool is_connected(const Relief& relief, const MapRay& ray, float begin, const IVec2& texel, float surface) {
+  const IVec2 beside = map_texel(ray, begin, relief.size), way = texel - beside;
+  const float last = relief.at(beside);
+  const float earlier = relief.at(glm::clamp(beside - way, IVec2(0), relief.size - 1));
+  const float after = relief.at(glm::clamp(texel + way, IVec2(0), relief.size - 1));
+  const auto unit = static_cast<float>(std::max(relief.size.x, relief.size.y));
+  const float first = unit * (last - (surface - (after - surface)));
+  const float second = unit * (last + (last - earlier) - surface);
+  const float least = std::min(std::fabs(first), std::fabs(second));
+  const float most = std::max(std::fabs(first), std::fabs(second));
+  const bool meet = (first <= 0) != (second <= 0) || least <= kGap;
+  return surface <= 1 && last <= 1 && (most <= kGap || (meet && unit * std::fabs(surface - last) <= kSteep));
 }
 
 // The crossing in [begin, end], found by false position.
@@ -110,9 +118,9 @@ MapHit march(const Relief& relief, const MapRay& ray) {
     surface = relief.at(texel);
     // It comes out behind an edge, or through the back of a surface, which it does not meet again at once.
     if (!before)
-      before = surface < s_next || (surface < s && !is_connected(relief, ray, at - 2 * kBorder, at + 0.5f, surface));
+      before = surface < s_next || (surface < s && !is_connected(relief, ray, at - 2 * kBorder, texel, surface));
     if (before && surface >= s_next) {
-      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at - 2 * kBorder, at + 0.5f, surface);
+      hit = surface <= s * (1 + kTouching) || is_connected(relief, ray, at - 2 * kBorder, texel, surface);
       if (hit) break;
       before = false;
     }

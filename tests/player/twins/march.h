@@ -12,9 +12,13 @@
 
 namespace oriel {
 
-// Neighbouring pixels whose disparities differ by more than this share, and by more than the surface goes on to fall or
-// rise, lie on different surfaces: a ray does not hit the gap between them, it passes behind the nearer one.
-inline constexpr float kConnected = 0.1f;
+// Of the surface around a texel, disparities differ from its own by no more than this share.
+inline constexpr float kNear = 0.1f;
+// Neighbouring pixels lie on one surface where their planes differ by no more than kGap, or meet and their disparities
+// differ by no more than kSteep: in pixels by which things shift, seen from as far away as the element is wide, as
+// bake/radiance/surface_grid.h cuts them. Elsewhere a ray does not hit the gap between them, it passes behind the
+// nearer one.
+inline constexpr float kGap = 0.5f, kSteep = 4;
 // Unless it was no farther behind the nearer one than this share before the gap.
 inline constexpr float kTouching = 0.003f;
 // A ray hidden over 1 / kDistrust of the map is half trusted.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bake/radiosity/estimators/cells.h"
+#include "bake/radiosity/radiosity.h"
 #include "bake/radiosity/texels/texel_paths.h"
 #include "formats/core/color.h"
 #include "tests/bake/radiosity/listed.h"

@@ -1,4 +1,4 @@
-#include "player/passes/geometry_pass.h"
+#include "player/passes/mirrored_view.h"
 
 #include "player/reflections/reflected_view.h"
 
@@ -16,22 +16,19 @@ Mat4 with_near_plane(const Mat4& clip, const Vec4& plane) {
   return Mat4(glm::transpose(rows));
 }
 
-void draw_geometry(const ScenePass& pass, const GpuScene& scene, const GpuReflector& reflector, const View& view,
-                   const ImageRect& rect, const ImageTarget& target, float white, FrameStats& stats) {
-  const Pack& pack = scene.pack();
-  clear_image(target, rect, Vec4(pack.sky, kClosest));
+View mirrored_view(const GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect) {
   const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
-  View mirrored = view;
-  mirrored.mirrored = true;
+  View mirrored = part_of(view, rect.origin, rect.width, rect.height);
+  mirrored.mirrored = !view.mirrored;
   mirrored.view_from_pack = reflected.view_from_mirrored * reflector.reflector_from_pack;
   mirrored.eye = reflector.pack_from_reflector * reflected.mirrored_eye;
-  const Reflector& shape = pack.reflectors[reflector.index];
+  mirrored.clip_from_view = reflected.image_from_view;
+  mirrored.far = reflected.far;
   Vec4 plane = glm::transpose(reflector.reflector_from_pack)[2];  // height over the reflector
-  plane.w -= shape.flatness_m + 1e-5f * reflector.size;           // without the reflector itself
+  const float flatness = scene.pack().reflectors[reflector.index].flatness_m;
+  plane.w -= flatness + 1e-5f * reflector.size;  // without the reflector itself
   mirrored.clip_from_pack = with_near_plane(reflected.image_from_view * mirrored.view_from_pack, plane);
-  const Vec4 depth_row = -glm::transpose(mirrored.view_from_pack)[2];
-  pass.draw_reflected(scene, mirrored, depth_row, kClosest, shape.emitters, stats);
-  pass.draw_transparent(scene, mirrored, {}, white, stats);
+  return mirrored;
 }
 
 }  // namespace oriel

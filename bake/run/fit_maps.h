@@ -1,0 +1,31 @@
+// Radiance maps within the time of a bake: how long their capture is likely to take, and which are left out or made
+// smaller for it.
+#pragma once
+
+#include "bake/run/reflections.h"
+#include "bake/run/time_budget.h"
+
+namespace oriel {
+
+// Nothing is captured, and the reason is among the omissions.
+void leave_out_maps(const Warning& why, PlannedReflections& planned);
+
+// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
+// residual maps go by what planning took. Error kStopped.
+Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
+
+// Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
+void shrink_maps(double seconds, PlannedReflections& planned);
+
+// The same by a dark lightmap, which `dark` gets.
+Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
+                        Context& context, PlannedReflections& planned);
+
+// Of a pack's images: lightmaps that are there, and planned maps.
+double bytes_of(const Pack& pack, const PlannedReflections& planned);
+
+// Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take. Error kStopped.
+Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
+                               const TimeBudget& budget, Context& context, PlannedReflections& planned);
+
+}  // namespace oriel

@@ -1,0 +1,113 @@
+// What reflectors show, in the frame and in each other: masks, images, and S = (M * K) R made of them (Bastos et al.
+// 1999, section 8.2). A mirror in a mirror is drawn by recursion (Diefenbach & Badler 1997, section 3): its mask in the
+// image of the first, the eye mirrored again, clipped at its plane; each image has a target of its own, so that the
+// number of mirrors on the way needs no bits of the stencil.
+#pragma once
+
+#include <deque>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "player/movers/mover_pass.h"
+#include "player/navigation/zone.h"
+#include "player/passes/pass_clock.h"
+#include "player/passes/reflector_pass.h"
+#include "player/passes/scene_pass.h"
+#include "player/passes/targets.h"
+#include "player/reflections/convolve_pass.h"
+#include "player/reflections/curved_pass.h"
+#include "player/reflections/fill_pass.h"
+#include "player/reflections/march_pass.h"
+#include "player/reflections/mesh_pass.h"
+#include "player/reflections/reproject_pass.h"
+
+namespace oriel {
+
+// What all reflections of a frame are drawn with.
+struct ReflectionWork {
+  GpuScene& scene;
+  const FrameOptions& options;
+  FrameStats& stats;
+  const ScenePass& scene_pass;
+  const MoverPass& mover_pass;
+  std::span<const PlacedMover> movers;  // as mirrors show them: in light without shadows of their own
+};
+
+// Where reflectors are drawn: the frame, or the image of another one.
+struct ReflectionTarget {
+  const View& view;
+  const FrameTarget* frame = nullptr;  // null: an image
+  const ImageTarget* image = nullptr;
+  int mirrors = 0;        // on the way to it
+  float reflectance = 1;  // of those, at 60 degrees
+  float share = 1;        // of the frame's pixels
+  void bind() const;
+};
+
+// Of a target's stencil.
+struct ReflectionMarks {
+  std::vector<std::uint32_t> materials;  // of value i + 1
+  std::set<std::uint32_t> reflective;    // those that are drawn
+};
+
+// A reflector whose mask was drawn.
+struct MarkedReflector {
+  const GpuReflector* reflector = nullptr;
+  NdcRect screen;         // around what is visible of it
+  GLint value = 0;        // in the stencil; 0: see-through
+  std::size_t query = 0;  // first of kMaskQueries
+  bool waits = false;     // for its maps: nothing of it is drawn
+};
+
+class ReflectionRenderer {
+ public:
+  static Result<ReflectionRenderer> create(const gpu::Device& device);
+
+  // Marks the reflectors that are seen in the target, whose depth is there. Errors of images.
+  Result<std::vector<MarkedReflector>> draw_masks(ReflectionWork& work, const ReflectionTarget& target,
+                                                  ReflectionMarks& marks);
+  // S of one of them into the target: into the frame in place of what is there, or, of see-through ones and in images,
+  // added to it.
+  Status draw(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked, PassClock* clock);
+  // Curved reflectors: into a frame S of opaque ones, in an image their marks only. Gives those whose S is to be added
+  // once the scene is drawn.
+  Result<std::vector<const GpuCurvedReflector*>> draw_curved(ReflectionWork& work, const ReflectionTarget& target,
+                                                             ReflectionMarks& marks);
+  void add_curved(ReflectionWork& work, const ReflectionTarget& target,
+                  const std::vector<const GpuCurvedReflector*>& curved) const;
+
+ private:
+  struct Image;
+  Status draw_image(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
+                    const Image& image);
+  Status draw_mirrored(ReflectionWork& work, const ReflectionTarget& target, const GpuReflector& reflector,
+                       const Image& image);
+  Status draw_mirrors_in(ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
+  void compose(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
+               const Image& image) const;
+
+  // Whether sets of what reflectors show hold for the view.
+  bool sets_hold(const ReflectionWork& work, const ReflectionTarget& target);
+
+  gpu::Device device_;
+  std::uint64_t zone_of_ = 0;  // GpuScene::serial()
+  Zone zone_;
+  ReflectorPass reflector_pass_;
+  MarchPass march_pass_;
+  MeshPass mesh_pass_;
+  ReprojectPass reproject_pass_;
+  FillPass fill_pass_;
+  ConvolvePass convolve_pass_;
+  CurvedPass curved_pass_;
+  std::deque<std::optional<ImageTarget>> images_;  // by mirrors on the way
+  std::vector<gpu::Query> queries_;
+};
+
+// Whether a reflector's image is made of its maps: else the mirrored scene is drawn.
+inline bool shows_maps(const GpuReflector& reflector, const FrameOptions& options) {
+  return options.reflections != Reflections::kGeometry && !reflector.elements.empty();
+}
+
+}  // namespace oriel

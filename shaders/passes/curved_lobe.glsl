@@ -1,0 +1,51 @@
+// Light that a curved reflector mirrors: the eye ray is reflected about the normal and marched through the distances around;
+// the lobe is taps of the kernel, each from the level of the surround map as wide as the tap at the distance that was met.
+#include "lib/kernel.glsl"
+#include "lib/surround.glsl"
+
+uniform vec3 u_centre;
+uniform int u_size;
+uniform sampler2D u_light;  // over u_light_scale
+uniform float u_light_scale;
+uniform sampler2D u_inverse_distance;
+uniform vec2 u_range;
+uniform sampler2D u_taps;  // see kernel_tap()
+uniform int u_tap_count;   // 1: a mirror
+uniform int u_tap_rows;
+
+// Light from around a direction of a bundle that leaves the surface at `origin` and meets something at that distance; spread is
+// its width in radians.
+vec3 light_along(vec3 origin, vec3 direction, float inverse_distance, float spread) {
+  vec3 from_centre = direction + origin * inverse_distance;
+  float stretch = length(from_centre);
+  if (stretch < 1e-3) return vec3(0.0);
+  from_centre /= stretch;
+  float texels = spread / stretch * octahedral_density(from_centre, u_size);
+  return pyramid_light(u_light, u_size, from_centre, log2(max(texels, 1.0)));
+}
+
+vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float inverse_distance, float spread) {
+  vec3 along = normal - dot(normal, mirror) * mirror;
+  vec3 side = cross(mirror, abs(mirror.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
+  along = dot(along, along) > 1e-8 ? normalize(along) : normalize(side);
+  vec3 across = cross(mirror, along);
+  vec2 row = kernel_row(cos_theta, u_tap_rows);
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  for (int i = 0; i < u_tap_count; ++i) {
+    vec4 tap = kernel_tap(u_taps, i, row);
+    vec3 direction = lobe_direction(mirror, across, along, tap.xy);
+    if (dot(direction, normal) <= 0.0) continue;
+    sum += tap.w * light_along(origin, direction, inverse_distance, max(tap.z, spread));
+    total += tap.w;
+  }
+  return total > 0.0 ? sum / total : light_along(origin, mirror, inverse_distance, spread);
+}
+
+// (M * K), over u_light_scale. normal: unit, as mirrored() gives it.
+vec3 curved_light(vec3 position, vec3 normal, vec3 mirror, float cos_theta, float spread) {
+  vec3 origin = position - u_centre;
+  vec4 hit = march_surroundings(u_inverse_distance, u_size, u_range, origin, mirror);
+  return u_tap_count > 1 ? lobe_light(origin, normal, mirror, cos_theta, hit.w, spread)
+                         : light_along(origin, mirror, hit.w, spread);
+}

@@ -1,0 +1,2 @@
+// Counts pixels by stencil: only a query sees what passes.
+void main() {}

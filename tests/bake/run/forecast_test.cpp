@@ -1,0 +1,88 @@
+// One estimate for a whole bake, by made-up times; and what of it is told.
+#include "bake/run/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bake/cli/countdown.h"
+#include "bake/radiosity/estimators/work_left.h"
+
+namespace oriel {
+namespace {
+
+TEST(ForecastTest, NobodyKnowsBeforeTheLightIsForetold) {
+  Forecast forecast;
+  forecast.at("views", 0, 1);
+  EXPECT_FALSE(forecast.left(1));
+  forecast.expect("first light", 10);
+  EXPECT_FALSE(forecast.left(1)) << "views have not said how far they are";
+  forecast.at("views", 0.5, 3);
+  ASSERT_TRUE(forecast.left(3));
+  // As long again for the views; light, refinement, detail and verification by the light.
+  EXPECT_NEAR(*forecast.left(3), 2 + 10 + 20 + 8 + 0.085 * 30, 1e-9);
+}
+
+TEST(ForecastTest, WhatPartsTookTellsTheOthers) {
+  Forecast forecast;
+  forecast.expect("first light", 10);
+  forecast.at("first light", 0, 0);
+  forecast.at("refinement", 0, 40);  // four times as long as foretold
+  forecast.expect("radiance", 7);
+  EXPECT_NEAR(*forecast.left(40), 80 + 32 + 0.085 * 120 + 7, 1e-9);
+  forecast.at("refinement", 0.5, 60);
+  EXPECT_NEAR(*forecast.left(60), 20 + 32 + 0.085 * 120 + 7, 1e-9) << "half of it took 20 s";
+  forecast.at("nobody's", 0.9, 70);
+  EXPECT_NEAR(*forecast.left(70), 10 + 32 + 0.085 * 120 + 7, 1e-9) << "it goes on by the clock";
+  forecast.at("writing", 1, 100);
+  EXPECT_NEAR(*forecast.left(100), 0, 1e-9);
+}
+
+// Verification may find that more refinement is due.
+TEST(ForecastTest, RefinementMayComeAgain) {
+  Forecast forecast;
+  forecast.expect("first light", 1);
+  forecast.at("first light", 0, 0);
+  forecast.at("verification", 0, 4);
+  forecast.at("refinement", 0.5, 5);
+  forecast.at("views", 0.1, 6);
+  EXPECT_GT(*forecast.left(6), 0.5);
+}
+
+// Error falls as the inverse of the work: a goal of a quarter takes four times the work.
+TEST(WorkLeftTest, IsExactForAPower) {
+  WorkLeft left(0.25, 100, HUGE_VAL);
+  EXPECT_EQ(left.done(0, 1), 0);
+  EXPECT_NEAR(left.done(100, 100.0 / 200), 100.0 / 300, 1e-9);
+  EXPECT_NEAR(left.done(200, 100.0 / 300), 200.0 / 300, 1e-9);
+  EXPECT_EQ(left.done(300, 0.25), 1);
+}
+
+TEST(WorkLeftTest, RaysMayEndBefore) {
+  WorkLeft left(1e-9, 100, 50);
+  EXPECT_NEAR(left.done(0, 1), 0, 1e-9);
+  EXPECT_NEAR(left.done(25, 1), 0.5, 1e-9) << "nothing fell";
+  EXPECT_NEAR(left.done(50, 1), 1, 1e-9);
+}
+
+// Whatever the estimate does, what is told only falls, and is right before half of the time is over once the estimate
+// is.
+TEST(CountdownTest, OnlyFallsAndMeetsTheTruth) {
+  for (const double wrong : {0.5, 1.0, 2.0, 3.0}) {
+    Countdown countdown;
+    double last = 1e9;
+    for (double now = 0; now < 100; now += 0.5) {
+      const double estimate = (now < 20 ? wrong : 1.0) * (100 - now);
+      const double told = countdown.tell(estimate, now);
+      EXPECT_LE(told, last);
+      EXPECT_LE(last - told, now > 0 ? 16 * 0.5 + 1e-9 : 1e9) << "no jumps";
+      last = told;
+      if (now >= (wrong < 1 ? 75 : 50) && now < 98) {
+        EXPECT_NEAR(told / (100 - now), 1, 0.25) << wrong << " at " << now;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace oriel

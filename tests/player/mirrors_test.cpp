@@ -1,0 +1,149 @@
+// Mirrored geometry: mirrors in mirrors, a mirror over a polished floor, what moves and what is curved in mirrors.
+#include <cmath>
+
+#include "formats/query/camera.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+const Vec3 kSky(10, 20, 30);
+
+// A mirror without maps: a quad of `material` over corner, right, up, whose normal is right x up.
+void add_bare_mirror(Pack& pack, const Vec3& corner, const Vec3& right, const Vec3& up, std::uint32_t material = 0) {
+  const auto first = static_cast<std::uint32_t>(pack.mesh.positions.size());
+  add_quad(pack, corner, right, up, material, -1);
+  Reflector reflector;
+  reflector.material = material;
+  const Vec3 x = glm::normalize(right), y = glm::normalize(up);
+  reflector.pack_from_reflector =
+      Mat4(Vec4(x, 0), Vec4(y, 0), Vec4(glm::cross(x, y), 0), Vec4(corner + 0.5f * (right + up), 1));
+  reflector.upper = 0.5f * Vec2(glm::length(right), glm::length(up));
+  reflector.lower = -reflector.upper;
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) reflector.indices.push_back(first + i);
+  pack.reflectors.push_back(reflector);
+}
+
+// Materials 0: a mirror of half the light; 1 … 3: red, green and blue lamps.
+Pack empty_pack() {
+  Pack pack;
+  pack.materials.resize(4);
+  pack.materials[0].metallic = 1;
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
+  pack.materials[1].emission = {8, 0, 0};
+  pack.materials[2].emission = {0, 8, 0};
+  pack.materials[3].emission = {0, 0, 8};
+  pack.sky = kSky;
+  return pack;
+}
+
+// Squares of 2 m at z = 0 and z = 4 that face each other under a sky all around.
+Pack facing_mirrors() {
+  Pack pack = empty_pack();
+  add_bare_mirror(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  add_bare_mirror(pack, {1, -1, 4}, {-2, 0, 0}, {0, 2, 0});
+  return pack;
+}
+
+// How often a ray between the facing mirrors meets one before it leaves; negative: too near to an edge to tell.
+int bounces(Vec3 from, Vec3 along) {
+  for (int count = 0;; ++count) {
+    const float plane = along.z < 0 ? 0.0f : 4.0f;
+    const float t = (plane - from.z) / along.z;
+    if (!(t > 0) || t > 1e4f) return count;
+    from += t * along;
+    const float edge = std::max(std::abs(from.x), std::abs(from.y));
+    if (std::abs(edge - 1) < 0.04f * static_cast<float>(count + 1)) return -1;
+    if (edge > 1) return count;
+    along.z = -along.z;
+  }
+}
+
+class Mirrors : public FrameTest {};
+
+// The light of a ray that leaves after k mirrors is the sky's times half to the k; beyond the last order it is black,
+// as no light falls on the mirrors themselves.
+TEST_F(Mirrors, FacingMirrorsShowEachOtherToTheLastOrder) {
+  const Pack pack = facing_mirrors();
+  const Camera camera = look_at({0.1f, 0.05f, 2}, {0.45f, 0.2f, 0}, 1.0f);
+  for (const int orders : {1, 2, 3, 5}) {
+    FrameOptions options;
+    options.orders = orders;
+    const Picture p = draw(pack, camera, 96, 72, options);
+    std::vector<int> met(8);
+    for (int y = 0; y < 72; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const PixelRay ray = pixel_ray(camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 96, 72);
+        const int k = bounces(ray.origin, ray.direction);
+        if (k < 0) continue;
+        const Vec3 expected = k > orders ? Vec3(0) : kSky * std::pow(0.5f, static_cast<float>(k));
+        ASSERT_LT(glm::length(p.at(x, y) - expected), 1e-3f)
+            << orders << " orders, " << k << " mirrors, at " << x << ", " << y;
+        ++met[static_cast<std::size_t>(std::min(k, 7))];
+      }
+    EXPECT_GT(met[2], 100);
+    EXPECT_GT(met[3], 10);
+  }
+}
+
+// A wall mirror stands over a polished floor; what hangs before it is seen by way of both, each way round.
+TEST_F(Mirrors, AMirrorOverAPolishedFloor) {
+  Pack pack = empty_pack();
+  pack.sky = Vec3(0);
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.25f)));
+  pack.materials.resize(5);
+  pack.materials[4] = pack.materials[0];
+  pack.materials[4].fresnel_map = 1;
+  add_bare_mirror(pack, {-2, 0, 0}, {4, 0, 0}, {0, 4, 0});      // the wall, to +z
+  add_bare_mirror(pack, {-2, 0, 6}, {4, 0, 0}, {0, 0, -6}, 4);  // the floor, up
+  add_quad(pack, {-0.5f, 1, 2}, {1, 0, 0}, {0, 1, 0}, 1, -1);   // red to +z: seen without any mirror
+  add_quad(pack, {0.5f, 1, 2}, {-1, 0, 0}, {0, 1, 0}, 2, -1);   // green to -z: in the wall
+  const Vec3 eye(0, 1.6f, 5);
+  const auto at = [&](const Vec3& image, const FrameOptions& options) {  // towards an image of the lamp
+    return draw(pack, look_at(eye, image, 0.05f), 33, 33, options).at(16, 16);
+  };
+  FrameOptions options;
+  EXPECT_LT(glm::length(at({0, 1.5f, 2}, options) - Vec3(8, 0, 0)), 1e-3f);
+  EXPECT_LT(glm::length(at({0, -1.5f, 2}, options) - Vec3(2, 0, 0)), 1e-3f) << "in the floor";
+  EXPECT_LT(glm::length(at({0, -1.5f, -2}, options) - Vec3(0, 1, 0)), 1e-3f) << "by way of both";
+  options.orders = 1;
+  EXPECT_LT(glm::length(at({0, -1.5f, -2}, options)), 1e-3f) << "no mirror in a mirror";
+}
+
+// On the plane, behind it and beside it there is nothing to see; nothing is no number.
+TEST_F(Mirrors, AnEyeOnThePlane) {
+  const Pack pack = facing_mirrors();
+  for (const Vec3& eye :
+       {Vec3(0, 0, 0), Vec3(0, 0, 1e-7f), Vec3(0, 0, 4), Vec3(0, 0, -1), Vec3(1, 0, 2), Vec3(3, 0, 1e-4f)}) {
+    FrameOptions options;
+    options.orders = 4;
+    EXPECT_TRUE(draw(pack, look_at(eye, {0.2f, 0.1f, 2.01f}, 1.2f), 48, 32, options).finite()) << eye.z;
+  }
+}
+
+// Groups that are known not to be seen in a mirror are not drawn in it; beside the places where that is known all are.
+TEST_F(Mirrors, DrawWhatTheirSetsHold) {
+  Pack pack = empty_pack();
+  add_bare_mirror(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  add_quad(pack, {4, -4, 4}, {-8, 0, 0}, {0, 8, 0}, 1, -1);
+  pack.walk_grids = {{{-1, 1}, 0.5f, 4, 4, std::vector<float>(16, -1.0f), 1.0f}};
+  pack.visible_sets.groups = 2;
+  pack.visible_sets.runs = {{6, 0}, {6, 1}};
+  pack.visible_sets.made_for = visibility_hash(pack.mesh, pack.materials, pack.walk_grids);
+  const auto seen = [&](std::uint8_t set, float eye_y = 0) {
+    pack.reflected_sets.seen = {set};
+    pack.reflected_sets.made_for = reflected_hash(pack.visible_sets, pack.reflectors);
+    return draw(pack, look_at({0, eye_y, 2}, {0, 0, 0}, 0.3f), 32, 32).at(16, 16);
+  };
+  EXPECT_LT(glm::length(seen(3) - Vec3(4, 0, 0)), 1e-3f);
+  EXPECT_LT(glm::length(seen(1) - 0.5f * kSky), 1e-3f);
+  EXPECT_LT(glm::length(seen(1, 1) - Vec3(4, 0, 0)), 1e-3f) << "nobody asked for eyes up there";
+  pack.reflected_sets.made_for = {};
+  EXPECT_LT(glm::length(draw(pack, look_at({0, 0, 2}, {0, 0, 0}, 0.3f), 32, 32).at(16, 16) - Vec3(4, 0, 0)), 1e-3f)
+      << "of another pack";
+}
+
+}  // namespace
+}  // namespace oriel
