@@ -32,16 +32,6 @@ void StretchSum::add(const Triangle3& q, const Triangle2& p) {
   largest_ = std::max(largest_, 0.5 * (a + c + root));
 }
 
-void StretchSum::add(const StretchSum& other) {
-  surface_ += other.surface_;
-  plane_ += other.plane_;
-  square_ += other.square_;
-  angle_ += other.angle_;
-  factor_ += other.factor_;
-  largest_ = std::max(largest_, other.largest_);
-  collapsed_ |= other.collapsed_;
-}
-
 double StretchSum::l2() const {
   if (collapsed_) return kInfinity;
   return surface_ > 0 ? std::sqrt(square_ / surface_ * scale()) : 1;

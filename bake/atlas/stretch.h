@@ -14,7 +14,6 @@ using Triangle3 = std::array<DVec3, 3>;
 class StretchSum {
  public:
   void add(const Triangle3& surface, const Triangle2& plane);
-  void add(const StretchSum& other);
 
   double l2() const;     // root of the mean of (Γ² + γ²) / 2
   double linf() const;   // the largest Γ

@@ -43,10 +43,6 @@ double schlick_weight(double cos_theta) {
   return m2 * m2 * m;
 }
 
-double fresnel_schlick(double f0, double f90, double cos_theta) {
-  return f0 + (f90 - f0) * schlick_weight(cos_theta);
-}
-
 double dielectric_f0(double eta) {
   const double r = (eta - 1) / (eta + 1);
   return r * r;

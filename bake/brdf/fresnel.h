@@ -21,9 +21,7 @@ struct PolarisedReflectance {
 };
 PolarisedReflectance polarised_reflectance(const ComplexIndex& index, double cos_theta);
 
-// Schlick 1994: f0 at 0°, f90 at 90°.
-double fresnel_schlick(double f0, double f90, double cos_theta);
-double schlick_weight(double cos_theta);  // (1 - cosθ)^5
+double schlick_weight(double cos_theta);  // (1 - cosθ)^5: Schlick 1994
 
 // Reflectance of a smooth dielectric at normal incidence: ((eta - 1) / (eta + 1))².
 double dielectric_f0(double eta);

@@ -9,10 +9,6 @@ double tan2_of(double cos_h) {
   return std::max(0.0, (1 - cos_h) * (1 + cos_h)) / (cos_h * cos_h);
 }
 
-DVec3 around_normal(double cos_h, double sin_h, double u) {
-  return {sin_h * std::cos(2 * kPiD * u), sin_h * std::sin(2 * kPiD * u), cos_h};
-}
-
 double sin2_of(const DVec3& h) {
   return h.x * h.x + h.y * h.y;
 }
@@ -31,16 +27,6 @@ double chi_square(const Ward& ward, const Phong& phong) {
 
 }  // namespace
 
-double Ward::half_vector_pdf(const DVec3& h) const {
-  if (h.z <= 0) return 0;
-  return std::exp(-sin2_of(h) / (h.z * h.z * alpha * alpha)) / (kPiD * alpha * alpha * h.z * h.z * h.z);
-}
-
-DVec3 Ward::sample_half_vector(const DVec2& u) const {
-  const double tangent = alpha * std::sqrt(-std::log1p(-u.y)), cos_h = 1 / std::sqrt(1 + tangent * tangent);
-  return around_normal(cos_h, cos_h * tangent, u.x);
-}
-
 double Ward::lobe(double cos_h) const {
   return cos_h > 0 ? std::exp(-tan2_of(cos_h) / (alpha * alpha)) / (4 * kPiD * alpha * alpha) : 0;
 }
@@ -52,15 +38,6 @@ double Ward::f_cos(const DVec3& wo, const DVec3& wi, const DVec3& h) const {
   if (norm == WardNorm::kDuer) return value / wo.z;
   const double cos_d = glm::dot(wo, h);  // (H·H) / (H·n)⁴ of H = wo + wi is 1 / (4 cos²d cos⁴δ)
   return value * wi.z / (cos_d * cos_d * std::pow(h.z, 4));
-}
-
-double Phong::half_vector_pdf(const DVec3& h) const {
-  return h.z > 0 ? (exponent + 1) / (2 * kPiD) * lobe(h.z) / gain : 0;
-}
-
-DVec3 Phong::sample_half_vector(const DVec2& u) const {
-  const double log_cos = std::log1p(-u.y) / (exponent + 1), cos_h = std::exp(log_cos);
-  return around_normal(cos_h, std::sqrt(-std::expm1(2 * log_cos)), u.x);
 }
 
 double Phong::lobe(double cos_h) const {

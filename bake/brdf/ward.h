@@ -17,9 +17,6 @@ struct Ward {
   WardNorm norm = WardNorm::kBounded;
   double alpha = 0.1;
 
-  // The distribution of half vectors, exp(-tan²δ / α²) / (π α² cos³δ) per steradian, and what it is sampled with.
-  double half_vector_pdf(const DVec3& h) const;
-  DVec3 sample_half_vector(const DVec2& u) const;
   // exp(-tan²δ / α²) / (4 π α²): the lobe before its norm, as papers plot it.
   double lobe(double cos_h) const;
   // The BRDF times cosθi.
@@ -30,17 +27,9 @@ struct Ward {
 struct Phong {
   double exponent = 1, gain = 1;
 
-  double half_vector_pdf(const DVec3& h) const;  // (n + 1) / 2π cosⁿδ per steradian
-  DVec3 sample_half_vector(const DVec2& u) const;
   double lobe(double cos_h) const;
   double f_cos(const DVec3& wo, const DVec3& wi, const DVec3& h) const;
 };
-
-// Of a direction sampled through its half vector: half_vector_pdf / (4 wo·h).
-template <class Lobe>
-double reflected_pdf(const Lobe& lobe, const DVec3& wo, const DVec3& h) {
-  return lobe.half_vector_pdf(h) / (4 * glm::dot(wo, h));
-}
 
 // The published fit to Ward's lobe: exponent 1.999 / α², gain 0.0398 times the exponent.
 Phong published_phong(double alpha);

@@ -74,11 +74,11 @@ std::string ledger_line(const Ledger& l) {
 
 // The first few, and matte materials as a number: nothing of them is missing but mirror images that they have not. The
 // pack's plan and the report hold them all.
-void print_omissions(const std::vector<std::string>& omissions, BakeSession& session) {
+void print_omissions(const std::vector<Warning>& omissions, BakeSession& session) {
   constexpr std::size_t kShown = 8;
   std::vector<std::string> lines;
   std::size_t matte = 0;
-  for (const std::string& omission : omissions) {
+  for (const std::string& omission : texts_of(omissions)) {
     if (omission.starts_with("material '"))
       ++matte;
     else
@@ -164,11 +164,7 @@ Status run_bake(const BakeArguments& args, BakeSession& session) {
   stop_on_signals(session.context, args.bake.output, OnStop::kFinish);
   ORIEL_TRY_VOID(begin_report(args));
   Outcome outcome;
-  const auto listener = session.context.warn;
-  session.context.warn = [&](const std::string& text) {
-    outcome.warnings.push_back(text);
-    listener(text);
-  };
+  std::optional<WarningLog> log(std::in_place, session.context, outcome.warnings);
   std::optional<BakeResult> made;
   Status status;
   try {
@@ -178,7 +174,7 @@ Status run_bake(const BakeArguments& args, BakeSession& session) {
   } catch (const std::exception& error) {
     status = fail(ErrorCode::kRuntime, "", "{}", error.what());
   }
-  session.context.warn = listener;
+  log.reset();
   if (status) status = judge_result(args, *made);
   if (args.report.empty()) return status;
   outcome.kind = kind_of(status, made.has_value(), made ? &*made : nullptr);

@@ -31,11 +31,12 @@ std::string fix_of(const std::string& text) {
 
 using NodePaths = std::map<std::string, std::string>;
 
-Json records(const std::vector<std::string>& texts, const char* kind, const char* severity, const NodePaths& paths) {
+Json records(const std::vector<Warning>& warnings, const char* kind, const char* severity, const NodePaths& paths) {
   Json out = Json::array();
-  for (const std::string& text : texts) {
+  for (const Warning& warning : warnings) {
+    const std::string& text = warning.text;
     // The importer's have their own fixes.
-    const Finding known = findings_of_import(std::span(&text, 1)).front();
+    const Finding known = findings_of_import(std::span(&warning, 1)).front();
     const std::string object = object_of(text);
     const auto node = paths.find(object);
     const bool of_import = known.kind != FindingKind::kImport;
@@ -102,9 +103,9 @@ std::string outcome_json(const Outcome& o, const std::filesystem::path& scene, c
                {"findings", Json::array()}, {"shortfalls", Json::array()}};
   if (o.kind == Outcome::Kind::kRunning) json["running"] = running_json();
   if (o.result != nullptr) {
-    std::vector<std::string> missing = o.result->shortfalls;
+    std::vector<Warning> missing(o.result->shortfalls.begin(), o.result->shortfalls.end());
     missing.insert(missing.end(), o.result->left_out.begin(), o.result->left_out.end());
-    json["findings"] = records(o.result->findings, "light", "error", paths);
+    json["findings"] = records({o.result->findings.begin(), o.result->findings.end()}, "light", "error", paths);
     json["shortfalls"] = records(missing, "shortfall", "error", paths);
     json.update(Json::parse(report_json(*o.result)));
   }

@@ -21,7 +21,7 @@ struct Outcome {
   Kind kind = Kind::kRunning;
   int exit_code = -1;  // -1: not known yet
   Error error{};       // of kFailed and kStopped
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   const BakeResult* result = nullptr;  // where there is one
 };
 const char* name_of(Outcome::Kind kind);

@@ -72,7 +72,7 @@ void BakeSession::begin() {
   printer.emplace(style());
   g_json = json_log;
   context.progress = [this](const Progress& progress) { (*printer)(progress); };
-  context.warn = [this](const std::string& message) { printer->warning(message); };
+  context.warn = [this](const Warning& warning) { printer->warning(warning.text); };
 }
 
 std::vector<Option> run_options(BakeSession& session) {

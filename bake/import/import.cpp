@@ -139,7 +139,8 @@ class ImageLoader {
 void warn_of_topology(const Scene& scene, Context& context) {
   std::set<std::string> seen;
   WarningGroup odd(context,
-                   "surfaces with edges of more than two triangles or triangles that face against their neighbours");
+                   "surfaces with edges of more than two triangles or triangles that face against their neighbours",
+                   WarningKind::kFacingApart);
   for (const Surface& surface : scene.surfaces) {
     if (!seen.insert(fmt::format("{}\n{}\n{}", surface.mesh_name, surface.material, surface.triangle_count)).second)
       continue;
@@ -163,7 +164,8 @@ void warn_of_topology(const Scene& scene, Context& context) {
     if (report.non_manifold_edges > 0)
       text += fmt::format("{}{} edges are shared by more than two triangles", text.empty() ? "" : ", ",
                           report.non_manifold_edges);
-    odd.add(fmt::format("surface \"{}\": {}", surface.name, text));
+    odd.add(fmt::format("surface \"{}\": {}", surface.name, text),
+            back_matters ? WarningKind::kFacingApart : WarningKind::kSharedEdges);
   }
   odd.finish();
 }

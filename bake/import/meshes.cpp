@@ -259,7 +259,9 @@ void warn_of_drops(const std::string& what, const DropCounts& drops, WarningGrou
   add(drops.degenerate, "degenerate triangles dropped");
   add(drops.duplicate, "exact duplicates of triangles dropped");
   add(drops.incomplete, "primitives end with an incomplete triangle");
-  warnings.add(what + ": " + text);
+  warnings.add(what + ": " + text, drops.degenerate > 0  ? WarningKind::kDegenerate
+                                   : drops.duplicate > 0 ? WarningKind::kDuplicate
+                                                         : WarningKind::kOther);
 }
 
 }  // namespace
@@ -276,7 +278,7 @@ Result<std::vector<LoadedMesh>> load_meshes(const Document& document, const Buff
                                             AccessorReader& accessors, MemoryBudget& budget, Context& context) {
   std::vector<LoadedMesh> meshes;
   std::size_t thin = 0, bare = 0;
-  WarningGroup dropped(context, "meshes with degenerate, doubled or incomplete triangles");
+  WarningGroup dropped(context, "meshes with degenerate, doubled or incomplete triangles", WarningKind::kDegenerate);
   for (std::size_t i = 0; i < document.meshes.size(); ++i) {
     if (context.stopped()) return fail(ErrorCode::kStopped, document.file, "stopped");
     const MeshDesc& desc = document.meshes[i];

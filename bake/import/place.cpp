@@ -100,8 +100,8 @@ class Placer {
       : scene_(scene),
         with_colors_(with_colors),
         with_tangents_(with_tangents),
-        normals_wrong_(context, "surfaces with normals on the back of their triangles"),
-        collapsed_(context, "surfaces with triangles too small or thin for where they stand"),
+        normals_wrong_(context, "surfaces with normals on the back of their triangles", WarningKind::kNormalsBehind),
+        collapsed_(context, "surfaces with triangles too small or thin for where they stand", WarningKind::kTooSmall),
         texcoords_missing_(context, "surfaces without texture coordinates that their material wants") {}
 
   void place(const TriangleMesh& mesh, const DMat4& world_from_mesh, Surface surface) {

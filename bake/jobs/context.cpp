@@ -2,9 +2,15 @@
 
 namespace oriel {
 
-void Context::warning(const std::string& message) {
+std::vector<std::string> texts_of(const std::vector<Warning>& warnings) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : warnings) texts.push_back(warning.text);
+  return texts;
+}
+
+void Context::warning(const Warning& warning) {
   const std::lock_guard lock(mutex_);
-  if (warn) warn(message);
+  if (warn) warn(warning);
 }
 
 void Context::foretell(std::string_view part, double fraction) {

@@ -20,6 +20,27 @@ struct Progress {
   double left_s = -1;      // of the whole work, as it is foretold now; negative: nobody knows
 };
 
+// What a warning is about, for who sorts them. The text is for people.
+enum class WarningKind {
+  kOther,
+  kNormalsBehind,  // normals on the back of their triangles
+  kFacingApart,    // triangles that face against their neighbours
+  kDegenerate,     // triangles without area
+  kDuplicate,      // copies of triangles
+  kTooSmall,       // triangles below the rounding of where they stand
+  kSharedEdges,    // edges of more than two triangles
+  kUnitGuessed,    // the file's numbers are no metres
+  kEyesGuessed,    // people are of another size
+  kTimeOver,       // something is left out for want of time
+};
+struct Warning {
+  std::string text;
+  WarningKind kind;
+  Warning(std::string said, WarningKind of = WarningKind::kOther) : text(std::move(said)), kind(of) {}
+  Warning(const char* said, WarningKind of = WarningKind::kOther) : text(said), kind(of) {}
+};
+std::vector<std::string> texts_of(const std::vector<Warning>& warnings);
+
 class UnitStore;  // units.h
 
 // Shared by all stages of one bake. Every member function may be called from any thread.
@@ -28,7 +49,7 @@ class Context {
   int threads = 0;                                // 0: all that the machine has
   std::uint64_t seed = 1;                         // of every random number
   std::function<void(const Progress&)> progress;  // called from one thread at a time; may be empty
-  std::function<void(const std::string&)> warn;   // a finding the user should read; may be empty
+  std::function<void(const Warning&)> warn;       // what the user should read; may be empty
   UnitStore* units = nullptr;                     // where finished units of work are kept; null: nowhere
   Hash128 inputs;                   // of all that the stage under way is a function of: what names its units (units.h)
   std::atomic<bool> stop{false};    // set from outside (a signal handler may): stages return kStopped soon
@@ -37,7 +58,7 @@ class Context {
 
   // Work under way shall end: it is thrown away, or within an Interruptible may stay as it is.
   bool stopped() const { return stop.load(std::memory_order_relaxed) || (enough_ && enough_()); }
-  void warning(const std::string& message);
+  void warning(const Warning& warning);
   void report(std::string_view stage, double fraction, std::uint64_t rays = 0);
   // A part of a stage is under way: how much of its time is over, [0,1], as far as that can be told.
   void foretell(std::string_view part, double fraction);
@@ -62,6 +83,25 @@ class Interruptible {
 
  private:
   Context& context_;
+};
+
+// While it lives, keeps what the context is warned of; and tells it on, or not.
+class WarningLog {
+ public:
+  WarningLog(Context& context, std::vector<Warning>& warnings, bool tell_on = true)
+      : context_(context), listener_(std::move(context.warn)) {
+    context_.warn = [this, &warnings, tell_on](const Warning& warning) {
+      warnings.push_back(warning);
+      if (tell_on && listener_) listener_(warning);
+    };
+  }
+  ~WarningLog() { context_.warn = std::move(listener_); }
+  WarningLog(const WarningLog&) = delete;
+  WarningLog& operator=(const WarningLog&) = delete;
+
+ private:
+  Context& context_;
+  std::function<void(const Warning&)> listener_;
 };
 
 }  // namespace oriel

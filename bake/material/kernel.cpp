@@ -114,19 +114,6 @@ std::vector<double> sampled_weights(const LobeFunction& lobe, double cos_theta, 
 
 }  // namespace
 
-double lobe_density(KernelModel model, double alpha, double cos_theta, const DVec2& tangent) {
-  return tangent_density(microfacet_lobe(model, LobeForm::kLobe, alpha), MirrorFrame(cos_theta), tangent);
-}
-
-double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
-  const Microfacet facets = microfacet(model, alpha);
-  double total = 0;
-  for_each_reflection(cos_theta, alpha, 24, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
-    total += facets.f_cos(direction_at(cos_theta), wi, h) * solid_angle;
-  });
-  return std::min(total, 1.0);
-}
-
 BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const KernelOptions& options) {
   const double a = alpha <= 1 ? std::max(alpha, 0.0f) : 1;  // NaN: 1
   const double c = cos_theta <= 1 ? std::max(cos_theta, 1e-4f) : 1;

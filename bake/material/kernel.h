@@ -25,13 +25,4 @@ inline void fields(Archive& archive, KernelOptions& o) {
 // 3). alpha below 1e-5 gives the mirror: size 1, half_extent 0.
 BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta = 1, const KernelOptions& options = {});
 
-// The lobe's density D G2 / (4 cosθo) per unit area of the tangent plane of the mirror direction, at tangents (x, y):
-// its integral over the plane is the part of the lobe's directional albedo in that half space. alpha > 0, cos_theta >
-// 0.
-double lobe_density(KernelModel model, double alpha, double cos_theta, const DVec2& tangent);
-
-// The lobe's directional albedo without Fresnel, [0, 1]: what single scattering keeps. Quadrature over half vectors,
-// absolute error below 1e-5.
-double lobe_albedo(KernelModel model, double alpha, double cos_theta);
-
 }  // namespace oriel

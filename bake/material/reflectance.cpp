@@ -5,8 +5,6 @@
 namespace oriel {
 namespace {
 
-constexpr int kProbes = 400;  // of measure_errors()
-
 float unit(float x) {
   return x > 0 ? std::min(x, 1.0f) : 0.0f;
 }  // NaN: 0
@@ -118,11 +116,6 @@ std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::
   return table;
 }
 
-Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
-  const float whole = entry.x + entry.y;
-  return unit((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)));
-}
-
 SplitReflectance make_split_reflectance(std::uint32_t angles, std::uint32_t roughnesses) {
   SplitReflectance split{std::max(angles, 2u), std::max(roughnesses, 2u), {}};
   for (std::uint32_t j = 0; j < split.roughnesses; ++j) {
@@ -131,24 +124,6 @@ SplitReflectance make_split_reflectance(std::uint32_t angles, std::uint32_t roug
       split.table.push_back(glm::clamp(entry, Vec2(0), Vec2(1, 1 - entry.x)));
   }
   return split;
-}
-
-FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers) {
-  const ExactLayers exact(sane(layers));
-  FresnelMapErrors errors;
-  for (int i = 0; i <= kProbes; ++i) {
-    const double root = static_cast<double>(i) / kProbes;
-    const auto cos_theta = static_cast<float>(root * root * root);
-    const Vec3 r = exact(cos_theta);
-    errors.table = std::max(errors.table, double{distance(r, fresnel_lookup(map, cos_theta))});
-    if (!map.sphere.empty())
-      errors.sphere = std::max(errors.sphere, double{distance(r, sphere_lookup(map, cos_theta))});
-  }
-  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
-    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
-    errors.sphere_mean += distance(exact(cos_theta), sphere_lookup(map, cos_theta)) / double{kProbes};
-  }
-  return errors;
 }
 
 }  // namespace oriel

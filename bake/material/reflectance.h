@@ -33,8 +33,6 @@ float sphere_map_cos_theta(float r);
 // The split form as a table, entries as FresnelMap's: {scale, bias}, see split_albedo(). For materials whose f0 is a
 // texture; error below 5e-3 beside the exact R.
 std::vector<Vec2> make_split_table(const FresnelCurve& curve, float alpha, std::uint32_t entries = 129);
-// R of one texel's f0 and f90 out of an entry.
-Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90);
 // The split form with Schlick's curve for every roughness.
 SplitReflectance make_split_reflectance(std::uint32_t angles = 33, std::uint32_t roughnesses = 33);
 
@@ -49,12 +47,5 @@ class ExactLayers {
   ExactReflectance base_;
   std::optional<ExactReflectance> coat_lobe_;
 };
-
-// The largest difference of any channel from the exact R over angles that are dense at grazing; and the mean one over
-// the sphere map's disk.
-struct FresnelMapErrors {
-  double table = 0, sphere = 0, sphere_mean = 0;
-};
-FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers);
 
 }  // namespace oriel

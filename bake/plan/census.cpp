@@ -103,13 +103,13 @@ StageCensus radiosity_stage(const CensusInput& in, const LightCensus& lights) {
 }
 
 StageCensus directional_stage(const CensusInput& in) {
-  std::vector<std::string> why;
+  std::vector<Warning> why;
   const bool runs = choose_directional(in.prepared.scene(), in.options.directional, why);
-  return {
-      "directional",
-      runs,
-      runs ? (in.options.directional == Directional::kOn ? "asked for" : "materials have normal maps") : why.front(),
-      {}};
+  return {"directional",
+          runs,
+          runs ? (in.options.directional == Directional::kOn ? "asked for" : "materials have normal maps")
+               : why.front().text,
+          {}};
 }
 
 StageCensus radiance_stage(const CensusInput& in, bool dark) {

@@ -67,7 +67,7 @@ struct Census {
   std::vector<MaterialCensus> materials;  // those that cover anything
   std::vector<ReflectorCensus> reflectors;
   std::vector<StageCensus> stages;
-  std::vector<std::string> omissions;  // what is left out and why, as a bake would say
+  std::vector<Warning> omissions;  // what is left out and why, as a bake would say
 };
 
 // What the census is taken of: stages' own findings, the same that a bake acts upon.

@@ -14,26 +14,28 @@ constexpr double kMostPages = 16;       // of texels
 constexpr double kLeastTexels = 100;    // of a whole scene
 
 struct ImportRule {
-  const char* text;  // in the importer's warning
+  WarningKind warning;
   FindingKind kind;
   const char *expected, *fix;
 };
 constexpr std::array kImportRules{
-    ImportRule{"on the back of", FindingKind::kFlippedNormals,
+    ImportRule{WarningKind::kNormalsBehind, FindingKind::kFlippedNormals,
                "normals on the side from which corners run counter-clockwise",
                "recalculate normals outside (Blender: Shift+N) and export again"},
-    ImportRule{"face against their neighbours", FindingKind::kFlippedNormals, "neighbouring triangles that face alike",
+    ImportRule{WarningKind::kFacingApart, FindingKind::kFlippedNormals, "neighbouring triangles that face alike",
                "recalculate normals outside (Blender: Shift+N), or bake with --double-sided"},
-    ImportRule{"degenerate", FindingKind::kDegenerate, "triangles with an area, each once",
+    ImportRule{WarningKind::kDegenerate, FindingKind::kDegenerate, "triangles with an area, each once",
                "merge by distance and delete degenerate faces"},
-    ImportRule{"duplicates", FindingKind::kDegenerate, "triangles with an area, each once", "delete the copies"},
-    ImportRule{"too small or thin", FindingKind::kDegenerate, "triangles larger than the rounding of where they stand",
+    ImportRule{WarningKind::kDuplicate, FindingKind::kDegenerate, "triangles with an area, each once",
+               "delete the copies"},
+    ImportRule{WarningKind::kTooSmall, FindingKind::kDegenerate,
+               "triangles larger than the rounding of where they stand",
                "merge by distance, or move the scene to its origin"},
-    ImportRule{"shared by more than two", FindingKind::kDegenerate, "edges of two triangles",
+    ImportRule{WarningKind::kSharedEdges, FindingKind::kDegenerate, "edges of two triangles",
                "delete faces inside the body, or split it"},
-    ImportRule{"one unit of the file is taken", FindingKind::kImport, "numbers in metres, as glTF has them",
+    ImportRule{WarningKind::kUnitGuessed, FindingKind::kImport, "numbers in metres, as glTF has them",
                "export in metres, or name the unit with --unit"},
-    ImportRule{"people's eyes are taken", FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
+    ImportRule{WarningKind::kEyesGuessed, FindingKind::kImport, "cameras, or rooms, as people of usual size have them",
                "place a camera where eyes are, or name their height with --eye-height"},
 };
 
@@ -74,12 +76,12 @@ const char* name_of(FindingKind kind) {
   return "";
 }
 
-std::vector<Finding> findings_of_import(std::span<const std::string> warnings) {
+std::vector<Finding> findings_of_import(std::span<const Warning> warnings) {
   std::vector<Finding> findings;
-  for (const std::string& warning : warnings) {
-    Finding f = split_warning(warning);
+  for (const Warning& warning : warnings) {
+    Finding f = split_warning(warning.text);
     const auto rule = std::find_if(kImportRules.begin(), kImportRules.end(),
-                                   [&](const ImportRule& r) { return warning.find(r.text) != std::string::npos; });
+                                   [&](const ImportRule& r) { return r.warning == warning.kind; });
     const bool known = rule != kImportRules.end();
     f.kind = known ? rule->kind : FindingKind::kImport;
     f.expected = known ? rule->expected : "a file that is imported as it stands";

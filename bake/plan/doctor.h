@@ -43,7 +43,7 @@ Result<std::vector<AllowedFinding>> parse_allowed(const std::string& text);
 bool is_allowed(const Finding& finding, std::span<const AllowedFinding> allowed);
 
 // What the importer's warnings mean.
-std::vector<Finding> findings_of_import(std::span<const std::string> warnings);
+std::vector<Finding> findings_of_import(std::span<const Warning> warnings);
 // Punctual lights, emitters and the sum of all of them beside the area that they light, m².
 void check_lights(const Scene& scene, const LightSet& lights, double area_m2, std::vector<Finding>& findings);
 // Surfaces of which the eyes see the black back.

@@ -20,23 +20,6 @@ Status lay_out(BakeOptions& options, Stopwatch& timed, Context& context, Prepare
   return lay_out_lightmap(options, timed, context, prepared);
 }
 
-// Warnings of import become findings; the context's own listener is put back at the end.
-class WarningCollector {
- public:
-  explicit WarningCollector(Context& context) : context_(context), listener_(std::move(context.warn)) {
-    context_.warn = [this](const std::string& text) { warnings.push_back(text); };
-  }
-  ~WarningCollector() { context_.warn = std::move(listener_); }
-  WarningCollector(const WarningCollector&) = delete;
-  WarningCollector& operator=(const WarningCollector&) = delete;
-
-  std::vector<std::string> warnings;
-
- private:
-  Context& context_;
-  std::function<void(const std::string&)> listener_;
-};
-
 double seconds_of(const std::vector<StageTime>& times) {
   return std::accumulate(times.begin(), times.end(), 0.0,
                          [](double sum, const StageTime& t) { return sum + t.seconds; });
@@ -50,9 +33,10 @@ Result<ScenePlan> make_plan(const BakeOptions& asked, bool with_pilot, Context& 
   BakeOptions options = asked;
   std::vector<StageTime> times;
   Stopwatch timed(times);
-  WarningCollector collector(context);
+  std::vector<Warning> warnings;
+  const WarningLog log(context, warnings, false);
   ORIEL_TRY(PreparedScene prepared, prepare_scene(options, timed, context));
-  plan.findings = findings_of_import(collector.warnings);
+  plan.findings = findings_of_import(warnings);
   const Scene& scene = prepared.scene();
   ORIEL_TRY_VOID(lay_out(options, timed, context, prepared, plan.findings));
   if (options.choose_texel) options.atlas.texel_m = prepared.atlas.texel_m;

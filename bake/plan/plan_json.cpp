@@ -114,7 +114,7 @@ std::string plan_as_json(const ScenePlan& plan) {
                      {"materials", materials_json(c.materials)},
                      {"reflectors", reflectors_json(c.reflectors)},
                      {"stages", stages_json(c.stages)},
-                     {"omitted", c.omissions},
+                     {"omitted", texts_of(c.omissions)},
                      {"findings", findings_json(plan.findings, plan.allowed)},
                      {"prediction", plan.prediction ? prediction_json(*plan.prediction) : Json()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

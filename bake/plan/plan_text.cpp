@@ -97,7 +97,7 @@ std::string plan_text(const ScenePlan& plan) {
       text += fmt::format("  {:<12} {}{}\n", s.name, s.why, amounts.empty() ? "" : " (" + amounts + ")");
     }
   }
-  for (const std::string& omission : c.omissions) text += "  - " + omission + "\n";
+  for (const Warning& omission : c.omissions) text += "  - " + omission.text + "\n";
   text += findings_text(plan.findings, plan.allowed);
   if (plan.prediction) text += prediction_text(*plan.prediction);
   return text;

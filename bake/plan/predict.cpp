@@ -45,7 +45,7 @@ Status weigh(const Scene& scene, LightmapPilot& pilot) {
 
 RadiosityOptions pilot_options(const CensusInput& in) {
   RadiosityOptions options = in.options.radiosity;
-  std::vector<std::string> ignored;
+  std::vector<Warning> ignored;
   options.directional = choose_directional(in.prepared.scene(), in.options.directional, ignored);
   if (in.options.time_s > 0 && options.error <= kLeastAskedError) options.error = kNominalError;
   options.verify = 0;

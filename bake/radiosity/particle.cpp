@@ -16,9 +16,10 @@ double lumens(const Vec3& power) {
   return luminance(DVec3(power));
 }
 
-class Walk {
+class ParticleTracer {
  public:
-  Walk(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler, std::uint64_t& rays)
+  ParticleTracer(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler,
+                 std::uint64_t& rays)
       : t_(transport),
         atlas_(atlas),
         sampler_(sampler),
@@ -140,7 +141,7 @@ Vec3 share_kept(const ShadePoint& point) {
 
 Fate follow(const Transport& transport, const Atlas& atlas, const Particle& particle, Sampler& sampler,
             std::uint64_t& rays) {
-  return Walk(transport, atlas, particle, sampler, rays).run(particle.from_afar);
+  return ParticleTracer(transport, atlas, particle, sampler, rays).run(particle.from_afar);
 }
 
 }  // namespace oriel

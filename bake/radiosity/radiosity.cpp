@@ -148,7 +148,8 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (!task.options.stitch || is_dark(task.transport)) return {};
   if (task.options.late()) {
     task.context.warning(
-        "the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them");
+        {"the seams of the lightmap are not stitched: --time left none for that; a longer one stitches them",
+         WarningKind::kTimeOver});
     return {};
   }
   return stitch_lightmap(task, light);

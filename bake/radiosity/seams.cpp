@@ -119,9 +119,9 @@ class EdgeTree {
   Tree tree_;
 };
 
-class Finder {
+class SeamFinder {
  public:
-  Finder(const Transport& t, const Atlas& atlas, std::span<const LightmapPage> pages, std::uint64_t seed)
+  SeamFinder(const Transport& t, const Atlas& atlas, std::span<const LightmapPage> pages, std::uint64_t seed)
       : t_(t),
         scene_(t.accel.scene()),
         atlas_(atlas),
@@ -264,7 +264,7 @@ class Finder {
 
 Result<Seams> find_seams(const Transport& transport, const Atlas& atlas, std::span<const LightmapPage> pages,
                          Context& context, std::atomic<std::uint64_t>& rays) {
-  const Finder finder(transport, atlas, pages, context.seed);
+  const SeamFinder finder(transport, atlas, pages, context.seed);
   const std::size_t count = finder.edge_count(), runs = (count + kRun - 1) / kRun;
   std::vector<Seams> found(runs);
   ORIEL_TRY_VOID(parallel_for(context, "seams", runs, [&](std::size_t run) {

@@ -21,11 +21,15 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
     return light;
   }
   SurfacePoint surface = surface_at(t.accel.scene(), hit, ray.direction);
+  const auto begin = [&](const char* what) {
+    if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
+  };
   const float coverage = surface.shade.coverage;
   const float cos_o = glm::dot(surface.normal, -ray.direction);
   const Vec3 through = straight_transmittance(surface.shade, cos_o);
   if (max_component(through) > 0) {
     const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
+    begin("radiance behind, cd/m2");
     const PathLight behind = trace_path(t, rest, 0, sampler, rays);
     light.emission += through * (behind.emitted + behind.sky + behind.scattered);
   }
@@ -33,14 +37,27 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   if (!surface.reflects) return light;
   const float left = 1 - max_component(reflectance(surface.shade, cos_o));
   if (max_component(surface.shade.diffuse) > 0) {
+    begin("irradiance for the diffuse lobe, lux");
     const IrradianceSample e = sample_irradiance(t, surface, sampler, rays);
     const Vec3 shown = coverage * left / kPi * surface.shade.diffuse;
     light.direct = shown * e.direct;
     light.indirect = shown * e.indirect;
   }
   surface.shade.diffuse = surface.shade.transmission = Vec3(0);
+  begin("radiance by the specular lobe, cd/m2");
   light.specular = coverage * reflected_light(t, surface, -ray.direction, sampler, rays);
   return light;
+}
+
+PixelLight sample_pixel(const Transport& t, const Camera& camera, const ReferenceOptions& options,
+                        const PixelSample& sample, std::uint64_t& rays) {
+  Sampler sampler(sample.seed, std::uint64_t{sample.y} * static_cast<std::uint64_t>(options.width) + sample.x,
+                  sample.number);
+  const Vec2 spread = sampler.next2();
+  const Vec2 at = Vec2(sample.x, sample.y) + (options.antialias ? spread : Vec2(0.5f));
+  const PixelRay ray =
+      pixel_ray(camera, at.x, at.y, static_cast<float>(options.width), static_cast<float>(options.height));
+  return trace_pixel(t, {ray.origin, ray.direction}, sampler, rays);
 }
 
 // Sums over the samples of a pixel, and of squares where the noise is told.
@@ -90,6 +107,13 @@ ReferenceFrame frame_of(const std::vector<PixelSums>& sums, const ReferenceOptio
 
 }  // namespace
 
+Vec3 trace_sample(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
+                  const PixelSample& sample) {
+  std::uint64_t rays = 0;
+  const PixelLight light = sample_pixel(transport, camera, options, sample, rays);
+  return light.direct + light.indirect + light.specular + light.emission;
+}
+
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
                                         const ReferenceOptions& options, Context& context) {
   constexpr std::uint32_t kFirstRound = 16;  // fewer do not tell their noise
@@ -100,13 +124,10 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
     const auto row = [&](std::size_t y) {
       std::uint64_t rays = 0;
       for (std::size_t x = 0; x < width && !context.stopped(); ++x)
-        for (std::uint32_t i = from; i < to; ++i) {
-          Sampler sampler(context.seed, y * width + x, i);
-          const Vec2 spread = sampler.next2();
-          const Vec2 at = Vec2(x, y) + (options.antialias ? spread : Vec2(0.5f));
-          const PixelRay ray = pixel_ray(camera, at.x, at.y, static_cast<float>(width), static_cast<float>(height));
-          sums[y * width + x].add(trace_pixel(transport, {ray.origin, ray.direction}, sampler, rays));
-        }
+        for (std::uint32_t i = from; i < to; ++i)
+          sums[y * width + x].add(
+              sample_pixel(transport, camera, options,
+                           {context.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i}, rays));
       total_rays += rays;
     };
     return parallel_for(context, "reference", height, row, &total_rays);

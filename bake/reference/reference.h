@@ -32,4 +32,12 @@ struct ReferenceFrame {
 Result<ReferenceFrame> render_reference(const Transport& transport, const Camera& camera,
                                         const ReferenceOptions& options, Context& context);
 
+// One sample of a pixel of that frame alone, from the same random numbers: its radiance, cd/m².
+struct PixelSample {
+  std::uint64_t seed = 1;
+  std::uint32_t x = 0, y = 0, number = 0;
+};
+Vec3 trace_sample(const Transport& transport, const Camera& camera, const ReferenceOptions& options,
+                  const PixelSample& sample);
+
 }  // namespace oriel

@@ -17,12 +17,12 @@ constexpr double kJudging = 0.3;          // of the seconds of planning: residua
 
 }  // namespace
 
-void leave_out_maps(const std::string& why, PlannedReflections& planned) {
+void leave_out_maps(const Warning& why, PlannedReflections& planned) {
   planned.plan = {};
   for (FoundReflector& r : planned.all.found.reflectors)
-    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why;
+    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why.text;
   planned.all.curved = {};
-  planned.all.omissions.push_back("radiance maps: left out, " + why);
+  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.kind);
 }
 
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
@@ -39,7 +39,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
   ORIEL_TRY(const double share, lobe_share(dark, surroundings, planned.plan.maps, {}, context));
   paths = lobe_paths(share * planned.pixels());
-  const Deadline clock(0);
+  const ElapsedTime clock;
   UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
   const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
   context.units = units;
@@ -95,7 +95,8 @@ Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& 
       tried = time_reflections(options, prepared, lights, dark, context, planned);
     }
     if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
-    if (!tried) leave_out_maps("a few of their pixels already take too long for --time", planned);
+    if (!tried)
+      leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
   const double field = prepared.movers.empty() ? 0 : budget.for_light_field();

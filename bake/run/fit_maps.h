@@ -8,7 +8,7 @@
 namespace oriel {
 
 // Nothing is captured, and the reason is among the omissions.
-void leave_out_maps(const std::string& why, PlannedReflections& planned);
+void leave_out_maps(const Warning& why, PlannedReflections& planned);
 
 // Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
 // residual maps go by what planning took. Error kStopped.

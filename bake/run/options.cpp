@@ -15,11 +15,6 @@ Result<float> parse_length(const std::string& text) {
   return static_cast<float>(metres);
 }
 
-Result<float> parse_texel(const std::string& text) {
-  if (text == "auto") return 0.0f;
-  return parse_length(text);
-}
-
 Result<double> parse_duration(const std::string& text) {
   static constexpr Unit kUnits[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
   return parse_quantity(text, kUnits, "time", "30s, 10min or 2h");

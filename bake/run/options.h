@@ -70,8 +70,6 @@ struct BakeOptions {
 // Bytes: parse_bytes of formats/core/text.h.
 // "5cm", "0.05m", "50mm" as metres; a unit is required. Error kUsage.
 Result<float> parse_length(const std::string& text);
-// As parse_length, or "auto" as 0.
-Result<float> parse_texel(const std::string& text);
 // "30s", "10min" or "2h" as seconds; a unit is required. Error kUsage.
 Result<double> parse_duration(const std::string& text);
 // "2%" or "0.02" as a fraction, > 0. Error kUsage.

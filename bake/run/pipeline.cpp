@@ -25,7 +25,6 @@ constexpr double kSlowPaths = 1.5;     // a ray of verification takes longer tha
 constexpr double kLightField = 0.4;    // of the time that texels' first light takes a thread: measured on few scenes
 constexpr double kLeastLight_s = 0.1;  // that a lightmap takes
 constexpr double kLedgerRays = 0.01;   // of the lightmap's
-constexpr std::uint32_t kEyes = 1024;  // by which the lightmap's error is told, and as many that verify it
 
 // Whether refinement of the lightmap is to end: the user asks for it, or what is left is what later stages need.
 // `later`: seconds of these.
@@ -59,13 +58,15 @@ Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections 
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
   ReflectionReport none;
-  none.omissions.push_back(fmt::format("radiance maps: left out, {}", context.finish
-                                                                          ? "the user asked the bake to finish"
-                                                                          : "--time was over; a longer one has them"));
+  if (context.finish)
+    none.omissions.emplace_back("radiance maps: left out, the user asked the bake to finish");
+  else
+    none.omissions.emplace_back("radiance maps: left out, --time was over; a longer one has them",
+                                WarningKind::kTimeOver);
   return none;
 }
 
-void leave_out_kernels(MaterialMaps& materials, std::vector<std::string>& omissions) {
+void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions) {
   omissions.emplace_back("kernels: left out by --only");
   materials.kernels.clear();
   for (auto& kernel : materials.kernel) kernel = -1;
@@ -226,8 +227,8 @@ class Bake {
     radiosity.enough = refined_enough(options_, budget_, later_s_, context_);
     if (budget_.limited()) radiosity.left = [this] { return budget_.left() - later_s_; };
     radiosity.directional = choose_directional(scene(), options_.directional, result_.omissions);
-    radiosity.eyes = sample_eyes(prepared_.region, kEyes, context_.seed);
-    radiosity.held_out = held_out_eyes(prepared_.region, kEyes, context_.seed);
+    radiosity.eyes = sample_eyes(prepared_.region, kLightmapEyes, context_.seed);
+    radiosity.held_out = held_out_eyes(prepared_.region, kLightmapEyes, context_.seed);
     ORIEL_TRY(radiosity_, timed_("radiosity", [&](std::uint64_t& rays) {
                 const StageInputs inputs(context_, SurfacesOf{scene()}, LightsOf{scene()}, LayoutOf{prepared_.atlas},
                                          path_options(options_).max_bounces);
@@ -252,7 +253,9 @@ class Bake {
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
-    if (!ledger) result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it");
+    if (!ledger)
+      result_.omissions.emplace_back("energy ledger: left out, --time was over; a longer one has it",
+                                     WarningKind::kTimeOver);
     result_.ledger = ledger.value_or(Ledger());
     result_.findings = ledger_findings(result_.ledger);
     pack().lightmaps = std::move(radiosity_.pages);
@@ -327,7 +330,8 @@ class Bake {
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();
     for (const std::string& finding : result_.findings) context_.warning(finding);
-    result_.warnings.resize(warned);  // findings have a list of their own
+    result_.warnings.erase(result_.warnings.begin() + static_cast<std::ptrdiff_t>(warned),
+                           result_.warnings.end());  // findings have a list of their own
     if (context_.units) result_.units = context_.units->share();
   }
 
@@ -336,7 +340,8 @@ class Bake {
   Pack& pack() { return result_.pack; }
   Transport transport() const { return {accel(), *lights_, path_options(options_)}; }
   BakedScene baked() { return {accel(), *lights_, prepared_.atlas, pack().lightmaps}; }
-  void omit(const std::vector<std::string>& lines) {
+  template <class Lines>
+  void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());
   }
 
@@ -346,7 +351,7 @@ class Bake {
   BakeResult result_;
   WarningLog log_{context_, result_.warnings};
   const std::function<void(const Progress&)> listener_ = context_.progress;
-  const Deadline clock_{0};
+  const ElapsedTime clock_;
   Forecast forecast_;
   std::string_view stage_;
   Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage_ = stage, 0); }};

@@ -20,10 +20,10 @@ struct BakeResult {
   RadiosityReport radiosity;
   MapReuse map_reuse;  // of radiance maps
   Ledger ledger;
-  UnitShare units;                     // not in the pack either: empty without a store of units
-  std::vector<std::string> omissions;  // what was not modelled, and why
-  std::vector<std::string> findings;   // what is likely wrong with the light, each with its size; warned of
-  std::vector<std::string> warnings;   // all others that were told meanwhile
+  UnitShare units;                    // not in the pack either: empty without a store of units
+  std::vector<Warning> omissions;     // what was not modelled, and why
+  std::vector<std::string> findings;  // what is likely wrong with the light, each with its size; warned of
+  std::vector<Warning> warnings;      // all others that were told meanwhile
   // Why it is less than what was asked for: it ended early, missed an error or a time that was named, or left a stage
   // out for want of time. A bake that ends by its default share of rays has none.
   std::vector<std::string> shortfalls;

@@ -6,7 +6,6 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
-#include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
 #include "bake/visibility/eye_height.h"
 #include "bake/visibility/lit_eyes.h"
@@ -51,9 +50,10 @@ Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& contex
   if (!guess) return {};
   prepared.unit_guessed = true;
   context.warning(
-      fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
-                  "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
-                  guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m));
+      {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                   guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m),
+       WarningKind::kUnitGuessed});
   auto warn = std::exchange(context.warn, nullptr);  // all was said before
   const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
   context.warn = std::move(warn);
@@ -71,14 +71,17 @@ void settle_eye_height(const BakeOptions& options, bool unit_guessed, Context& c
   const auto told = guess_eye_height(*prepared.accel, unit_guessed);
   if (!told) return;
   prepared.walk = prepared.walk.scaled(told->eye_height_m / usual);
-  context.warning(fmt::format(
-      "people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to go with it: "
-      "{} "
-      "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells another unit",
-      told->eye_height_m, usual,
-      told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
-                        : std::string("without a camera"),
-      told->room_height_m, usual));
+  context.warning(
+      {fmt::format("people's eyes are taken to be {:.2f} m over the floor, not {:.1f} m, and their steps and reach to "
+                   "go with it: "
+                   "{} "
+                   "in rooms typically {:.2f} m high; --eye-height {:.1f}m keeps people of usual size, --unit tells "
+                   "another unit",
+                   told->eye_height_m, usual,
+                   told->cameras > 0 ? fmt::format("the scene's {} viewpoints are as high as that", told->cameras)
+                                     : std::string("without a camera"),
+                   told->room_height_m, usual),
+       WarningKind::kEyesGuessed});
 }
 
 // Where people can be, and pieces of what they see both near and far.
@@ -114,7 +117,7 @@ Status light_sides(const BakeOptions& options, PreparedScene& prepared, Stopwatc
   ORIEL_TRY(const FoundSides found, timed("sides", [&](std::uint64_t& rays) {
               const LightSet lights(scene);
               const StageInputs inputs(context, SurfacesOf{scene}, LightsOf{scene}, path_options(options).max_bounces);
-              const Deadline clock(0);
+              const ElapsedTime clock;
               const Interruptible until(
                   context, [&] { return options.time_s > 0 && clock.spent() > kMostForSides * options.time_s; });
               const std::vector<Vec3> eyes = sample_eyes(prepared.region, kEyesForSides, context.seed);
@@ -142,7 +145,7 @@ MaterialOptions material_options(const BakeOptions& options) {
   return material;
 }
 
-bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions) {
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warning>& omissions) {
   if (wanted == Directional::kOn) return true;
   const bool mapped = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
     const SceneMaterial& material = scene.materials[surface.material];
@@ -169,7 +172,7 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
 
 Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
                         double seconds) {
-  const Deadline clock(0);
+  const ElapsedTime clock;
   if (prepared.demand.empty()) {
     const StageInputs inputs(context, SurfacesOf{prepared.scene()});
     ORIEL_TRY(prepared.demand,

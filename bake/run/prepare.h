@@ -24,7 +24,7 @@ struct PreparedScene {
   TexelDemand demand;          // what they want of the lightmap; empty before it is laid out
   Atlas atlas;
   std::vector<TexelMapPage> texel_map;
-  std::vector<std::string> omissions;
+  std::vector<Warning> omissions;
 
   const Scene& scene() const { return imported->scene; }
 };
@@ -38,10 +38,13 @@ Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed
 Status lay_out_lightmap(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared,
                         double seconds = std::numeric_limits<double>::infinity());
 
+// By which the lightmap's error is told, and as many that verify it.
+inline constexpr std::uint32_t kLightmapEyes = 1024;
+
 PathOptions path_options(const BakeOptions& options);
 // Kernels may differ by the error that the bake may have.
 MaterialOptions material_options(const BakeOptions& options);
 // Whether the lightmap is to hold directions; why not is noted.
-bool choose_directional(const Scene& scene, Directional wanted, std::vector<std::string>& omissions);
+bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warning>& omissions);
 
 }  // namespace oriel

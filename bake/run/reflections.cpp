@@ -11,7 +11,6 @@
 #include "bake/radiance/residual.h"
 #include "bake/radiance/surround_capture.h"
 #include "bake/run/baked_light.h"
-#include "bake/run/deadline.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
 #include "bake/run/lobe_share.h"
@@ -39,14 +38,14 @@ std::vector<float> lobe_widths(const MaterialMaps& maps) {
   return out;
 }
 
-void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+void append(std::vector<Warning>& lines, const std::vector<std::string>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
 // The reflectors that eyes see, most important first, and what shines without lying in a plane.
 Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& accel,
                                        std::span<const ReflectorMaterial> materials, std::span<const Vec3> eyes,
-                                       Context& context, std::vector<std::string>& omissions) {
+                                       Context& context, std::vector<Warning>& omissions) {
   ReflectorOptions wide = options.reflectors;  // a large one that nobody sees must not push out a small one
   wide.max_reflectors = 4 * std::min(options.reflectors.max_reflectors, std::numeric_limits<std::uint32_t>::max() / 4);
   FoundReflectors found = find_reflectors(accel, materials, wide);
@@ -193,7 +192,7 @@ std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<con
 // leave_out_emitters() as a unit of work.
 Status leave_out_lamps(const Accel& accel, const std::vector<float>& lobe_widths, Context& context,
                        std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
-                       std::vector<std::string>& omissions) {
+                       std::vector<Warning>& omissions) {
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, lobe_widths, reflectors);
   std::vector<std::string> omitted;
   ORIEL_TRY_VOID(one_unit(
@@ -263,11 +262,11 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
   const std::vector<FoundReflector> found = planned.all.found.reflectors;
   BakeOptions fewer = options;
   // Planning that takes longer than twice its time ends: the maps of the round before stay, or there are none.
-  const Deadline whole(0);
+  const ElapsedTime whole;
   const double most = 2 * seconds;
   const Interruptible until(context, [&] { return whole.spent() > most; });
   for (std::uint32_t divisor = std::isfinite(seconds) ? kFewest : 1;; divisor /= kFewer) {
-    const Deadline clock(0);
+    const ElapsedTime clock;
     const double reused_before = reused_s(context);
     fewer.planned.samples = std::max(1u, options.planned.samples / divisor);
     const std::vector<FoundReflector> before = std::exchange(planned.all.found.reflectors, found);
@@ -275,7 +274,8 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
     if (!plan && !context.stop && whole.spent() > most) {
       planned.all.found.reflectors = before;
       planned.plans.clear();
-      if (divisor == kFewest) leave_out_maps("planning them takes too long for --time", planned);
+      if (divisor == kFewest)
+        leave_out_maps({"planning them takes too long for --time", WarningKind::kTimeOver}, planned);
       break;
     }
     if (!plan) return tl::unexpected(plan.error());

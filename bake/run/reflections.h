@@ -20,7 +20,7 @@ struct FoundReflections {
   std::vector<ReflectorMaterial> lobes;  // by material
   FoundReflectors found;                 // planar ones that eyes see, most important first, and what is not planar
   FoundCurvedReflectors curved;          // without texels
-  std::vector<std::string> omissions;    // what was left out, and why
+  std::vector<Warning> omissions;        // what was left out, and why
   bool empty() const { return found.reflectors.empty() && curved.reflectors.empty(); }
 };
 
@@ -33,7 +33,7 @@ struct ReflectionReport {
   std::vector<ViewQuality> quality;    // by reflector: what its maps show to eyes that were not planned for
   std::vector<ReflectedError> errors;  // by reflector: and how right that is
   std::vector<std::string> ways;       // by reflector: why it is drawn as it is
-  std::vector<std::string> omissions;  // what was not modelled, and why
+  std::vector<Warning> omissions;      // what was not modelled, and why
   std::uint64_t rays = 0;              // of capture and judging
   MapReuse reuse;                      // what an edit of the scene left of the maps of the bake before
 };

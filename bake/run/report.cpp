@@ -324,9 +324,9 @@ std::string plan_json(const BakeFacts& f) {
       {"movers", movers_json(f.movers)},
       {"light_field", light_field_json(f.pack.light_field)},
       {"start", text_of(f.start)},
-      {"omitted", f.omissions},
+      {"omitted", texts_of(f.omissions)},
       {"findings", f.findings},
-      {"warnings", f.warnings},
+      {"warnings", texts_of(f.warnings)},
   };
   return text_of(json);
 }

@@ -18,7 +18,7 @@ struct BakeFacts {
   const RadiosityReport& radiosity;
   const Ledger& ledger;
   const Pack& pack;
-  const std::vector<std::string>& omissions;
+  const std::vector<Warning>& omissions;
   DVec3 emitted_lm{0};
   const ReflectionReport& reflections;
   std::span<const MoverReport> movers;
@@ -27,7 +27,7 @@ struct BakeFacts {
   double asked = 0;    // error of the lightmap; 0: none
   Start start = Start::kOfScene;
   const std::vector<std::string>& findings;
-  const std::vector<std::string>& warnings;
+  const std::vector<Warning>& warnings;
 };
 
 std::string plan_json(const BakeFacts& facts);

@@ -5,7 +5,6 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kOverTime = "--time was over";
 constexpr double kWorse = 1.3;  // times the error that was stated, which is worth a warning
 
 void fall_short(const std::string& why, Context& context, std::vector<std::string>& shortfalls) {
@@ -70,11 +69,9 @@ void judge_stages(const BakeResult& result, Context& context, std::vector<std::s
         "the bake ended early, as asked: the pack holds what was there, with the error that is stated; the same "
         "command again goes on from the cache",
         context, shortfalls);
-  for (const auto* texts : {&result.omissions, &result.warnings})
-    for (const std::string& text : *texts)
-      if (text.find(kOverTime) != std::string::npos || text.find("for --time") != std::string::npos ||
-          text.find("of --time") != std::string::npos)
-        shortfalls.push_back(text);
+  for (const auto* all : {&result.omissions, &result.warnings})
+    for (const Warning& one : *all)
+      if (one.kind == WarningKind::kTimeOver) shortfalls.push_back(one.text);
 }
 
 }  // namespace oriel

@@ -9,6 +9,16 @@
 
 namespace oriel {
 
+// The wall clock since it was made.
+class ElapsedTime {
+ public:
+  double spent() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // seconds
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
 struct StageTime {
   std::string stage;
   double seconds = 0;
@@ -24,10 +34,10 @@ class Stopwatch {
   template <class Stage>
   auto operator()(const char* name, const Stage& stage) {
     if (begins_) begins_(name);
-    const auto start = std::chrono::steady_clock::now();
+    const ElapsedTime elapsed;
     std::uint64_t rays = 0;
     auto result = stage(rays);
-    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), rays});
+    times_.push_back({name, elapsed.spent(), rays});
     return result;
   }
 

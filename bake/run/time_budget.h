@@ -2,16 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
-#include "bake/run/deadline.h"
+#include "bake/run/stopwatch.h"
 
 namespace oriel {
 
 // Seconds that parts of the bake may take; infinite where there is no limit. Runs from when it is made.
-class TimeBudget : public Deadline {
+class TimeBudget : public ElapsedTime {
  public:
   // seconds: 0 for no limit.
-  explicit TimeBudget(double seconds) : Deadline(seconds), whole_(seconds) {}
+  explicit TimeBudget(double seconds) : whole_(seconds) {}
+
+  bool limited() const { return whole_ > 0; }
+  // Seconds, negative once it is over; infinite where there is no limit.
+  double left() const { return limited() ? whole_ - spent() : std::numeric_limits<double>::infinity(); }
 
   // Charts that are more than plain: some even where the scene alone took too long.
   double for_atlas() const { return kAtlas * std::max(left(), kLate * whole_); }

@@ -7,7 +7,7 @@
 
 namespace oriel {
 
-// An automatic texel is as large as this angle from where all that is seen is seen (ViewImportance::distance_m), and
+// An automatic texel is as large as this angle from where all that is seen is seen, and
 // what is seen has at least so many texels. Rooms as people know them get texels of about 10 cm, the same room in any
 // other unit as many of them, and a thing that stands alone some ten thousand.
 inline constexpr double kTexelAngle = 1.0 / 16;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bake/jobs/units.h"
-#include "bake/run/deadline.h"
 #include "bake/run/inputs.h"
+#include "bake/run/stopwatch.h"
 #include "bake/visibility/eye_cells.h"
 #include "bake/visibility/triangle_groups.h"
 
@@ -129,7 +129,7 @@ class SetFinder {
   const SetEyes& onlookers_;
   double seconds_;
   Context& context_;
-  Deadline clock_{0};
+  ElapsedTime clock_;
 };
 
 }  // namespace
@@ -149,7 +149,7 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
 
 Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
                                   AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                  std::vector<std::string>& omissions) {
+                                  std::vector<Warning>& omissions) {
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);
   if (!why_not.empty()) omissions.push_back("visible sets: " + why_not);
   const bool reflected = wants_reflected_sets(options, mesh.first_index.size(), onlookers);
@@ -170,7 +170,8 @@ Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel
   SetFinder finder(options, scene, onlookers, seconds, context);
   const StageInputs inputs(context, SurfacesOf{accel.scene()});
   const auto too_long = [&](const char* what) {
-    omissions.push_back(fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, seconds));
+    omissions.emplace_back(fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, seconds),
+                           WarningKind::kTimeOver);
   };
   if (why_not.empty()) {
     ORIEL_TRY(const bool done, finder.visible(visible.side, visible.seen, report.lines));

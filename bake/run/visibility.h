@@ -35,6 +35,6 @@ struct SceneSets {
 // empty and `omissions` says why. Error kStopped.
 Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
                                   AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                  std::vector<std::string>& omissions);
+                                  std::vector<Warning>& omissions);
 
 }  // namespace oriel

@@ -7,11 +7,6 @@ Vec2 sky_uv(const SkyImage& image, const Vec3& d) {
   return {u - std::floor(u), std::atan2(std::hypot(d.x, d.z), d.y) / kPi};
 }
 
-Vec3 sky_direction(const SkyImage& image, const Vec2& uv) {
-  const float phi = (uv.x - 0.5f) * 2 * kPi - image.rotation_rad, theta = uv.y * kPi;
-  return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
-}
-
 Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
   const SkyImage& image = scene.sky_image;
   if (image.texels.empty()) return scene.sky;

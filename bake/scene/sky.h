@@ -5,9 +5,8 @@
 
 namespace oriel {
 
-// Image coordinates in [0,1]², v downwards, of a direction (not zero); and back, to a unit direction.
+// Image coordinates in [0,1]², v downwards, of a direction (not zero).
 Vec2 sky_uv(const SkyImage& image, const Vec3& direction);
-Vec3 sky_direction(const SkyImage& image, const Vec2& uv);
 
 // Radiance that arrives against `direction` from where the scene ends, cd/m²: the constant, or the image, bilinear
 // between texel centres.

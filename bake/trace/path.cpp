@@ -50,9 +50,9 @@ FromEmitter sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, 
 }
 
 // One path, vertex by vertex.
-class Walk {
+class PathTracer {
  public:
-  Walk(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
+  PathTracer(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
       : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
   PathLight follow(const Ray& ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
@@ -81,10 +81,13 @@ class Walk {
     for (; passes < kMaxPasses; ++rays_, hit = t_.accel.intersect(ray)) {
       if (!hit) {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
-        (first ? light.sky : light.scattered) += throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
+        const Vec3 sky = throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
+        (first ? light.sky : light.scattered) += sky;
+        if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
+      if (t_.listener) t_.listener->meet(surface, throughput_);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
         ray.origin = spawn_origin(surface, ray.direction);
         ++passes;
@@ -95,7 +98,9 @@ class Walk {
             pdf_ > 0 ? balance(pdf_, t_.lights.pdf(from_, hit.triangle, surface.position, surface.geometric_normal))
                      : 1.0f;
         const bool lamp = mirrored_ && t_.lights.samples(hit.triangle);
-        (first ? light.emitted : lamp ? light.lamps : light.scattered) += throughput_ * surface.shade.emission * weight;
+        const Vec3 emission = throughput_ * surface.shade.emission * weight;
+        (first ? light.emitted : lamp ? light.lamps : light.scattered) += emission;
+        if (t_.listener) t_.listener->add("emission", emission);
       }
       if (!surface.reflects) {
         light.back_face = first && passes == 0;
@@ -124,7 +129,7 @@ class Walk {
     const int paths = static_cast<int>(std::min(weight, kMostPaths));
     throughput_ /= static_cast<float>(paths);
     for (int k = 1; k < paths; ++k) {
-      const PathLight other = Walk(*this).follow(ray, pdf_, bounce, throughput_);
+      const PathLight other = PathTracer(*this).follow(ray, pdf_, bounce, throughput_);
       light.scattered += other.scattered;
       light.lamps += other.lamps;
     }
@@ -159,6 +164,7 @@ class Walk {
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
+    if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
@@ -219,13 +225,14 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   const Shading shading(surface, wo);
   const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
+  if (t.listener) t.listener->add("lamps", from.light);
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
   if (!sample || sample->lobe == Lobe::kTransmission) return light;
   const Vec3 direction = shading.above(sample->wi);
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
-  const PathLight rest = Walk(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
+  const PathLight rest = PathTracer(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
   light.scattered += rest.scattered;
   light.lamps += rest.lamps;
   return light;
@@ -275,12 +282,12 @@ SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec
 }
 
 PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {
-  return Walk(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
+  return PathTracer(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
 PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first, float bsdf_pdf, Sampler& sampler,
                            std::uint64_t& rays, const OnDiffuse& on_diffuse) {
-  return Walk(t, sampler, rays, &on_diffuse).follow_from(ray, first, bsdf_pdf, 0, Vec3(1));
+  return PathTracer(t, sampler, rays, &on_diffuse).follow_from(ray, first, bsdf_pdf, 0, Vec3(1));
 }
 
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
@@ -319,13 +326,15 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
                  },
                  density)
                  .light;
+  if (t.listener) t.listener->add("lamps", s.direct);
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
   const Vec2 u = sampler.next2();
   const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = std::max(density(direction), 1e-12f);
-  const PathLight light = Walk(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
   const float weight = directional ? shading.cosine(direction) / pdf : kPi;  // cosθ / pdf
+  if (t.listener) t.listener->weigh(weight);
+  const PathLight light = PathTracer(t, sampler, rays).follow(ray, pdf, 0, Vec3(1));
   s.direct += weight * (light.emitted + light.sky);
   s.indirect = weight * light.scattered;
   s.back_face = light.back_face;

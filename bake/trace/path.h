@@ -15,11 +15,14 @@ struct PathOptions {
   int roulette_from = 3;   // bounces that are never ended by chance
 };
 
+class PathListener;
+
 // What a path needs to know of the scene.
 struct Transport {
   const Accel& accel;
   const LightSet& lights;
   PathOptions options;
+  PathListener* listener = nullptr;  // of few paths, by one thread; null: nobody listens
 };
 
 // A surface as a path meets it.
@@ -45,6 +48,20 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
 
 // The surface as light meets it that falls straight on one side of it, as geometry_at().
 SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front = true);
+
+// Is told what paths meet, vertex by vertex.
+class PathListener {
+ public:
+  virtual ~PathListener() = default;
+  // A path that gives `what` begins.
+  virtual void begin(const char* what) = 0;
+  // It meets a surface; light from there counts by `throughput`.
+  virtual void meet(const SurfacePoint& surface, const Vec3& throughput) = 0;
+  // What follows counts so many times.
+  virtual void weigh(float weight) = 0;
+  // Light comes to it: from "lamps", "emission" or "sky", throughput in it.
+  virtual void add(const char* from, const Vec3& light) = 0;
+};
 
 // The origin of a ray that leaves the surface.
 inline Vec3 spawn_origin(const SurfacePoint& s, const Vec3& direction) {

@@ -92,11 +92,11 @@ Vec3 mirrored(const Vec3& p, const Vec4& plane) {
   return p - 2 * glm::dot(plane, Vec4(p, 1)) * Vec3(plane);
 }
 
-class Finder {
+class VisibleSetFinder {
  public:
   // mirrors: none, or by cell the one that its eyes, mirrored, look through.
-  Finder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
-         std::uint64_t seed, std::span<const SeenMirror> mirrors = {})
+  VisibleSetFinder(const GroupedScene& scene, const std::vector<CellOfEyes>& cells, const VisibilityOptions& options,
+                   std::uint64_t seed, std::span<const SeenMirror> mirrors = {})
       : scene_(scene),
         geometry_(scene.accel.scene()),
         lines_(scene.accel),
@@ -327,7 +327,7 @@ class Finder {
 };
 
 // Until no cell has a suspect left.
-Status follow_suspects(Finder& finder, std::size_t cells, Context& context) {
+Status follow_suspects(VisibleSetFinder& finder, std::size_t cells, Context& context) {
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::vector<std::uint32_t>> suspects(cells);
     ORIEL_TRY_VOID(parallel_for(context, "", cells, [&](std::size_t c) { suspects[c] = finder.suspects(c); }));
@@ -359,7 +359,7 @@ Result<std::vector<std::uint8_t>> find_visible_sets(const GroupedScene& scene, s
                                                     std::uint32_t side, const VisibilityOptions& options,
                                                     Context& context, std::uint64_t& rays) {
   ORIEL_TRY(const std::vector<CellOfEyes> cells, eyes_by_cell(scene.accel, grids, side, kEyes, context));
-  Finder finder(scene, cells, options, context.seed);
+  VisibleSetFinder finder(scene, cells, options, context.seed);
   ORIEL_TRY_VOID(parallel_for(context, "visibility", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
   rays += finder.rays();
@@ -380,7 +380,7 @@ Result<std::vector<std::uint8_t>> find_reflected_sets(const GroupedScene& scene,
   }
   VisibilityOptions more = options;
   more.first_lines *= kFirstOfMirror;
-  Finder finder(scene, cells, more, context.seed, mirrors);
+  VisibleSetFinder finder(scene, cells, more, context.seed, mirrors);
   ORIEL_TRY_VOID(parallel_for(context, "reflected", cells.size(), [&](std::size_t c) { finder.look(c); }));
   ORIEL_TRY_VOID(follow_suspects(finder, cells.size(), context));
   rays += finder.rays();

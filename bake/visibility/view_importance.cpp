@@ -63,12 +63,6 @@ void follow(const Accel& accel, Ray ray, Hit hit, Sampler& sampler, float neares
 
 }  // namespace
 
-float ViewImportance::distance_m() const {
-  double pixels = 0, inverse = 0;
-  for (const TriangleView& t : triangles) pixels += t.pixels, inverse += t.inverse_square;
-  return inverse > 0 ? static_cast<float>(std::sqrt(pixels / inverse)) : 0;
-}
-
 Result<ViewImportance> find_view_importance(const Accel& accel, const EyeRegion& region,
                                             const ViewImportanceOptions& options, Context& context) {
   const Scene& scene = accel.scene();

@@ -20,10 +20,6 @@ struct TriangleView {
 struct ViewImportance {
   std::vector<TriangleView> triangles;
   double rays = 0;  // that left eyes
-
-  // The distance from which all that is seen is seen, m: (mean of 1/d²)^-1/2, of which near things weigh most. A
-  // texel of one angle seen from there covers as much as texels of that angle do on average. 0: nothing is seen.
-  float distance_m() const;
 };
 
 // Where the region is the scene's box because nobody can stand in it, half of the eyes stand around the scene, as far

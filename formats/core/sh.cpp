@@ -124,46 +124,11 @@ double cosine_factor(int l) {
   return (l / 2 % 2 == 0 ? -1 : 1) * 2 * kPiD * choose / ((l + 2.0) * (l - 1.0));
 }
 
-double cap_coefficient(int l, double half_angle_rad) {
-  const double c = std::cos(half_angle_rad);
-  return std::sqrt(kPiD / (2 * l + 1)) * (legendre(l - 1, c) - legendre(l + 1, c));
-}
-
 void turn_zonal(std::span<const double> zonal, const DVec3& axis, std::span<double> out) {
   evaluate_sh(axis, out);
   for (int l = 0, i = 0; i < static_cast<int>(out.size()); ++l) {
     const double scale = std::sqrt(4 * kPiD / (2 * l + 1)) * zonal[static_cast<std::size_t>(l)];
     for (int m = -l; m <= l; ++m, ++i) out[static_cast<std::size_t>(i)] *= scale;
-  }
-}
-
-std::vector<ShTriple> sh_triples(int bands) {
-  const SphereRule rule = sphere_rule(3 * (bands - 1));
-  const int count = sh_count(bands);
-  std::vector<std::vector<double>> y(rule.directions.size(), std::vector<double>(static_cast<std::size_t>(count)));
-  for (std::size_t d = 0; d < y.size(); ++d) evaluate_sh(rule.directions[d], y[d]);
-  std::vector<ShTriple> triples;
-  for (int i = 0; i < count; ++i)
-    for (int j = i; j < count; ++j)
-      for (int k = j; k < count; ++k) {
-        double sum = 0;
-        for (std::size_t d = 0; d < y.size(); ++d)
-          sum += rule.weights[d] * y[d][static_cast<std::size_t>(i)] * y[d][static_cast<std::size_t>(j)] *
-                 y[d][static_cast<std::size_t>(k)];
-        if (std::abs(sum) > 1e-12) triples.push_back({i, j, k, sum});
-      }
-  return triples;
-}
-
-void multiply_sh(std::span<const ShTriple> triples, std::span<const double> f, std::span<const double> g,
-                 std::span<double> out) {
-  std::fill(out.begin(), out.end(), 0.0);
-  for (const auto& [i, j, k, value] : triples) {
-    std::array order{i, j, k};
-    do {
-      out[static_cast<std::size_t>(order[2])] +=
-          value * f[static_cast<std::size_t>(order[0])] * g[static_cast<std::size_t>(order[1])];
-    } while (std::next_permutation(order.begin(), order.end()));
   }
 }
 

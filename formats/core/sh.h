@@ -26,9 +26,6 @@ void evaluate_sh(const Vec3& direction, std::span<float> out);
 // (Ramamoorthi & Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps", equation (8)).
 double cosine_factor(int l);
 
-// Coefficient (l, 0) of radiance 1 inside the cone of that half angle around +z.
-double cap_coefficient(int l, double half_angle_rad);
-
 // Coefficients of a function that is symmetric about `axis` (unit), from those (l, 0) of the same about +z; one a band.
 void turn_zonal(std::span<const double> zonal, const DVec3& axis, std::span<double> out);
 
@@ -48,17 +45,6 @@ class ShRotation {
   int bands_;
   std::vector<double> matrices_;  // (2l+1)² a band, row by row
 };
-
-// ∫ Y_i Y_j Y_k dω over the indices below bands²: those that are not 0, i <= j <= k.
-struct ShTriple {
-  int i, j, k;
-  double value;
-};
-std::vector<ShTriple> sh_triples(int bands);
-
-// Coefficients of f g, cut off at the same number of bands.
-void multiply_sh(std::span<const ShTriple> triples, std::span<const double> f, std::span<const double> g,
-                 std::span<double> out);
 
 // Scales band l by 1 / (1 + λ l²(l+1)²), the smooth window that costs the least squared error for the curvature it
 // takes away (Sloan 2008, "Stupid Spherical Harmonics Tricks", windowing). Band 0, the mean, stays.

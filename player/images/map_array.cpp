@@ -101,18 +101,6 @@ std::size_t map_array_bytes(std::span<const IVec2> sizes) {
   return shape.light.bytes() + shape.disparity.bytes() + shape.ranges.bytes();
 }
 
-MapArray MapArray::upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices) {
-  std::vector<const RadianceMap*> layers;
-  std::vector<IVec2> sizes;
-  for (const std::uint32_t index : indices) {
-    layers.push_back(&maps[index]);
-    sizes.emplace_back(static_cast<int>(maps[index].width), static_cast<int>(maps[index].height));
-  }
-  MapArrayData data = MapArrayData::make(layers);
-  return {upload_array(std::move(data.light)), upload_array(std::move(data.disparity)),
-          upload_array(std::move(data.ranges)), std::move(data.scale), std::move(sizes)};
-}
-
 TextureData map_points_data(const RadianceMap& map) {
   std::vector<Vec4> texels(map.radiance.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {

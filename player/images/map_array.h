@@ -24,9 +24,6 @@ struct MapArray {
   gpu::TextureArray light, disparity, ranges;
   std::vector<float> scale;
   std::vector<IVec2> sizes;  // of the layers' maps, pixels
-
-  // Layer i is maps[indices[i]].
-  static MapArray upload(std::span<const RadianceMap> maps, std::span<const std::uint32_t> indices);
 };
 
 // A map as points, float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.

@@ -137,12 +137,4 @@ std::size_t surround_bytes(std::uint32_t size) {
   return shape.light.bytes() + shape.inverse_distance.bytes();
 }
 
-SurroundTextures upload_surround_map(const SurroundMap& map) {
-  SurroundData data = surround_data(map);
-  SurroundTextures out = std::move(data.place);
-  out.light = upload_texture(std::move(data.light));
-  out.inverse_distance = upload_texture(std::move(data.inverse_distance));
-  return out;
-}
-
 }  // namespace oriel

@@ -39,6 +39,5 @@ struct SurroundData {
 SurroundData surround_data(const SurroundMap& map);
 // On the device.
 std::size_t surround_bytes(std::uint32_t size);
-SurroundTextures upload_surround_map(const SurroundMap& map);
 
 }  // namespace oriel

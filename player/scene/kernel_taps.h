@@ -53,10 +53,4 @@ inline RowPosition kernel_row(float cos_theta, int rows) {
   return {row, at - static_cast<float>(row)};
 }
 
-// The direction at mirror coordinates u; mirror, across and along are an orthonormal frame, along the side of u.y > 0.
-inline Vec3 lobe_direction(const Vec3& mirror, const Vec3& across, const Vec3& along, const Vec2& u) {
-  const float q = 0.25f * glm::dot(u, u);
-  return ((1 - q) * mirror + u.x * across + u.y * along) / (1 + q);
-}
-
 }  // namespace oriel

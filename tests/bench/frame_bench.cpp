@@ -46,7 +46,7 @@ int bench(int argc, char** argv) {
   app.add_option("--known-to", known_to, "error whose square is to be known to a fifth")->capture_default_str();
   app.add_option("--rays", rays, "at most")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const auto texel_m = parse_texel(texel);
+  const auto texel_m = texel == "auto" ? Result<float>(0.0f) : parse_length(texel);
   if (!texel_m) return std::fprintf(stderr, "%s\n", texel_m.error().text().c_str()), 1;
   options.choose_texel = *texel_m == 0;
   if (!options.choose_texel) options.atlas.texel_m = *texel_m;

@@ -221,7 +221,10 @@ TEST_F(CurvedFrames, MarchAlikeOnBothSides) {
   for (std::size_t i = 0; i < map.valid.size(); ++i)
     if (i % 128 > 80 && i / 128 % 32 > 12) map.inverse_distance[i] = 1.5f;  // near things that hide some of it
   const SurroundPyramid pyramid = make_surround_pyramid(map);
-  const SurroundTextures textures = upload_surround_map(map);
+  SurroundData data = surround_data(map);
+  SurroundTextures textures = std::move(data.place);
+  textures.light = upload_texture(std::move(data.light));
+  textures.inverse_distance = upload_texture(std::move(data.inverse_distance));
   std::vector<Vec4> origins, directions;
   std::mt19937 random(9);
   std::normal_distribution<float> normal;

@@ -230,8 +230,13 @@ TEST_F(March, TheShaderDoesTheSame) {
   const auto context = gpu::HeadlessContext::create();
   ASSERT_TRUE(context && gpu::open_device());
   const std::vector<RadianceMap> maps{capture({0, 0, -1}, 48, room), capture({0.3f, 0.2f, -0.8f}, 96, room_with_post)};
-  const std::vector<std::uint32_t> layers{0, 1};
-  const MapArray array = MapArray::upload(maps, layers);
+  const std::array layers{&maps[0], &maps[1]};
+  MapArrayData data = MapArrayData::make(layers);
+  const MapArray array{upload_array(std::move(data.light)),
+                       upload_array(std::move(data.disparity)),
+                       upload_array(std::move(data.ranges)),
+                       std::move(data.scale),
+                       {{48, 48}, {96, 96}}};
   constexpr int kRays = 1500;
   std::vector<Ray> rays;
   std::vector<Vec4> starts, directions;

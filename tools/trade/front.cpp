@@ -7,37 +7,27 @@
 namespace oriel::trade {
 namespace {
 
-std::optional<double> bake_seconds(const Measures& m) {
-  if (!m.bake) return {};
-  return m.bake->seconds;
-}
-
-std::optional<double> megabytes(const Measures& m) {
-  if (!m.bake) return {};
-  return 1e-6 * static_cast<double>(m.bake->bytes);
-}
-
-std::optional<double> frame_ms(const Measures& m) {
-  return m.frame_ms;
-}
-
-std::optional<double> texel_relrmse(const Measures& m) {
-  if (!m.texels) return {};
-  return m.texels->rel_rmse;
-}
-
-std::optional<double> frame_relrmse(const Measures& m) {
-  return frame_error(m, &CameraError::sum);
-}
-
 constexpr std::array<FrontKind, 4> kKinds = {{
-    {"texels_by_bake", "Lightmap error against bake time", "bake, s", "texels, relRMSE %", bake_seconds, texel_relrmse},
-    {"frames_by_bake", "Frame error against bake time", "bake, s", "frames, relRMSE %", bake_seconds, frame_relrmse},
-    {"frames_by_ms", "Frame error against frame time", "frame, ms", "frames, relRMSE %", frame_ms, frame_relrmse},
-    {"frames_by_bytes", "Frame error against size", "pack, MB", "frames, relRMSE %", megabytes, frame_relrmse},
+    {"texels_by_bake", "Lightmap error against bake time", "bake, s", "texels, relRMSE %", "bake_s", "texel_relRMSE"},
+    {"frames_by_bake", "Frame error against bake time", "bake, s", "frames, relRMSE %", "bake_s", "frame_sum"},
+    {"frames_by_ms", "Frame error against frame time", "frame, ms", "frames, relRMSE %", "frame_ms", "frame_sum"},
+    {"frames_by_bytes", "Frame error against size", "pack, MB", "frames, relRMSE %", "bytes", "frame_sum"},
 }};
 
+const Quantity& quantity(std::string_view name) {
+  return *std::ranges::find(quantities(), name, &Quantity::name);
+}
+
 }  // namespace
+
+std::optional<double> FrontKind::cost_of(const Measures& m) const {
+  const auto value = quantity(cost).value(m);
+  return value ? std::optional(quantity(cost).scale * *value) : value;
+}
+
+std::optional<double> FrontKind::error_of(const Measures& m) const {
+  return quantity(error).value(m);
+}
 
 std::vector<std::size_t> pareto_front(std::span<const CostError> points) {
   std::vector<std::size_t> order;

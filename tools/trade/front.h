@@ -20,10 +20,12 @@ std::vector<std::size_t> pareto_front(std::span<const CostError> points);
 struct FrontKind {
   const char* id;
   const char* title;
-  const char* cost_label;   // with its unit
-  const char* error_label;  // errors are shares; shown in %
-  std::optional<double> (*cost)(const Measures&);
-  std::optional<double> (*error)(const Measures&);
+  const char* cost_label;    // with its unit
+  const char* error_label;   // errors are shares; shown in %
+  const char *cost, *error;  // names of quantities()
+
+  std::optional<double> cost_of(const Measures& measures) const;  // in the label's unit
+  std::optional<double> error_of(const Measures& measures) const;
 };
 
 std::span<const FrontKind> front_kinds();

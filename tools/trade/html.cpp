@@ -55,60 +55,6 @@ for (const table of document.querySelectorAll('table.sortable')) {
 </script>
 )";
 
-struct Column {
-  const char* title;
-  const char* format;  // of the value times `scale`
-  double scale;
-  const char* front;  // of which being on it is marked here, besides those with the same cost; or empty
-  std::optional<double> (*value)(const Measures&);
-};
-
-template <double CameraError::*kError>
-std::optional<double> of_frames(const Measures& m) {
-  return frame_error(m, kError);
-}
-
-template <double TexelError::*kError>
-std::optional<double> of_texels(const Measures& m) {
-  if (!m.texels) return {};
-  return (*m.texels).*kError;
-}
-
-std::optional<double> bake_s(const Measures& m) {
-  if (!m.bake) return {};
-  return m.bake->seconds;
-}
-std::optional<double> bake_cpu_s(const Measures& m) {
-  if (!m.bake) return {};
-  return m.bake->cpu_seconds;
-}
-std::optional<double> megabytes(const Measures& m) {
-  if (!m.bake) return {};
-  return static_cast<double>(m.bake->bytes);
-}
-std::optional<double> frame_ms(const Measures& m) {
-  return m.frame_ms;
-}
-
-constexpr std::array<Column, 16> kColumns = {{
-    {"bake s", "{:.2f}", 1, "frames_by_bake", bake_s},
-    {"bake CPU s", "{:.2f}", 1, "", bake_cpu_s},
-    {"frame ms", "{:.1f}", 1, "frames_by_ms", frame_ms},
-    {"pack MB", "{:.2f}", 1e-6, "frames_by_bytes", megabytes},
-    {"texels relRMSE %", "{:.2f}", 100, "texels_by_bake", of_texels<&TexelError::rel_rmse>},
-    {"texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
-    {"texels bias %", "{:+.2f}", 100, "", of_texels<&TexelError::bias>},
-    {"texels noise %", "{:.2f}", 100, "", of_texels<&TexelError::noise>},
-    {"clouds %", "{:.2f}", 100, "", of_texels<&TexelError::clouds>},
-    {"visible", "{:.1f}", 1, "", of_texels<&TexelError::visible>},
-    {"frames relRMSE %", "{:.2f}", 100, "", of_frames<&CameraError::sum>},
-    {"D %", "{:.2f}", 100, "", of_frames<&CameraError::diffuse>},
-    {"S %", "{:.2f}", 100, "", specular_error},
-    {"frames noise %", "{:.2f}", 100, "", of_frames<&CameraError::noise>},
-    {"FLIP", "{:.4f}", 1, "", mean_flip},
-    {"PSNR dB", "{:.1f}", 1, "", psnr},
-}};
-
 std::string shown_name(const Configuration& c) {
   return c.published.empty() ? c.name() : c.name() + " – " + c.published;
 }
@@ -131,7 +77,7 @@ std::string plots_html(const Trade& trade, const std::vector<std::string>& knobs
   for (const FrontKind& kind : front_kinds()) {
     Plot plot{kind.title, kind.cost_label, kind.error_label, {}};
     for (const Row& row : trade.rows) {
-      const auto cost = kind.cost(row.measures), error = kind.error(row.measures);
+      const auto cost = kind.cost_of(row.measures), error = kind.error_of(row.measures);
       if (!cost || !error) continue;
       const auto knob = std::find(knobs.begin(), knobs.end(), row.configuration.knob) - knobs.begin();
       plot.dots.push_back({*cost, 100 * *error, row.configuration.name(),
@@ -156,7 +102,8 @@ std::string row_html(const Row& row) {
   if (!c.published.empty()) html += fmt::format("<small>{}</small>", escaped(c.published));
   if (!row.failure.empty()) html += fmt::format("<small>failed: {}</small>", escaped(row.failure));
   html += "</td>";
-  for (const Column& column : kColumns) {
+  for (const Quantity& column : quantities()) {
+    if (*column.title == 0) continue;
     const auto value = column.value(row.measures);
     if (!value) {
       html += "<td data-v=\"\"></td>";
@@ -170,7 +117,8 @@ std::string row_html(const Row& row) {
 
 std::string table_html(const Trade& trade) {
   std::string html = "<div class=\"wide\"><table class=\"sortable\"><thead><tr><th>configuration</th>";
-  for (const Column& column : kColumns) html += fmt::format("<th>{}</th>", column.title);
+  for (const Quantity& column : quantities())
+    if (*column.title != 0) html += fmt::format("<th>{}</th>", column.title);
   html += "</tr></thead><tbody>\n";
   for (const Row& row : trade.rows) html += row_html(row);
   return html + "</tbody></table></div>\n";

@@ -1,5 +1,6 @@
 #include "tools/trade/measures.h"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -97,6 +98,47 @@ std::optional<double> psnr(const Measures& measures) {
   double sum = 0;
   for (const CameraError& frame : measures.frames) sum += frame.mse;
   return psnr_db(sum / static_cast<double>(measures.frames.size()));
+}
+
+namespace {
+
+template <double CameraError::*kError>
+std::optional<double> of_frames(const Measures& m) {
+  return frame_error(m, kError);
+}
+template <auto kError>
+std::optional<double> of_texels(const Measures& m) {
+  return m.texels ? std::optional(static_cast<double>((*m.texels).*kError)) : std::nullopt;
+}
+template <auto kCost>
+std::optional<double> of_bake(const Measures& m) {
+  return m.bake ? std::optional(static_cast<double>((*m.bake).*kCost)) : std::nullopt;
+}
+
+constexpr std::array<Quantity, 17> kQuantities = {{
+    {"bake_s", "bake s", "{:.2f}", 1, "frames_by_bake", of_bake<&BakeCost::seconds>},
+    {"bake_cpu_s", "bake CPU s", "{:.2f}", 1, "", of_bake<&BakeCost::cpu_seconds>},
+    {"bytes", "pack MB", "{:.2f}", 1e-6, "frames_by_bytes", of_bake<&BakeCost::bytes>},
+    {"frame_ms", "frame ms", "{:.1f}", 1, "frames_by_ms", [](const Measures& m) { return m.frame_ms; }},
+    {"texels", "", "", 1, "", of_texels<&TexelError::texels>},
+    {"texel_relRMSE", "texels relRMSE %", "{:.2f}", 100, "texels_by_bake", of_texels<&TexelError::rel_rmse>},
+    {"texel_nRMSE", "texels nRMSE %", "{:.2f}", 100, "", of_texels<&TexelError::n_rmse>},
+    {"texel_bias", "texels bias %", "{:+.2f}", 100, "", of_texels<&TexelError::bias>},
+    {"texel_noise", "texels noise %", "{:.2f}", 100, "", of_texels<&TexelError::noise>},
+    {"texel_clouds", "clouds %", "{:.2f}", 100, "", of_texels<&TexelError::clouds>},
+    {"texel_visible", "visible", "{:.1f}", 1, "", of_texels<&TexelError::visible>},
+    {"frame_sum", "frames relRMSE %", "{:.2f}", 100, "", of_frames<&CameraError::sum>},
+    {"frame_D", "D %", "{:.2f}", 100, "", of_frames<&CameraError::diffuse>},
+    {"frame_S", "S %", "{:.2f}", 100, "", specular_error},
+    {"frame_noise", "frames noise %", "{:.2f}", 100, "", of_frames<&CameraError::noise>},
+    {"flip", "FLIP", "{:.4f}", 1, "", mean_flip},
+    {"psnr_db", "PSNR dB", "{:.1f}", 1, "", psnr},
+}};
+
+}  // namespace
+
+std::span<const Quantity> quantities() {
+  return kQuantities;
 }
 
 Result<TexelError> texel_error(const Pack& pack, const Pack& reference) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,17 @@ std::optional<double> frame_error(const Measures& measures, double CameraError::
 std::optional<double> specular_error(const Measures& measures);
 std::optional<double> mean_flip(const Measures& measures);
 std::optional<double> psnr(const Measures& measures);
+
+// One number of the above, as tables have it.
+struct Quantity {
+  const char* name;    // in trade.csv
+  const char* title;   // on the page; empty: it is not there
+  const char* format;  // there, of the value times `scale`
+  double scale;
+  const char* front;  // of which being on it is marked there; or empty
+  std::optional<double> (*value)(const Measures&);
+};
+std::span<const Quantity> quantities();  // in the order of trade.csv
 
 // Error kInvalid where the packs' texels are not the same or none is baked in both.
 Result<TexelError> texel_error(const Pack& pack, const Pack& reference);

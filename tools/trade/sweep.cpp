@@ -298,7 +298,7 @@ class Sweep {
       std::vector<CostError> points;
       std::vector<Row*> rows;
       for (Row& row : trade_.rows) {
-        const auto cost = kind.cost(row.measures), error = kind.error(row.measures);
+        const auto cost = kind.cost_of(row.measures), error = kind.error_of(row.measures);
         if (!cost || !error) continue;
         points.push_back({*cost, *error});
         rows.push_back(&row);

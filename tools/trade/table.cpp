@@ -1,5 +1,6 @@
 #include "tools/trade/table.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -51,28 +52,19 @@ std::string quoted(const std::string& text) {
   return out;
 }
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6g}", *value) : "";
-}
-
 std::string csv_row(const Row& row) {
   const Configuration& c = row.configuration;
   const Measures& m = row.measures;
   std::string line = fmt::format("{},{},{},{},{},{}", quoted(c.knob), quoted(c.setting), quoted(c.published),
                                  quoted(options_text(c.bake)), quoted(options_text(c.play)), c.paths);
-  if (m.bake)
-    line += fmt::format(",{:.6g},{:.6g},{}", m.bake->seconds, m.bake->cpu_seconds, m.bake->bytes);
-  else
-    line += ",,,";
-  line += fmt::format(",{}", number(m.frame_ms));
-  if (m.texels)
-    line += fmt::format(",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", m.texels->texels, m.texels->rel_rmse,
-                        m.texels->n_rmse, m.texels->bias, m.texels->noise, m.texels->clouds, m.texels->visible);
-  else
-    line += ",,,,,,,";
-  for (const auto& value : {frame_error(m, &CameraError::sum), frame_error(m, &CameraError::diffuse), specular_error(m),
-                            frame_error(m, &CameraError::noise), mean_flip(m), psnr(m)})
-    line += fmt::format(",{}", number(value));
+  for (const Quantity& quantity : quantities()) {
+    line += ',';
+    const auto value = quantity.value(m);
+    if (value && *value == std::floor(*value))
+      line += fmt::format("{:.0f}", *value);
+    else if (value)
+      line += fmt::format("{:.6g}", *value);
+  }
   std::string fronts;
   for (const std::string& front : row.fronts) fronts += fmt::format("{}{}", fronts.empty() ? "" : " ", front);
   return fmt::format("{},{},{}\r\n", line, fronts, quoted(row.failure));
@@ -112,10 +104,9 @@ std::string trade_json(const Trade& trade) {
 }
 
 std::string trade_csv(const Trade& trade) {
-  std::string text =
-      "knob,setting,published,bake_options,play_options,paths,bake_s,bake_cpu_s,bytes,frame_ms,texels,texel_relRMSE,"
-      "texel_nRMSE,texel_bias,texel_noise,texel_clouds,texel_visible,frame_sum,frame_D,frame_S,frame_noise,flip,psnr_"
-      "db,fronts,failure\r\n";
+  std::string text = "knob,setting,published,bake_options,play_options,paths";
+  for (const Quantity& quantity : quantities()) text += fmt::format(",{}", quantity.name);
+  text += ",fronts,failure\r\n";
   for (const Row& row : trade.rows) text += csv_row(row);
   return text;
 }

@@ -21,9 +21,9 @@ struct Candidate {
   std::uint32_t a, b;  // a < b
 };
 
-class Finder {
+class NeighbourFinder {
  public:
-  Finder(const Transport& t, const Texels& texels) : t_(t), texels_(texels) {
+  NeighbourFinder(const Transport& t, const Texels& texels) : t_(t), texels_(texels) {
     position_.resize(texels.count());
     size_.resize(texels.count());
     for (std::size_t i = 0; i < texels.count(); ++i) {
@@ -135,7 +135,7 @@ void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {
 Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, Context& context,
                                    std::atomic<std::uint64_t>& rays) {
   constexpr std::size_t kRun = 256;
-  const Finder finder(transport, texels);
+  const NeighbourFinder finder(transport, texels);
   const std::size_t runs = (texels.count() + kRun - 1) / kRun;
   std::vector<std::vector<Candidate>> free(runs);
   ORIEL_TRY_VOID(parallel_for(context, "neighbours", runs, [&](std::size_t run) {

@@ -18,6 +18,7 @@ void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, s
     const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
     if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
+    if (t_.listener) t_.listener->begin("irradiance, lux"), t_.listener->meet(surface, Vec3(1));
     sums.add(sample_irradiance(t_, surface, sampler, rays, directional_));
   }
 }

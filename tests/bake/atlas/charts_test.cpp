@@ -77,7 +77,7 @@ TEST(Stretch, OfKnownMaps) {
   EXPECT_NEAR(wide.angle(), 1.25, 1e-12);
   EXPECT_NEAR(wide.area(), 1, 1e-12);
   StretchSum uneven = measured({1, 0}, {0, 1});
-  uneven.add(measured({2, 0}, {0, 2}));
+  uneven.add(surface, {DVec2(0), DVec2(2, 0), DVec2(0, 2)});
   EXPECT_NEAR(uneven.angle(), 1, 1e-12);
   EXPECT_NEAR(uneven.area(), 0.5 * (1 + 0.5 * (1 + 0.25) * 2.5), 1e-12);
   EXPECT_EQ(measured({1, 0}, {2, 0}).l2(), std::numeric_limits<double>::infinity());

@@ -19,7 +19,7 @@ inline Built build(const Scene& scene, const AtlasOptions& options = {}, int thr
   Built built;
   Context context;
   context.threads = threads;
-  context.warn = [&](const std::string& text) { built.warnings.push_back(text); };
+  context.warn = [&](const Warning& said) { built.warnings.push_back(said.text); };
   auto atlas = build_atlas(scene, options, context);
   EXPECT_TRUE(atlas.has_value()) << (atlas ? "" : atlas.error().text());
   if (!atlas) return built;

@@ -133,7 +133,7 @@ bool Imported::warned(const std::string& text) const {
 Imported import_file(const fs::path& path, const ImportOptions& options) {
   Imported out;
   Context context;
-  context.warn = [&](const std::string& message) { out.warnings.push_back(message); };
+  context.warn = [&](const Warning& said) { out.warnings.push_back(said.text); };
   out.result = import_gltf(path, options, context);
   return out;
 }

@@ -23,6 +23,13 @@ SpecularLayers dielectric(double eta, float alpha) {
   return {{Vec3(static_cast<float>(dielectric_f0(ior))), 1, alpha, {.ior = ior, .schlick = 0}}, 0, 0};
 }
 
+// R of one texel's f0 and f90 out of an entry of a split table, as shaders/lib/fresnel.glsl has it.
+Vec3 split_reflectance(const Vec2& entry, const Vec3& f0, float f90) {
+  const float whole = entry.x + entry.y;
+  return glm::clamp((f0 * entry.x + Vec3(f90 * entry.y)) * (Vec3(1) + f0 * (1 / std::max(whole, 1e-6f) - 1)), Vec3(0),
+                    Vec3(1));
+}
+
 TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
   for (const float alpha : {0.0f, 0.01f, 0.25f, 1.0f}) {
     const FresnelMap black = make_fresnel_map(schlick(Vec3(0), 0, alpha)),
@@ -38,6 +45,34 @@ TEST(FresnelMap, IsMonotonicInF0AndNeverAboveOne) {
       EXPECT_NEAR(fresnel_lookup(white, cosine).r, 1, 2e-3) << alpha << " " << cosine;
     }
   }
+}
+
+constexpr int kProbes = 400;
+
+double max_difference(const Vec3& a, const Vec3& b) {
+  return max_component(glm::abs(a - b));
+}
+
+// The largest difference of any channel from the exact R over angles that are dense at grazing; and the mean one over
+// the sphere map's disk.
+struct FresnelMapErrors {
+  double table = 0, sphere = 0, sphere_mean = 0;
+};
+FresnelMapErrors measure_errors(const FresnelMap& map, const SpecularLayers& layers) {
+  const ExactLayers exact(layers);
+  FresnelMapErrors errors;
+  for (int i = 0; i <= kProbes; ++i) {
+    const double root = static_cast<double>(i) / kProbes;
+    const auto cos_theta = static_cast<float>(root * root * root);
+    const Vec3 r = exact(cos_theta);
+    errors.table = std::max(errors.table, max_difference(r, fresnel_lookup(map, cos_theta)));
+    if (!map.sphere.empty()) errors.sphere = std::max(errors.sphere, max_difference(r, sphere_lookup(map, cos_theta)));
+  }
+  for (int i = 0; i < kProbes && !map.sphere.empty(); ++i) {
+    const auto cos_theta = static_cast<float>((i + 0.5) / kProbes);  // even in cosθ = even in the disk's area
+    errors.sphere_mean += max_difference(exact(cos_theta), sphere_lookup(map, cos_theta)) / kProbes;
+  }
+  return errors;
 }
 
 void print(const std::string& name, float alpha, const FresnelMapErrors& errors) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/bake/material/lobe_integrals.h"
+
 namespace oriel {
 namespace {
 

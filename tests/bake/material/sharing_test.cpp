@@ -7,6 +7,7 @@
 #include "formats/pack/index.h"
 #include "formats/pack/writer.h"
 #include "tests/bake/material/fifty_materials.h"
+#include "tests/bake/material/lobe_integrals.h"
 
 namespace oriel {
 namespace {

@@ -159,7 +159,7 @@ TEST_F(Anytime, TimeEndsTheRefinementBeforeTheErrorAskedFor) {
     options.time_s = time_s;
     Context context;
     std::string warnings;
-    context.warn = [&](const std::string& text) { warnings += text; };
+    context.warn = [&](const Warning& said) { warnings += said.text; };
     auto made = bake(options, context);
     EXPECT_TRUE(made);
     EXPECT_EQ(warnings.find("--error 1 % was not reached") != std::string::npos, made->radiosity.ended_early)

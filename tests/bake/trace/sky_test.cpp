@@ -15,6 +15,12 @@
 namespace oriel {
 namespace {
 
+// The unit direction of sky_uv's coordinates.
+Vec3 sky_direction(const SkyImage& image, const Vec2& uv) {
+  const float phi = (uv.x - 0.5f) * 2 * kPi - image.rotation_rad, theta = uv.y * kPi;
+  return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+}
+
 SkyImage image_of(std::uint32_t width, std::uint32_t height) {
   return {width, height, std::vector<Vec3>(std::size_t{width} * height, Vec3(0)), 0};
 }

@@ -219,7 +219,7 @@ TEST(Probes, TheSameForAnyNumberOfThreads) {
 TEST(Probes, TheirNumberIsBounded) {
   Context context;
   std::string said;
-  context.warn = [&](const std::string& text) { said += text; };
+  context.warn = [&](const Warning& warned) { said += warned.text; };
   const Scene scene = two_rooms(0.2f);
   const auto accel = Accel::build(scene);
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3&, bool) {

@@ -44,17 +44,17 @@ TEST(Front, IsTheHyperbolaUnderACloud) {
 
 TEST(Front, KindsReadTheirMeasures) {
   Measures m;
-  for (const FrontKind& kind : front_kinds()) EXPECT_FALSE(kind.cost(m) && kind.error(m)) << kind.id;
+  for (const FrontKind& kind : front_kinds()) EXPECT_FALSE(kind.cost_of(m) && kind.error_of(m)) << kind.id;
   m.bake = BakeCost{2, 3, 4'000'000};
   m.frame_ms = 16;
   m.texels = TexelError{10, 0.25, 0.125, 0, 0};
   m.frames = {{"a", 0.3, 0, {}, 0, 0, 0}, {"b", 0.4, 0, {}, 0, 0, 0}};
   const auto kinds = front_kinds();
-  EXPECT_EQ(kinds[0].cost(m), 2);
-  EXPECT_EQ(kinds[0].error(m), 0.25);
-  EXPECT_DOUBLE_EQ(*kinds[1].error(m), std::sqrt((0.09 + 0.16) / 2));
-  EXPECT_EQ(kinds[2].cost(m), 16);
-  EXPECT_EQ(kinds[3].cost(m), 4);
+  EXPECT_EQ(kinds[0].cost_of(m), 2);
+  EXPECT_EQ(kinds[0].error_of(m), 0.25);
+  EXPECT_DOUBLE_EQ(*kinds[1].error_of(m), std::sqrt((0.09 + 0.16) / 2));
+  EXPECT_EQ(kinds[2].cost_of(m), 16);
+  EXPECT_EQ(kinds[3].cost_of(m), 4);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct Swept {
   Swept(Listed& scene, const SweepOptions& options, int max_bounces, float direct = 1) {
     Transport transport = scene.transport();
     transport.options.max_bounces = max_bounces;
-    scene.context.warn = [this](const std::string& text) { warnings.push_back(text); };
+    scene.context.warn = [this](const Warning& said) { warnings.push_back(said.text); };
     std::atomic<std::uint64_t> rays{0};
     const TexelGraph graph = *find_neighbours(transport, scene.texels, scene.context, rays);
     const Surroundings around(transport, scene.texels, true, scene.context.seed);
