@@ -130,8 +130,6 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
   surface_.use();
   for (const Shown& one : shown) draw_surface(scene, one, view, stats);
   begin(canvas_.shaded, GL_COLOR_BUFFER_BIT);
-  canvas_.places.bind(kCurvedPlaces);
-  canvas_.normals.bind(kCurvedNormals);
   shade_.use();
   for (const Shown& one : shown) {
     gpu::RasterState state;
@@ -139,6 +137,8 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
     state.stencil_ref = one.value;
     gpu::apply(state);
     set_lobe(shade_, scene, *one.reflector, view, options);
+    canvas_.places.bind(kCurvedPlaces);  // after set_lobe(), which may make textures at the unit bound last
+    canvas_.normals.bind(kCurvedNormals);
     shade_.set("u_places", kCurvedPlaces);
     shade_.set("u_normals", kCurvedNormals);
     shade_.set("u_id", static_cast<float>(one.value));

@@ -136,7 +136,7 @@ TEST(Panels, EveryPlaceIsClicked) {
   add("quality", kQualities, "auto");
   add("curve", kToneCurves, "aces");
   add("stage", kStages, "all");
-  add("reflections", kReflections, "march");
+  add("reflections", kReflections, "chosen");
   add("selection", kSelections, "angle");
   add("blur", kBlurs, "distance");
   add("kernel", kKernelPlaces, "lobe");
