@@ -282,21 +282,26 @@ std::uint32_t of_metal(std::uint32_t material, Metal metal,
 }
 
 // By node: names from a root down.
-std::vector<std::string> paths_of_nodes(const Document& document) {
-  std::vector<std::string> paths;
+// -1: a root.
+std::vector<std::int64_t> parents_of_nodes(const Document& document) {
   std::vector<std::int64_t> parent(document.nodes.size(), -1);
   for (std::size_t n = 0; n < document.nodes.size(); ++n)
     for (const std::uint32_t child : document.nodes[n].children) parent[child] = static_cast<std::int64_t>(n);
-  for (std::size_t n = 0; n < document.nodes.size(); ++n) {
-    std::string path;
-    for (auto at = static_cast<std::int64_t>(n); at >= 0; at = parent[static_cast<std::size_t>(at)]) {
-      const std::string& name = document.nodes[static_cast<std::size_t>(at)].name;
-      const std::string step = name.empty() ? fmt::format("nodes[{}]", at) : name;
-      path = path.empty() ? step : step + "/" + path;
-    }
-    paths.push_back(std::move(path));
+  return parent;
+}
+
+// Of what is deeper the last steps: files may have chains of thousands.
+std::string path_of(const Document& document, const std::vector<std::int64_t>& parent, std::uint32_t node) {
+  constexpr int kMostSteps = 32;
+  std::string path;
+  int steps = 0;
+  for (std::int64_t at = node; at >= 0; at = parent[static_cast<std::size_t>(at)]) {
+    if (++steps > kMostSteps) return "…/" + path;
+    const std::string& name = document.nodes[static_cast<std::size_t>(at)].name;
+    const std::string step = name.empty() ? fmt::format("nodes[{}]", at) : name;
+    path = path.empty() ? step : step + "/" + path;
   }
-  return paths;
+  return path;
 }
 
 }  // namespace
@@ -329,7 +334,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
     for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
       with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
   Placer placer(scene, context, with_colors, with_tangents);
-  const std::vector<std::string> paths = paths_of_nodes(document);
+  const std::vector<std::int64_t> parent = parents_of_nodes(document);
   std::optional<std::uint32_t> default_material;
   std::map<std::pair<std::uint32_t, Metal>, std::uint32_t> metal_copies;
   for (const Instance& instance : instances) {
@@ -340,7 +345,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
       surface.mesh_name = mesh.name;
-      surface.node_path = paths[instance.node];
+      surface.node_path = path_of(document, parent, instance.node);
       surface.mover = mover_of_node[instance.node];
       surface.material =
           of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
