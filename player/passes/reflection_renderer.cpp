@@ -27,8 +27,9 @@ constexpr float kEdgeOn = 1e-5f;
 // Of the frame, from which a reflector is large.
 constexpr float kLargeShare = 0.02f;
 
-// What mirrors on the way leave of a reflection that is drawn: less shows as if its lobe was wide.
-constexpr float kLeastReflectance = 0.01f;
+// What mirrors on the way leave of a reflection that is drawn: less shows as if its lobe was wide. And that, times its
+// share of the frame: an image in an image of 30 by 30 pixels at 720p, as bright as the scene.
+constexpr float kLeastReflectance = 0.01f, kLeastShown = 1e-3f;
 
 // Of the light, from which a reflector is a mirror to others.
 constexpr float kMirroring = 0.5f;
@@ -98,8 +99,9 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWo
         (options.few_reflections && target.share * share_of_picture(marked.screen) < kLargeShare))
       continue;
     const bool see_through = scene.is_transparent(reflector.material);
-    if (target.frame == nullptr &&
-        (see_through || target.reflectance * reflectance_of(scene.pack(), reflector.material) < kLeastReflectance))
+    const float left = target.reflectance * reflectance_of(scene.pack(), reflector.material);
+    if (target.frame == nullptr && (see_through || left < kLeastReflectance ||
+                                    left * target.share * share_of_picture(marked.screen) < kLeastShown))
       continue;
     if (maps) {
       ORIEL_TRY(const bool shows, scene.may_show_maps(reflector));
@@ -242,7 +244,7 @@ Status ReflectionRenderer::draw_mirrored(ReflectionWork& work, const ReflectionT
                                          sets_hold(work, target) ? reflector.seen : std::nullopt),
                          pack.reflectors[reflector.index].emitters,
                          {}};
-  if (inside.mirrors < options.orders) {
+  if (inside.mirrors < (options.coarse ? 1 : options.orders)) {
     ORIEL_TRY_VOID(draw_mirrors_in(work, inside, mirrored));
   } else {
     scene_pass.draw_reflected(scene, mirrored, stats);
