@@ -15,16 +15,6 @@ constexpr std::uint32_t kLeastSide = 16;  // of a map that is made smaller
 constexpr double kPixel_s = 1e-6;         // of surround maps, where no planar map tells
 constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
 
-}  // namespace
-
-void leave_out_maps(const Warning& why, PlannedReflections& planned) {
-  planned.plan = {};
-  for (FoundReflector& r : planned.all.found.reflectors)
-    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why.text;
-  planned.all.curved = {};
-  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.kind);
-}
-
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
   std::vector<RadianceMap> maps = planned.plan.maps;
   double tried = 0;
@@ -47,6 +37,16 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
   planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
   return {};
+}
+
+}  // namespace
+
+void leave_out_maps(const Warning& why, PlannedReflections& planned) {
+  planned.plan = {};
+  for (FoundReflector& r : planned.all.found.reflectors)
+    if (r.way == ReflectorWay::kMaps) r.way = ReflectorWay::kGeometry, r.why = why.text;
+  planned.all.curved = {};
+  planned.all.omissions.emplace_back("radiance maps: left out, " + why.text, why.kind);
 }
 
 void shrink_maps(double seconds, PlannedReflections& planned) {

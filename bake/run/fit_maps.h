@@ -10,14 +10,11 @@ namespace oriel {
 // Nothing is captured, and the reason is among the omissions.
 void leave_out_maps(const Warning& why, PlannedReflections& planned);
 
-// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
-// residual maps go by what planning took. Error kStopped.
-Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned);
-
 // Halves the sides of all maps until capture is likely to take no more than `seconds`, or the maps are tiny.
 void shrink_maps(double seconds, PlannedReflections& planned);
 
-// The same by a dark lightmap, which `dark` gets.
+// Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
+// residual maps go by what planning took. `dark` gets a lightmap for it. Error kStopped.
 Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
                         Context& context, PlannedReflections& planned);
 

@@ -33,6 +33,17 @@ std::vector<PlacedMover> in_mirrors(const GpuScene& scene, const FrameOptions& o
   return scene.reflectors().empty() ? std::vector<PlacedMover>() : place_movers(scene, unshadowed);
 }
 
+void clear_bound(const View& view, const Vec3& color) {
+  glViewport(0, 0, view.width, view.height);
+  gpu::RasterState all;
+  all.depth_write = true;
+  all.stencil_write = 0xff;
+  gpu::apply(all);
+  glClearColor(color.x, color.y, color.z, 1);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
 void count_images(GpuScene& scene, FrameStats& stats) {
   const LoadingState state = scene.images().state();
   stats.map_bytes = scene.map_bytes();
@@ -116,15 +127,7 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   clock_.start(options.timed);
   frame_->shows_samples = frame_->samples() > 1;
   frame_->drawn().bind();
-  glViewport(0, 0, view.width, view.height);
-  gpu::RasterState all;
-  all.depth_write = true;
-  all.stencil_write = 0xff;
-  gpu::apply(all);
-  const Vec3 sky = options.show == Show::kAll ? scene.pack().sky : Vec3(0);
-  glClearColor(sky.x, sky.y, sky.z, 1);
-  glClearStencil(0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  clear_bound(view, options.show == Show::kAll ? scene.pack().sky : Vec3(0));
 
   const std::vector<DrawBatch> shown = choose_shown(scene, view, options, stats);
   clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, shown, stats); });

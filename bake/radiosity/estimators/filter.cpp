@@ -101,6 +101,21 @@ Vec3 left_by_slopes(const HalfSums& sums, std::size_t i) {
   return (kLeft * kLeft / (n * n)) * sums.slope[0][i] * sums.slope[1][i];
 }
 
+// By texel, of the squared error of both halves' mean, less their noise: error(F_a) = E|F_a - b|² - noise(b) = bias² +
+// noise(F_a); the mean of both has bias² + noise(F_a) / 2. To be pooled.
+std::vector<Vec3> beyond_noise(const TwoHalves& half, const TwoHalves& smooth, Context& context) {
+  std::vector<Vec3> beyond(half[0].size());
+  each_texel(context, beyond.size(), [&](std::size_t i) {
+    const Vec3 d = smooth[0][i] - smooth[1][i], unfiltered = half[0][i] - half[1][i];
+    for (int h = 0; h < kHalves; ++h) {
+      const Vec3 to_other = smooth[h][i] - half[1 - h][i];
+      beyond[i] += 0.5f * to_other * to_other;
+    }
+    beyond[i] -= 0.5f * unfiltered * unfiltered + 0.25f * d * d;
+  });
+  return beyond;
+}
+
 }  // namespace
 
 Halves halves_of(const HalfSums& sums, Context& context) {
@@ -210,16 +225,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   of_both = pool(std::move(of_both), guide);
 
   result.value = std::move(guide), result.variance.resize(n);
-  std::vector<Vec3> beyond(n);
-  each_texel(context, n, [&](std::size_t i) {
-    const Vec3 d = smooth[0][i] - smooth[1][i], unfiltered = half[0][i] - half[1][i];
-    // error(F_a) = E|F_a - b|² - noise(b) = bias² + noise(F_a); the mean of both has bias² + noise(F_a) / 2.
-    for (int h = 0; h < kHalves; ++h) {
-      const Vec3 to_other = smooth[h][i] - half[1 - h][i];
-      beyond[i] += 0.5f * to_other * to_other;
-    }
-    beyond[i] -= 0.5f * unfiltered * unfiltered + 0.25f * d * d;
-  });
+  std::vector<Vec3> beyond = beyond_noise(half, smooth, context);
   // Relative to the light that the filter leaves, as the error asked for is.
   beyond = pool(std::move(beyond), result.value);
   each_texel(context, n, [&](std::size_t i) {

@@ -99,7 +99,7 @@ TEST(HeldOut, NameTheWorst) {
       if (t >= wrong && t < end) b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]] *= 2.0f;
     }
   const Certificate c = certificate_of(b, 0.05, kManyRays);
-  ASSERT_GE(c.worst.size(), 3u);
+  ASSERT_GE(c.worst.size(), 3u) << "else there is nothing to look at";
   double share = 0, last = 1;
   for (const WorstPixel& w : c.worst) {
     EXPECT_TRUE(w.triangle >= wrong && w.triangle < end) << w.triangle;
