@@ -89,6 +89,7 @@ struct NodeDesc {
   int mesh = -1, camera = -1, light = -1, parent = -1;
   Metal metal = Metal::kNone;     // extras.oriel_metal: of all that its mesh shows
   bool mover = false;             // extras.oriel.mover
+  std::string light_group;        // extras.oriel.light_group
   float angular_radius_rad = -1;  // for its directional light; < 0: the light's own
   std::vector<std::uint32_t> children;
   bool has_matrix = false;

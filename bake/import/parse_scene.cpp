@@ -84,6 +84,7 @@ NodeDesc parse_node(const Json& value, std::size_t count, std::size_t skins, con
   node.angular_radius_rad = angular_radius(value, -1);
   node.metal = parse_metal(value);
   node.mover = value.extra("oriel")["mover"].boolean(false);
+  node.light_group = value.extra("oriel")["light_group"].name();
   parse_transform(value, node);
   const Json children = value["children"];
   for (std::size_t i = 0; i < children.size(); ++i)

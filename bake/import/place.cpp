@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "bake/import/node_names.h"
 #include "bake/import/warning_group.h"
 
 namespace oriel {
@@ -281,29 +282,6 @@ std::uint32_t of_metal(std::uint32_t material, Metal metal,
   return found->second;
 }
 
-// By node: names from a root down.
-// -1: a root.
-std::vector<std::int64_t> parents_of_nodes(const Document& document) {
-  std::vector<std::int64_t> parent(document.nodes.size(), -1);
-  for (std::size_t n = 0; n < document.nodes.size(); ++n)
-    for (const std::uint32_t child : document.nodes[n].children) parent[child] = static_cast<std::int64_t>(n);
-  return parent;
-}
-
-// Of what is deeper the last steps: files may have chains of thousands.
-std::string path_of(const Document& document, const std::vector<std::int64_t>& parent, std::uint32_t node) {
-  constexpr int kMostSteps = 32;
-  std::string path;
-  int steps = 0;
-  for (std::int64_t at = node; at >= 0; at = parent[static_cast<std::size_t>(at)]) {
-    if (++steps > kMostSteps) return "…/" + path;
-    const std::string& name = document.nodes[static_cast<std::size_t>(at)].name;
-    const std::string step = name.empty() ? fmt::format("nodes[{}]", at) : name;
-    path = path.empty() ? step : step + "/" + path;
-  }
-  return path;
-}
-
 }  // namespace
 
 Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
@@ -334,7 +312,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
     for (const TriangleMesh& mesh : meshes[static_cast<std::size_t>(document.nodes[instance.node].mesh)].primitives)
       with_colors |= !mesh.colors.empty(), with_tangents |= !mesh.tangents.empty();
   Placer placer(scene, context, with_colors, with_tangents);
-  const std::vector<std::int64_t> parent = parents_of_nodes(document);
+  const gltf::NodeNames names(document);
   std::optional<std::uint32_t> default_material;
   std::map<std::pair<std::uint32_t, Metal>, std::uint32_t> metal_copies;
   for (const Instance& instance : instances) {
@@ -345,7 +323,8 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       Surface surface;
       surface.name = !node.name.empty() ? node.name : fmt::format("{}/{}", mesh.name, i);
       surface.mesh_name = mesh.name;
-      surface.node_path = path_of(document, parent, instance.node);
+      surface.node_path = names.path(instance.node);
+      surface.group_mark = names.light_group(instance.node);
       surface.mover = mover_of_node[instance.node];
       surface.material =
           of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);

@@ -1,5 +1,7 @@
 #include "bake/import/viewpoints.h"
 
+#include "bake/import/node_names.h"
+
 namespace oriel {
 namespace {
 
@@ -73,6 +75,7 @@ Status place_paths(const Document& document, const std::vector<std::uint32_t>& c
 Status place_viewpoints(const Document& document, std::span<const NodePose> poses,
                         std::span<const Animation> animations, Scene& scene, Context& context) {
   std::vector<std::uint32_t> camera_nodes;
+  const gltf::NodeNames names(document);
   for (const NodePose& node_pose : poses) {
     const gltf::NodeDesc& node = document.nodes[node_pose.node];
     if (node.camera < 0 && node.light < 0) continue;
@@ -85,6 +88,8 @@ Status place_viewpoints(const Document& document, std::span<const NodePose> pose
     if (node.light >= 0) {
       Light light = document.lights[static_cast<std::size_t>(node.light)];
       if (!node.name.empty()) light.name = node.name;
+      light.node_path = names.path(node_pose.node);
+      light.group_mark = names.light_group(node_pose.node);
       light.position = pose.eye;
       light.direction = pose.forward;
       light.right = glm::cross(pose.forward, pose.up);

@@ -8,6 +8,7 @@
 
 #include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
+#include "bake/radiosity/estimators/booked_pages.h"
 #include "bake/radiosity/estimators/cached.h"
 #include "bake/radiosity/estimators/detail.h"
 #include "bake/radiosity/estimators/path_estimator.h"
@@ -155,6 +156,34 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   return stitch_lightmap(task, light);
 }
 
+// The light by group of lamps, filled and dilated as the pages, which share it out where they are stitched and fitted.
+void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
+  const std::size_t groups = task.transport.accel.scene().light_groups.size();
+  if (groups == 0 || task.options.hidden == Hidden::kBlack) return;
+  const Radiosity empty = empty_radiosity(task.map, false);
+  light.groups.assign(groups, empty.pages);
+  if (!estimator.write_groups(light.groups)) {
+    light.groups.clear();
+    return;
+  }
+  for (std::size_t p = 0; p < task.map.size(); ++p) {
+    for (auto& pages : light.groups) {
+      for (const std::uint32_t texel : task.map[p].texel) {
+        const bool valid = light.pages[p].state[texel] == TexelState::kValid;
+        pages[p].state[texel] = valid ? TexelState::kValid : TexelState::kBuried;
+      }
+      fill_buried(task.atlas, task.map[p], pages[p]);
+      dilate(task.options.dilation, pages[p]);
+    }
+    share_out_page(light.pages[p], p, light.groups);
+  }
+}
+
+void share_out_details(Radiosity& light) {
+  for (std::size_t p = 0; p < light.pages.size() && !light.groups.empty(); ++p)
+    share_out_page(light.pages[p], p, light.groups);
+}
+
 // Where there is no time for it, texels have to do.
 Status add_detail_in_time(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
   const RadiosityOptions& options = task.options;
@@ -269,7 +298,9 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     light.report.refinements = refinements;
     estimator->write(light);
     ORIEL_TRY_VOID(fill_and_stitch(task, light));
+    write_groups(task, *estimator, light);
     ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
+    share_out_details(light);
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.certificate, verify(task, light, held_out));

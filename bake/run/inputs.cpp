@@ -45,6 +45,13 @@ void fields(Archive& archive, const LightsOf& of) {
     archive(light.type, light.position, light.direction, light.right, light.color, light.intensity,
             light.inner_cone_rad, light.outer_cone_rad, light.angular_radius_rad, light.profile);
   for (const LightProfile& profile : s.profiles) archive(profile.vertical_deg, profile.horizontal_deg, profile.candela);
+  // Whose light it is.
+  archive(s.light_groups.size());
+  if (!s.light_groups.empty()) {
+    archive(s.sky_group);
+    for (const Surface& surface : s.surfaces) archive(surface.light_group);
+    for (const Light& light : s.lights) archive(light.light_group);
+  }
   archive(s.sky_image.width, s.sky_image.height, s.sky_image.texels, s.sky_image.rotation_rad, s.sky);
 }
 

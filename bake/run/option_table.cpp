@@ -263,6 +263,11 @@ std::vector<Option> bake_options(BakeOptions& o) {
   std::vector<Option> options = atlas_options(o);
   append(options, radiosity_options(o));
   append(options, light_options(o.import));
+  options.push_back({"--light-groups", kLight,
+                     "Lamps whose light is kept apart, so that the player switches, dims and colours them: marked (as "
+                     "the file's nodes say, extras.oriel.light_group), off, auto (what hangs on one node), each (every "
+                     "lamp), or a JSON file of groups and their nodes",
+                     light_groups(o), Use::kEveryday, "light_groups", "lights.md"});
   append(options, reflection_options(o));
   options.push_back(mover_option(o.import));
   append(options, transfer_options(o));

@@ -177,6 +177,26 @@ OptionValue self_shadow(BakeOptions& o) {
   return value;
 }
 
+OptionValue light_groups(BakeOptions& o) {
+  const auto name = [&o]() -> std::string {
+    constexpr std::array<const char*, 4> kNames{"marked", "off", "auto", "each"};
+    const auto by = static_cast<std::size_t>(o.light_groups.by);
+    return by < kNames.size() ? kNames[by] : o.light_groups.file;
+  };
+  return {"marked|off|auto|each|FILE",
+          [&o](const std::string& typed) -> Status {
+            ORIEL_TRY(o.light_groups, parse_light_groups(typed));
+            return {};
+          },
+          name,
+          [&o, name] {
+            if (o.light_groups.by != LightGrouping::kNamed) return Json(name());
+            Json json = Json::object();
+            for (const auto& [group, nodes] : o.light_groups.named) json[group] = nodes;
+            return Json{{"light_groups", json}};
+          }};
+}
+
 OptionValue unit(BakeOptions& o) {
   OptionValue value =
       choice(o.import.unit_m,

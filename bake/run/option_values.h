@@ -28,6 +28,7 @@ OptionValue eyes(BakeOptions& o);
 OptionValue map_price(BakeOptions& o);
 OptionValue self_shadow(BakeOptions& o);
 OptionValue unit(BakeOptions& o);
+OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);
 OptionValue profiles(ImportOptions& o);  // --ies
 

@@ -13,6 +13,7 @@
 #include "bake/radiance/views.h"
 #include "bake/radiance/ways.h"
 #include "bake/radiosity/radiosity.h"
+#include "bake/run/light_groups.h"
 #include "bake/transfer/compress.h"
 #include "bake/transfer/probes.h"
 #include "bake/visibility/eye_region.h"
@@ -40,6 +41,7 @@ struct BakeOptions {
   std::uint64_t memory_bytes = 0;  // of the whole bake; 0: no limit
   bool memory_given = false;       // by the user: else it is the machine's, and not recorded
   bool choose_texel = false;       // from what people see and how far (view_demand.h), instead of atlas.texel_m
+  LightGroupOptions light_groups;
   RadiosityOptions radiosity;      // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;

@@ -8,6 +8,7 @@
 #include "bake/run/assemble.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/forecast.h"
+#include "bake/run/group_light.h"
 #include "bake/run/inputs.h"
 #include "bake/run/movers.h"
 #include "bake/run/prepare.h"
@@ -134,6 +135,7 @@ class Bake {
     for (const Surface& surface : scene().surfaces)
       for (const std::string& name : {surface.name, surface.mesh_name})
         result_.node_paths.try_emplace(name, surface.node_path);
+    ORIEL_TRY_VOID(assign_light_groups(options_.light_groups, prepared_.imported->scene, context_));
     lights_.emplace(scene());
     warn_about_light(scene(), *lights_, context_);
     foretell_light();
@@ -259,6 +261,8 @@ class Bake {
     result_.ledger = ledger.value_or(Ledger());
     result_.findings = ledger_findings(result_.ledger);
     pack().lightmaps = std::move(radiosity_.pages);
+    if (!scene().light_groups.empty() && radiosity_.groups.empty())
+      result_.omissions.emplace_back("light groups: --estimator cached tells whose light it is, without --hidden-black");
     return {};
   }
 
@@ -302,6 +306,10 @@ class Bake {
     context_.foretell("writing", 0);
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
+    ORIEL_TRY_VOID(timed_("light groups", [&](std::uint64_t& rays) -> Status {
+      assemble_light_groups(baked(), std::exchange(radiosity_.groups, {}), rays, pack());
+      return {};
+    }));
     ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
     if (!pack().visible_sets.empty())
       pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);

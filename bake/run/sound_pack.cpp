@@ -54,14 +54,19 @@ void remove_movers(Pack& pack) {
   pack.light_field = {};
 }
 
+void remove_light_groups(Pack& pack) {
+  pack.light_groups.clear();
+  pack.group_lights.clear();
+}
+
 void remove_walk_grids(Pack& pack) {
   pack.walk_grids.clear();
   pack.visible_sets = {};
   pack.reflected_sets = {};
 }
 
-const std::array<Removable, 11>& removables() {
-  static const std::array<Removable, 11> kAll = {{
+const std::array<Removable, 12>& removables() {
+  static const std::array<Removable, 12> kAll = {{
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
@@ -74,6 +79,7 @@ const std::array<Removable, 11>& removables() {
       {"visible sets",
        {kVisibleSetsSection, kReflectedSetsSection},
        [](Pack& pack) { pack.visible_sets = {}, pack.reflected_sets = {}; }},
+      {"light groups", {kLightGroupSection, kGroupLightSection}, remove_light_groups},
       {"movers", {kMoverSection, kLightFieldSection}, remove_movers},
   }};
   return kAll;

@@ -80,6 +80,8 @@ struct Surface {
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces
   bool has_uv1 = false;
   std::int32_t mover = -1;  // into Scene::movers; -1: it stands still
+  std::string group_mark{};       // extras.oriel.light_group of its node, or of the nearest above it that has one
+  std::uint32_t light_group = 0;  // into Scene::light_groups, where it shines and there are any
 };
 
 // What moves as one rigid object. Object space: the node's origin, the world's directions turned as the node is; its
@@ -114,6 +116,15 @@ struct Light {
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles
   float angular_radius_rad = 0;                           // directional: half its angular diameter, at most π/2
   std::int32_t profile = -1;  // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
+  std::string node_path{};        // as Surface's
+  std::string group_mark{};       // likewise
+  std::uint32_t light_group = 0;  // into Scene::light_groups, where there are any
+};
+
+// Lamps that are switched together: their light is kept apart from all other.
+struct SceneLightGroup {
+  std::string name;
+  std::vector<std::string> lamps;  // names of nodes, of a sky "sky"
 };
 
 // Radiance from all around on a latitude-longitude grid: row 0 ends at +Y, the last row at -Y; the centre is +X and +Z
@@ -154,7 +165,11 @@ struct Scene {
   std::vector<LightProfile> profiles;
   SkyImage sky_image;  // read it by sky_radiance() in sky.h
   Vec3 sky{0};  // radiance of the sky, cd/m² (an option of the bake, not of glTF): constant, or the image's mean
+  // Every lamp has one of them; empty: nobody asks whose light it is.
+  std::vector<SceneLightGroup> light_groups;
+  std::uint32_t sky_group = 0;  // into light_groups
 
+  std::uint32_t light_group(std::uint32_t triangle) const { return surfaces[triangle_surface[triangle]].light_group; }
   float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 

@@ -66,6 +66,7 @@ Particle Sources::emit_near(Sampler& sampler) const {
   Particle p =
       near.punctual ? emit_punctual(scene_.lights[near.index], sampler.next2()) : emit_triangle(near.index, sampler);
   p.power /= chosen.probability;
+  p.group = near.punctual ? scene_.lights[near.index].light_group : scene_.light_group(near.index);
   return p;
 }
 

@@ -12,6 +12,7 @@ struct Particle {
   Vec3 power{0};           // lm
   bool punctual = false;   // from a point or spot light
   bool from_afar = false;  // by the sky or a directional light, through a disk as large as the scene
+  std::uint32_t group = 0;  // of lamps, into Scene::light_groups: of a near source
 };
 
 enum class SourceKind : std::uint8_t { kNear, kDirectional, kSky };

@@ -144,6 +144,7 @@ LightSample LightSet::sample_triangle(const Near& near, const Vec3& p, const Vec
   const float cosine = -glm::dot(near.normal, s.direction);
   if (near.double_sided ? cosine == 0 : cosine <= 0) return s;
   s.pdf = d2 / (near.area * std::abs(cosine));
+  s.group = scene_->light_group(near.index);
   s.estimate = shade_point(*scene_, near.index, barycentric).emission / s.pdf;
   s.distance -= s.distance * 0x1p-14f + near.margin / std::abs(cosine);  // stop short of the emitter itself
   return s;
@@ -152,6 +153,7 @@ LightSample LightSet::sample_triangle(const Near& near, const Vec3& p, const Vec
 LightSample LightSet::sample_light(std::uint32_t index, const Vec3& p, const Vec2& v) const {
   const Light& light = scene_->lights[index];
   LightSample s;
+  s.group = light.light_group;
   if (light.type == LightType::kDirectional) {
     s.direction = -light.direction;
     s.estimate = light.intensity;
@@ -176,6 +178,7 @@ LightSample LightSet::sample_sky(const Vec2& v) const {
   LightSample s;
   s.direction = sky.direction;
   s.pdf = sky.pdf;
+  s.group = scene_->sky_group;
   if (s.pdf > 0) s.estimate = sky_radiance(*scene_, s.direction) / s.pdf;
   return s;
 }

@@ -18,7 +18,8 @@ float balance(float pdf, float other) {
 // which the other strategy would have chosen that direction.
 struct FromEmitter {
   Vec3 light{0};
-  bool near = false;  // LightSample::near
+  bool near = false;        // LightSample::near
+  std::uint32_t group = 0;  // LightSample::group
 };
 template <class Reflect, class Pdf>
 FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
@@ -37,9 +38,9 @@ FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampl
     t.accel.dropped().add(surface.triangle);
     return {};
   }
-  if (!(light.distance > 0)) return {value, light.near};  // touching
+  if (!(light.distance > 0)) return {value, light.near, light.group};  // touching
   ++rays;
-  return {value * t.accel.transmittance({origin, light.direction, light.distance}), light.near};
+  return {value * t.accel.transmittance({origin, light.direction, light.distance}), light.near, light.group};
 }
 
 FromEmitter sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading,
@@ -83,6 +84,7 @@ class PathTracer {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
         const Vec3 sky = throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         (first ? light.sky : light.scattered) += sky;
+        if (t_.book) t_.book->add(first ? LightBook::kSky : LightBook::kScattered, t_.accel.scene().sky_group, sky);
         if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
@@ -100,6 +102,11 @@ class PathTracer {
         const bool lamp = mirrored_ && t_.lights.samples(hit.triangle);
         const Vec3 emission = throughput_ * surface.shade.emission * weight;
         (first ? light.emitted : lamp ? light.lamps : light.scattered) += emission;
+        if (t_.book)
+          t_.book->add(first  ? LightBook::kEmitted
+                       : lamp ? LightBook::kLamps
+                              : LightBook::kScattered,
+                       t_.accel.scene().light_group(hit.triangle), emission);
         if (t_.listener) t_.listener->add("emission", emission);
       }
       if (!surface.reflects) {
@@ -164,6 +171,9 @@ class PathTracer {
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
+    if (t_.book)
+      t_.book->add(mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group,
+                   throughput_ * from.light);
     if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
@@ -225,6 +235,7 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   const Shading shading(surface, wo);
   const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
+  if (t.book) t.book->add(from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());

@@ -1,10 +1,13 @@
 // The path tracer that the radiosity textures and the reference frames share.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "bake/trace/bsdf.h"
+#include "bake/trace/dropped.h"
 #include "bake/trace/lights.h"
 #include "bake/trace/sampler.h"
 
@@ -15,6 +18,7 @@ struct PathOptions {
   int roulette_from = 3;   // bounces that are never ended by chance
 };
 
+class LightBook;
 class PathListener;
 
 // What a path needs to know of the scene.
@@ -23,6 +27,7 @@ struct Transport {
   const LightSet& lights;
   PathOptions options;
   PathListener* listener = nullptr;  // of few paths, by one thread; null: nobody listens
+  LightBook* book = nullptr;         // by one thread; null: nobody asks whose light it is
 };
 
 // A surface as a path meets it.
@@ -61,6 +66,27 @@ class PathListener {
   virtual void weigh(float weight) = 0;
   // Light comes to it: from "lamps", "emission" or "sky", throughput in it.
   virtual void add(const char* from, const Vec3& light) = 0;
+};
+
+// Adds up the light of paths that leave diffuse reflection to their caller (trace_to_diffuse, specular_light), by group
+// of lamps (Scene::light_groups).
+class LightBook {
+ public:
+  enum Kind { kEmitted, kSky, kScattered, kLamps };  // as PathLight's members
+
+  // Of what follows each kind counts so many times.
+  void begin(std::size_t groups, const std::array<float, 4>& weight) {
+    light_.assign(groups, Vec3(0));
+    weight_ = weight;
+  }
+  void add(Kind kind, std::uint32_t group, const Vec3& light) {
+    if (is_usable(light)) light_[group] += weight_[kind] * light;
+  }
+  std::span<const Vec3> light() const { return light_; }  // by group
+
+ private:
+  std::vector<Vec3> light_;
+  std::array<float, 4> weight_{};
 };
 
 // The origin of a ray that leaves the surface.

@@ -91,6 +91,7 @@ void validate_mesh(const Pack& pack, IssueList& list);
 void validate_mesh(const Pack& pack, const Mesh& mesh, IssueList& list);
 void validate_movers(const Pack& pack, IssueList& list);
 void validate_light_field(const Pack& pack, IssueList& list);
+void validate_light_groups(const Pack& pack, IssueList& list);
 void validate_materials(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);

@@ -96,9 +96,11 @@ inline constexpr std::uint32_t kVisibleSetsSection = fourcc("PVIS");
 inline constexpr std::uint32_t kReflectedSetsSection = fourcc("RVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
+inline constexpr std::uint32_t kLightGroupSection = fourcc("LGRP");
+inline constexpr std::uint32_t kGroupLightSection = fourcc("GLIT");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 24> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 26> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -123,6 +125,8 @@ inline constexpr std::array<SectionKind, 24> kSectionKinds = {{
     {kReflectedSetsSection, "reflected sets", true, false, false},
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
+    {kLightGroupSection, "light groups", true, false, false},
+    {kGroupLightSection, "light of a group", true, false, true},
 }};
 
 // nullptr for a kind that this version does not know.

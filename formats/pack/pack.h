@@ -9,6 +9,7 @@
 #include "formats/assets/emitter.h"
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/light_field.h"
+#include "formats/assets/light_group.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/map_mesh.h"
 #include "formats/assets/material.h"
@@ -58,6 +59,8 @@ struct Pack {
   VisibleSets visible_sets;          // of mesh and walk grids; empty: all is drawn from everywhere
   ReflectedSets reflected_sets;      // of reflectors, in the groups of visible_sets; empty: all is drawn in each
   std::vector<Mover> movers;
+  std::vector<LightGroup> light_groups;  // none: lamps shine as they were baked
+  std::vector<GroupLight> group_lights;
   LightField light_field;  // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;
 };

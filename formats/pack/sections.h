@@ -28,6 +28,8 @@ void describe(Serial& s, VisibleSets& sets);
 void describe(Serial& s, ReflectedSets& sets);
 void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
+void describe(Serial& s, LightGroup& group);
+void describe(Serial& s, GroupLight& light);
 
 // The beginning of an image's section: all but what is there by texel.
 struct RadianceMapScale {
@@ -93,6 +95,8 @@ void visit_sections(P& pack, Visitor& v) {
   v.one(kReflectedSetsSection, pack.reflected_sets, !pack.reflected_sets.empty());
   v.each(kMoverSection, pack.movers);
   v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
+  v.list(kLightGroupSection, pack.light_groups);
+  v.each(kGroupLightSection, pack.group_lights);
 }
 inline void describe(Serial& s, Vec3& sky) {
   s(sky);

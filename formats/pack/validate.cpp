@@ -217,6 +217,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_reflected_sets(pack, list);
   validate_movers(pack, list);
   validate_light_field(pack, list);
+  validate_light_groups(pack, list);
   validate_unknown(pack, list);
   return std::move(list.issues);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "bake/radiosity/estimators/booked_pages.h"
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
 #include "bake/radiosity/estimators/lamp_light.h"
@@ -45,9 +46,9 @@ class CachedEstimator : public LightEstimator {
         sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
         direct_light_(task.transport, texels_, sites_, task.context.seed),
         around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
-        direct_(texels_.count(), options_.directional),
-        gathered_(texels_.count(), options_.directional),
-        lamps_(texels_.count(), options_.directional),
+        direct_(texels_.count(), options_.directional, around_.groups()),
+        gathered_(texels_.count(), options_.directional, around_.groups()),
+        lamps_(texels_.count(), options_.directional, around_.groups()),
         keep_beside_(texels_.count()),
         frames_(task.pixels, task.map, texels_.has_light()) {}
 
@@ -81,8 +82,18 @@ class CachedEstimator : public LightEstimator {
     }
   }
 
+  bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
+    BookedLight direct = direct_.booked, gathered = gathered_.mean_booked();
+    (void)filtered_direct(&direct), (void)filtered_gathered(&gathered);
+    direct.add(gathered);
+    write_booked(texels_, direct, groups);
+    return true;
+  }
+
   std::optional<TexelLight> texel_light() const override {
-    return TexelLight{texels_, around_, cached_, smooth_beside(lamps_, texels_, graph_, gathered_, context_), shares_};
+    BookedLight booked;
+    std::vector<Vec3> beside = smooth_beside(lamps_, texels_, graph_, gathered_, context_, booked);
+    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), shares_};
   }
 
  private:
@@ -99,11 +110,13 @@ class CachedEstimator : public LightEstimator {
       ORIEL_TRY_VOID(follow_lamps(first_particles(texels_.count(), options_), lamps_, gathered_));
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
-    const SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    SweepOptions how = sweep_options(options_, goal.error, texels_.count());
+    if (around_.groups() > 0) booked_ = direct_.booked, booked_.add(gathered_.beside_booked), how.booked = &booked_;
     ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
+    if (how.booked) booked_.add(sweeps_.booked), cached_.booked = &booked_;
     take_known();
     ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
     ORIEL_TRY_VOID(first_gather());
@@ -135,7 +148,7 @@ class CachedEstimator : public LightEstimator {
     known_name_ = name_of_known_light(around_.transport().accel.scene(), texels_, options_, around_.transport().options,
                                       context_.seed);
     // With one bounce nothing is known of gathered light before the gather.
-    if (options_.reuse_error <= 0 || options_.bounces == 1) return;
+    if (options_.reuse_error <= 0 || options_.bounces == 1 || around_.groups() > 0) return;
     if (auto known = recall_light(context_, known_name_, options_.directional)) {
       around_.set_near(known->near);  // what paths found in its light, particles must not bring
       reuse_.emplace(texels_, std::move(*known));
@@ -218,15 +231,19 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  void update_direct() {
+  Estimate filtered_direct(BookedLight* booked = nullptr) const {
     // Its noise lies in penumbrae, which are no wider than the first scale's kernel.
     FilterOptions narrow = options_.filter;
     narrow.scales = std::min(narrow.scales, 1);
-    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow, context_);
+    return filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow, context_, booked);
+  }
+  Estimate filtered_gathered(BookedLight* booked = nullptr) const {
+    return filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_, booked);
   }
 
+  void update_direct() { smooth_direct_ = filtered_direct(); }
   void update_estimate() {
-    estimate_ = filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_);
+    estimate_ = filtered_gathered();
     mean_luminance_ = mean_luminance(texels_, direct_.value, estimate_.value);
   }
 
@@ -248,6 +265,12 @@ class CachedEstimator : public LightEstimator {
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
 
+  void assume_coarse(std::uint32_t i) {
+    gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError);
+    for (std::size_t g = 0; g < booked_.groups; ++g)
+      gathered_.booked.of(i)[g] = float{kHalves} * sweeps_.booked.of(i)[g];
+  }
+
   // Texels that time leaves none of the first rays keep the light of the bounces.
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
@@ -258,7 +281,7 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(gather_list(per_half));
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
-        gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError);
+        assume_coarse(i);
     std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));
@@ -339,7 +362,7 @@ class CachedEstimator : public LightEstimator {
     HalfSums anew = gathered_;
     const std::vector<std::uint32_t> list = not_kept();
     for (const std::uint32_t i : list) anew.forget(i);
-    LampLight lamps(texels_.count(), options_.directional);
+    LampLight lamps(texels_.count(), options_.directional, around_.groups());
     if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
@@ -375,6 +398,7 @@ class CachedEstimator : public LightEstimator {
   std::vector<Vec3> irradiance_;    // what gather rays find at a texel
   std::vector<Vec3> coarse_;        // of it what is no particles'
   CachedLight cached_;              // the same, as it varies over texels
+  BookedLight booked_;              // irradiance_ by group of lamps, if asked
   std::optional<Reuse> reuse_;      // of the bake before
   std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before
   Hash128 known_name_;

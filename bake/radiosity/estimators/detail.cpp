@@ -84,8 +84,16 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity&
   }
   report.rays = rays + quick_rays;
   if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));
-  for (std::uint32_t p = 0; p < light.pages.size(); ++p)
-    add_blocks(task.map[p], levels[p], p, {points[0].get(), points[1].get(), points[2].get()}, light.pages[p]);
+  const auto add_all_blocks = [&](std::vector<LightmapPage>& pages) {
+    for (std::uint32_t p = 0; p < pages.size(); ++p)
+      add_blocks(task.map[p], levels[p], p, {points[0].get(), points[1].get(), points[2].get()}, pages[p]);
+  };
+  add_all_blocks(light.pages);
+  for (std::size_t g = 0; g < light.groups.size(); ++g) {
+    for (auto& of_level : points)
+      if (of_level) of_level->light = of_level->booked.of_group(g);
+    add_all_blocks(light.groups[g]);
+  }
   return {};
 }
 

@@ -25,7 +25,12 @@ constexpr std::size_t kGroup = 64;           // texels whose shadow rays to one 
 class DirectGroup {
  public:
   DirectGroup(const DirectLight& direct, std::span<const std::uint32_t> list, std::uint32_t per_half)
-      : d_(direct), list_(list), per_half_(per_half), tallies_(list.size()) {
+      : d_(direct),
+        list_(list),
+        per_half_(per_half),
+        tallies_(list.size()),
+        booked_(list.size(), scene().light_groups.size()),
+        booked_passed_(booked_) {
     for (std::uint32_t i = 0; i < list.size(); ++i)
       if (d_.texels_.visible[list[i]] > 0) add_points(i);
   }
@@ -33,11 +38,11 @@ class DirectGroup {
   void run(DirectSums& sums) {
     for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
       aim_at_polygon(l);
-      finish_light(d_.polygons_[l].radiance);
+      finish_light(d_.polygons_[l].radiance, scene().light_group(d_.polygons_[l].triangles.front()));
     }
     for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
       aim_at_punctual(l);
-      finish_light(Vec3(1));
+      finish_light(Vec3(1), scene().lights[l].light_group);
     }
     const auto any = [&](const Point& p, Sampler& sampler) {
       const float u = sampler.next1();
@@ -56,11 +61,13 @@ class DirectGroup {
       sums.uneven[list_[i]] = 0.25f * tallies_[i].uneven * tallies_[i].uneven;
       sums.per_half[list_[i]] = per_half_;
       if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
+      std::ranges::copy(booked_.of(i), sums.booked.of(list_[i]).begin());
     }
   }
   std::uint64_t rays() const { return rays_; }
 
  private:
+  static constexpr std::uint32_t kNoGroup = ~0u;
   struct Point {
     TexelSite site;
     std::uint32_t texel = 0;  // of the list
@@ -71,6 +78,7 @@ class DirectGroup {
     std::uint32_t point = 0;
     Vec3 weight{0};
     Vec3 direction{0};
+    std::uint32_t group = kNoGroup;  // of a lamp that was found by chance: those done one by one are booked as a whole
   };
   // By texel. Of the light at hand, by half: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
   struct Tally {
@@ -140,14 +148,14 @@ class DirectGroup {
     }
   }
 
-  void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight) {
+  void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup) {
     const Point& p = points_[point];
     tallies_[p.texel].weight[p.half] += weight;
     if (ray.max_distance > 0) {
       rays_to_trace_.push_back(ray);
-      shots_.push_back({point, weight, ray.direction});
+      shots_.push_back({point, weight, ray.direction, group});
     } else {
-      receive({point, weight, ray.direction}, Vec3(1));  // touching
+      receive({point, weight, ray.direction, group}, Vec3(1));  // touching
     }
   }
 
@@ -156,6 +164,7 @@ class DirectGroup {
     Tally& tally = tallies_[p.texel];
     const Vec3 light = shot.weight * passed;
     tally.passed[p.half] += light;
+    if (shot.group < booked_.groups) booked_passed_.of(p.texel)[shot.group] += light;
     const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
     tally.from += moments_of(luminance(light) / cosine, shot.direction);
   }
@@ -172,10 +181,11 @@ class DirectGroup {
   // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
   // only. One ratio over all samples: its bias falls with their number. A half none of whose samples weigh anything,
   // the light being mostly below its points' horizon, knows no ratio of its own.
-  void finish_light(const Vec3& radiance) {
+  void finish_light(const Vec3& radiance, std::uint32_t group) {
     trace();
     const auto n = static_cast<float>(kHalves * per_half_);
-    for (Tally& t : tallies_) {
+    for (std::size_t i = 0; i < tallies_.size(); ++i) {
+      Tally& t = tallies_[i];
       const Vec3 share = ratio(t.passed[0] + t.passed[1], t.weight[0] + t.weight[1]);
       const auto own = [&](int half) {
         return max_component(t.weight[half]) > 0 ? ratio(t.passed[half], t.weight[half]) : share;
@@ -185,6 +195,7 @@ class DirectGroup {
       const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
       const Vec3 value = open * (2.0f * share - halves);
       t.total += value;
+      if (!booked_.empty()) booked_.of(i)[group] += value;
       add_moments(t, value);
       // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
       t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
@@ -216,7 +227,7 @@ class DirectGroup {
       const float cosine = incidence(point.site.receiver(), s.direction);
       const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
       if (max_component(value) > 0 && is_usable(point, value))
-        shoot(p, {point.site.origin, s.direction, s.distance}, value);
+        shoot(p, {point.site.origin, s.direction, s.distance}, value, s.group);
     }
     finish_sampled();
   }
@@ -233,6 +244,8 @@ class DirectGroup {
       t.difference += difference;
       forget_light(t);
     }
+    booked_.add(booked_passed_, 1 / (kHalves * n));
+    std::ranges::fill(booked_passed_.light, Vec3(0));
   }
 
   // The same for points, spots and suns, which no ray meets.
@@ -246,16 +259,19 @@ class DirectGroup {
         if (s.pdf > 0) continue;  // an emissive surface, or the sky
         const Vec3 value = s.estimate * (incidence(point.site.receiver(), s.direction) / static_cast<float>(kPicks));
         if (max_component(value) > 0 && is_usable(point, value))
-          shoot(p, {point.site.origin, s.direction, s.distance}, value);
+          shoot(p, {point.site.origin, s.direction, s.distance}, value, s.group);
       }
     finish_sampled();
   }
+
+  const Scene& scene() const { return d_.t_.accel.scene(); }
 
   const DirectLight& d_;
   std::span<const std::uint32_t> list_;
   std::uint32_t per_half_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
+  BookedLight booked_, booked_passed_;  // by texel of the list: of all lights so far; of those found by chance now
   std::vector<Ray> rays_to_trace_;
   std::vector<Shot> shots_;
   std::vector<Vec3> passed_;
@@ -287,6 +303,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     for (const std::uint32_t t : part(g)) {
       archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
+      if (!sums.booked.empty()) archive(sums.booked.of(t));
     }
   };
   return parallel_units(context, loop, &rays);

@@ -1,6 +1,7 @@
 // Direct light of polygon lights and punctual lights per texel: closed forms times sampled visibility.
 #pragma once
 
+#include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/more_sites.h"
 #include "bake/radiosity/texels/neighbours.h"
 
@@ -14,14 +15,16 @@ struct DirectSums {
   std::vector<Vec3> uneven;      // of the closed forms' means over the texel, likewise from one difference
   std::vector<std::uint32_t> per_half;  // samples of each half for each light
   std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless asked for
+  BookedLight booked;                   // of value, by group of lamps
 
-  DirectSums(std::size_t texels, bool directional)
+  DirectSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : value(texels),
         difference(texels),
         variance(texels),
         uneven(texels),
         per_half(texels),
-        moments(directional ? texels : 0) {}
+        moments(directional ? texels : 0),
+        booked(texels, groups) {}
 
   void take(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bake/radiosity/estimators/radiosity_options.h"
+#include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/frame_pixels.h"
 
 namespace oriel {
@@ -53,6 +54,7 @@ struct TexelLight {
   const Surroundings& around;
   const CachedLight& cached;
   std::vector<Vec3> beside;       // by texel: light that no gather ray looks for, lux; empty: none
+  BookedLight beside_booked;      // the same by group of lamps, if asked
   std::span<const float> shares;  // of frames, by texel
 };
 
@@ -64,6 +66,9 @@ class LightEstimator {
   // The estimate as it stands: each covered texel's light, standard error and state, its visible share, and the
   // report's numbers of the estimate. `light` is an empty_radiosity().
   virtual void write(Radiosity& light) const = 0;
+  // The same light by group of lamps, and so of valid texels alone; false: it does not tell whose light it is.
+  // `groups`: of each group pages of the texel map's sizes without light.
+  virtual bool write_groups(std::vector<std::vector<LightmapPage>>&) const { return false; }
   // What light between the texels can be found from (detail.h); nothing where all there is is theirs.
   virtual std::optional<TexelLight> texel_light() const { return std::nullopt; }
 };

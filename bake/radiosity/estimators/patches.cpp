@@ -7,6 +7,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/jobs/units.h"
+#include "bake/radiosity/estimators/patch_list.h"
 #include "bake/radiosity/texels/seeds.h"
 
 namespace oriel {
@@ -19,47 +20,6 @@ constexpr double kDim = 1e-4;        // of the mean: what is darker need not be 
 constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
 constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
 constexpr double kEndless = 0.1;     // a bound on further bounces from which light is said not to die away
-
-struct PatchLink {
-  std::uint32_t patch;
-  Vec3 weight;
-};
-void fields(Archive& archive, PatchLink& link) {
-  archive(link.patch, link.weight);
-}
-
-struct Patch {
-  std::vector<std::uint32_t> texels;  // those that see light
-  std::vector<PatchLink> links;       // weights divided by the number of rays
-  DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,
-                                      // sky, emitters behind mirrors
-  Vec3 unreflected{0};                // of it what comes straight from sky and emitters
-  double area_m2 = 0;
-  std::uint32_t x = 0, y = 0;         // of its block
-  std::uint64_t stream = 0;           // of its random numbers: its block's, which no other block's shape changes
-  std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it
-};
-
-bool same_chart(const Texels& t, std::uint32_t a, std::uint32_t b) {
-  return t.page[a] == t.page[b] && t.chart[a] == t.chart[b];
-}
-
-// By texel: one texel that stands for all of its patch. Texels of a block belong together where neighbours, which see
-// each other, connect them within it.
-std::vector<std::uint32_t> connect_blocks(const Texels& t, const TexelGraph& graph, std::uint32_t side) {
-  std::vector<std::uint32_t> parent(t.count());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::uint32_t i = 0; i < parent.size(); ++i)
-    for (const std::uint32_t j : graph.of(i))
-      if (same_chart(t, i, j) && t.x[i] / side == t.x[j] / side && t.y[i] / side == t.y[j] / side)
-        parent[root(i)] = root(j);
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
-  return parent;
-}
 
 class Solver {
  public:
@@ -76,6 +36,7 @@ class Solver {
         patches_.emplace_back();
         patches_.back().x = texels.x[i] / options_.side, patches_.back().y = texels.y[i] / options_.side;
         patches_.back().stream = head[i];
+        if (options_.booked) patches_.back().booked.resize(options_.booked->groups);
       }
       patches_[number].texels.push_back(i);
       patches_[number].area_m2 += shown_m2(i);
@@ -93,10 +54,12 @@ class Solver {
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
     const Hash128 direct = context.units ? hash_of(direct_) : Hash128();
+    const Hash128 booked = context.units && options_.booked ? hash_of(options_.booked->light) : Hash128();
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
     loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
       key(direct, options_.side, options_.rays_per_patch, g, around_.near(), around_.lamps(), texels_.eyes);
+      if (options_.booked) key(booked);
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
@@ -106,8 +69,10 @@ class Solver {
       return traced;
     };
     loop.results = [&](std::size_t g, Archive& archive) {
-      for (std::size_t p = g * kGroup; p < group_end(g); ++p)
+      for (std::size_t p = g * kGroup; p < group_end(g); ++p) {
         archive(patches_[p].source, patches_[p].unreflected, patches_[p].links);
+        if (options_.booked) archive(patches_[p].booked);
+      }
     };
     return parallel_units(context, loop, &rays);
   }
@@ -131,7 +96,11 @@ class Solver {
 
   Status solve(Context& context, Sweeps& result);
 
-  void interpolate(Context& context, Sweeps& result);
+  // `of_patches` by texel.
+  std::vector<Vec3> interpolate(Context& context, const std::vector<Vec3>& of_patches) const;
+  const std::vector<Vec3>& solution() const { return solution_; }
+  // The light of one group of lamps after as many bounces, by patch.
+  std::vector<Vec3> solve_group(Context& context, std::size_t group, int sweeps) const;
 
  private:
   std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
@@ -163,30 +132,20 @@ class Solver {
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
       Patch& patch = patches_[first + ray];
       patch.source += DVec3(weight * direct_[texel] * share);
+      for (std::size_t g = 0; g < patch.booked.size(); ++g)
+        patch.booked[g] += DVec3(weight * options_.booked->of(texel)[g] * share);
       if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
+      for (std::size_t g = 0; g < patches_[first + i].booked.size(); ++g)
+        patches_[first + i].booked[g] += DVec3(answers.booked[i * around_.groups() + g] * (kPi * share));
       patches_[first + i].unreflected += answers.unreflected[i] * (kPi * share);
       if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
         link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
     }
     for (const Link& link : answers.links) link_to(link.ray, link.texel, link.weight);
     return batch.size() + answers.rays;
-  }
-
-  // Links to one patch become one: sweeps read half as much.
-  static void join_links(std::vector<PatchLink>& links) {
-    std::stable_sort(links.begin(), links.end(),
-                     [](const PatchLink& a, const PatchLink& b) { return a.patch < b.patch; });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < links.size(); ++i)
-      if (kept > 0 && links[kept - 1].patch == links[i].patch)
-        links[kept - 1].weight += links[i].weight;
-      else
-        links[kept++] = links[i];
-    links.resize(kept);
-    links.shrink_to_fit();
   }
 
   // Weights of a patch sum to what surfaces reflect, on average over its rays. A sum beyond that is their noise. Over a
@@ -346,9 +305,9 @@ Status Solver::solve(Context& context, Sweeps& result) {
 }
 
 // Bilinear between a texel's patch and those beside it, by the texel's place among their blocks.
-void Solver::interpolate(Context& context, Sweeps& result) {
+std::vector<Vec3> Solver::interpolate(Context& context, const std::vector<Vec3>& of_patches) const {
   constexpr std::size_t kRun = 1024;
-  result.gathered.assign(texels_.count(), Vec3(0));
+  std::vector<Vec3> gathered(texels_.count(), Vec3(0));
   (void)parallel_for(context, "", (texels_.count() + kRun - 1) / kRun, [&](std::size_t run) {
     for (std::size_t i = run * kRun; i < std::min(texels_.count(), (run + 1) * kRun); ++i) {
       if (patch_of_[i] == ~0u) continue;
@@ -358,14 +317,30 @@ void Solver::interpolate(Context& context, Sweeps& result) {
       const auto add = [&](std::uint32_t p) {
         const Vec2 off = 1.0f - glm::abs(at - Vec2(patches_[p].x, patches_[p].y));
         if (off.x <= 0 || off.y <= 0) return;
-        sum += off.x * off.y * solution_[p];
+        sum += off.x * off.y * of_patches[p];
         weights += off.x * off.y;
       };
       add(patch_of_[i]);
       for (const std::uint32_t p : patches_[patch_of_[i]].beside) add(p);
-      result.gathered[i] = sum / weights;  // the own patch's is a quarter at least
+      gathered[i] = sum / weights;  // the own patch's is a quarter at least
     }
   });
+  return gathered;
+}
+
+std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int sweeps) const {
+  constexpr std::size_t kRun = 256;
+  std::vector<Vec3> now(patches_.size()), next(patches_.size());
+  // One more than the light itself had, which begins with what is not reflected.
+  for (int sweep = 0; sweep <= sweeps && !context.stopped(); ++sweep, now.swap(next))
+    (void)parallel_for(context, "", (patches_.size() + kRun - 1) / kRun, [&](std::size_t run) {
+      for (std::size_t p = run * kRun; p < std::min(patches_.size(), (run + 1) * kRun); ++p) {
+        DVec3 sum(patches_[p].booked[group]);
+        for (const PatchLink& link : patches_[p].links) sum += DVec3(link.weight * now[link.patch]);
+        next[p] = Vec3(sum);
+      }
+    });
+  return now;
 }
 
 // Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
@@ -391,7 +366,12 @@ Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surrou
   Solver solver(texels, graph, around, direct, how);
   ORIEL_TRY_VOID(solver.trace(context, context.seed + seeds::kBounces, rays));
   ORIEL_TRY_VOID(solver.solve(context, result));
-  solver.interpolate(context, result);
+  result.gathered = solver.interpolate(context, solver.solution());
+  if (!how.booked) return result;
+  result.booked = BookedLight(texels.count(), how.booked->groups);
+  for (std::size_t g = 0; g < how.booked->groups; ++g)
+    result.booked.set_group(g, solver.interpolate(context, solver.solve_group(context, g, result.count)));
+  for (std::size_t i = 0; i < texels.count(); ++i) share_out(result.booked.of(i), result.gathered[i]);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "bake/radiosity/estimators/radiosity_options.h"
 #include "bake/radiosity/gather/gather_site.h"
 #include "bake/radiosity/gather/surroundings.h"
+#include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -22,6 +23,7 @@ struct SweepOptions {
   std::function<bool()> enough = {};  // asked after some hundred sweeps: true ends them; may be empty
   double tolerance = 1e-3;            // of the light, bound on what further sweeps could add: see Sweeps::tail
   double seconds = std::numeric_limits<double>::infinity();  // that the rays may take: less than they need are coarser
+  const BookedLight* booked = nullptr;                       // `direct` by group of lamps; null: nobody asks
 };
 
 // For so many texels, as a part of the error asked for.
@@ -41,6 +43,7 @@ inline SweepOptions sweep_options(const RadiosityOptions& options, double error,
 
 struct Sweeps {
   std::vector<Vec3> gathered;  // by texel: irradiance that gather rays would find, interpolated from the patches, lux
+  BookedLight booked;          // the same by group of lamps, if asked
   int count = 0;
   double tail = 0;    // the bound reached: what all further sweeps together add at most; the larger of that relative to
                       // the mean and of the mean over patches, each relative to its own light

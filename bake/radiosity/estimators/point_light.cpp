@@ -56,9 +56,10 @@ std::uint32_t gathered_rays(const RadiosityOptions& options) {
   return static_cast<std::uint32_t>(std::min(rays, double{kMostGather}));
 }
 
-// Between the texels around point i, those that have it.
-Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
-  if (known.beside.empty()) return Vec3(0);
+// What texels have between those around point i that have it.
+template <class OfTexel>
+Vec3 between_texels(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side,
+                    const OfTexel& of_texel) {
   const float x = static_cast<float>(points.x[i]) / static_cast<float>(side) - 1;
   const float y = static_cast<float>(points.y[i]) / static_cast<float>(side) - 1;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
@@ -70,9 +71,24 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
       if (texel == kNoTexel || known.texels.visible[texel] == 0) continue;
       const float weight =
           (1 - std::fabs(x - static_cast<float>(x0 + dx))) * (1 - std::fabs(y - static_cast<float>(y0 + dy)));
-      sum += weight * known.beside[texel], weights += weight;
+      sum += weight * of_texel(texel), weights += weight;
     }
   return weights > 0 ? sum / weights : Vec3(0);
+}
+
+// Light that no gather ray looks for.
+Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
+  if (known.beside.empty()) return Vec3(0);
+  return between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.beside[texel]; });
+}
+
+// The filtered light of points by group; what is beside it is added.
+BookedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, BookedLight booked) {
+  for (std::size_t i = 0; i < points.count() && !known.beside.empty(); ++i)
+    for (std::size_t g = 0; g < booked.groups; ++g)
+      booked.of(i)[g] += between_texels(known, points, i, side,
+                                        [&](std::uint32_t texel) { return known.beside_booked.of(texel)[g]; });
+  return booked;
 }
 
 }  // namespace
@@ -88,16 +104,19 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, context, task.rays));
-  DirectSums direct(n, false);
+  DirectSums direct(n, false, known.around.groups());
   ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
-  HalfSums gathered(n, false);
+  HalfSums gathered(n, false, known.around.groups());
   ORIEL_TRY_VOID(gather(texels, sites, known.around, order, gathered_rays(task.options), known.cached, context,
                         gathered, task.rays));
   const FilterOptions filters = task.options.filter;
   FilterOptions narrow = filters;
   narrow.scales = std::min(narrow.scales, 1);
-  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
-  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
+  BookedLight booked = gathered.mean_booked();
+  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context, &booked);
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context, &direct.booked);
+  booked.add(direct.booked);
+  result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

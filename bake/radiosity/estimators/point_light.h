@@ -14,6 +14,7 @@ struct PointLight {
   Texels texels;               // points that lie inside something have visible 0
   std::vector<Vec3> light;     // lux
   std::vector<Vec3> variance;  // of it, stated, lux²
+  BookedLight booked;          // light by group of lamps, if asked
 };
 
 // Error kStopped.

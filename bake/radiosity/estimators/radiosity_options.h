@@ -148,6 +148,9 @@ struct Radiosity {
   // By page and y * width + x: cells (LightmapPage::cell) whose light meets that of another place across a stitched
   // seam. Empty where nothing was stitched.
   std::vector<std::vector<bool>> at_seam{};
+  // By group of lamps (Scene::light_groups) and page: irradiance and details, states and cells being the pages'. Their
+  // sum is the pages' light but for rounding. Empty where there are no groups, or the estimator does not tell.
+  std::vector<std::vector<LightmapPage>> groups{};
   RadiosityReport report;
 };
 

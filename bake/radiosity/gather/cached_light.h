@@ -1,6 +1,7 @@
 // What rays find at texels: light that varies over them.
 #pragma once
 
+#include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/neighbours.h"
 
 namespace oriel {
@@ -21,6 +22,14 @@ struct alignas(64) CachedTexel {
 struct CachedLight {
   std::span<const Vec3> irradiance;  // by texel, lux
   std::vector<CachedTexel> texels;
+  const BookedLight* booked = nullptr;  // of irradiance, by group of lamps; null: nobody asks
+
+  // Adds to `groups` light of a texel that counts by `weight` for each lux; within a texel all groups' light varies
+  // alike.
+  void book(std::uint32_t texel, const Vec3& weight, std::span<Vec3> groups) const {
+    const std::span<const Vec3> light = booked->of(texel);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g] += weight * light[g];
+  }
 };
 
 // Slopes are fitted to the texels beside (least squares); they take no light below zero.

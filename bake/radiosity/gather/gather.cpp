@@ -29,6 +29,7 @@ class GroupGather {
     for (int half = 0; half < kHalves; ++half) {
       for (Member& m : members_) {
         m.sum = m.slope = Vec3(0), m.moments = Vec4(0);
+        m.booked.assign(around_.groups(), Vec3(0));
         m.done = sums.samples[m.texel];
         m.shift = net_.shift(std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half));
       }
@@ -40,6 +41,8 @@ class GroupGather {
         sums.sum[half][m.texel] += m.sum;
         sums.slope[half][m.texel] += m.slope;
         if (moments_) sums.moments[m.texel] += m.moments;
+        const std::span<Vec3> booked = sums.booked.of(m.texel);
+        for (std::size_t g = 0; g < booked.size(); ++g) booked[g] += m.booked[g];
       }
     }
     for (const Member& m : members_) sums.samples[m.texel] = per_half;
@@ -56,6 +59,7 @@ class GroupGather {
     std::array<GatherSite, kKeptSites> site;
     Vec3 sum{0}, slope{0};
     Vec4 moments{0};
+    std::vector<Vec3> booked;  // by group of lamps
   };
 
   // Points that are kept serve again until each of them had a few rays; then each few rays have a new one, for no
@@ -90,6 +94,8 @@ class GroupGather {
     rays_ += batch_.size() + answers_.rays;
     auto& light = answers_.light;
     for (const Link& link : answers_.links) light[link.ray] += link.weight * cached_.irradiance[link.texel] / kPi;
+    if (cached_.booked)
+      for (const Link& link : answers_.links) cached_.book(link.texel, link.weight / kPi, booked_of(link.ray));
     for (std::size_t i = 0; i < batch_.size(); ++i) {
       Member& m = members_[target_[i]];
       Vec3 slope(0);
@@ -98,17 +104,26 @@ class GroupGather {
         const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
         light[i] += answers_.share[i] * there;
         slope = kPi * answers_.share[i] * (there - met.radiance);
+        if (cached_.booked)
+          cached_.book(texel, answers_.share[i] * there / glm::max(cached_.irradiance[texel], Vec3(1e-30f)),
+                       booked_of(i));
       }
       if (!is_usable(light[i])) {
         around_.transport().accel.dropped().add(answers_.hits[i].triangle);
         continue;
       }
       m.sum += kPi * light[i];
+      const std::span<Vec3> booked = booked_of(i);
+      for (std::size_t g = 0; g < booked.size(); ++g) m.booked[g] += kPi * booked[g];
       m.slope += slope;
       if (moments_)
         m.moments +=
             moments_of(luminance(light[i]) * kPi / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);
     }
+  }
+
+  std::span<Vec3> booked_of(std::size_t ray) {
+    return std::span(answers_.booked).subspan(ray * around_.groups(), around_.groups());
   }
 
   const Texels& texels_;
@@ -132,18 +147,21 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
               HalfSums& sums, std::atomic<std::uint64_t>& rays) {
   const ShiftedNet net(context.seed + seeds::kGather, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
+  const Hash128 booked_light = context.units && cached.booked ? hash_of(cached.booked->light) : Hash128();
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   const auto sums_of = [&](std::size_t g, Archive& archive) {
     for (const std::uint32_t t : part(g)) {
       archive(sums.samples[t]);
       for (int h = 0; h < kHalves; ++h) archive(sums.sum[h][t], sums.slope[h][t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
+      if (!sums.booked.empty()) archive(sums.booked.of(t));
     }
   };
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
     key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), texels.eyes);
+    if (cached.booked) key(booked_light);
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {

@@ -19,9 +19,15 @@ struct HalfSums {
   // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
   // samples. Empty unless asked for.
   std::vector<Vec4> moments;
+  BookedLight booked;         // by group of lamps, of both halves: lux * samples
+  BookedLight beside_booked;  // of `beside`, the mean of both halves
 
-  HalfSums(std::size_t texels, bool directional)
-      : samples(texels), beside_moments(directional ? texels : 0), moments(directional ? texels : 0) {
+  HalfSums(std::size_t texels, bool directional, std::size_t groups = 0)
+      : samples(texels),
+        beside_moments(directional ? texels : 0),
+        moments(directional ? texels : 0),
+        booked(texels, groups),
+        beside_booked(texels, groups) {
     for (auto& s : sum) s.resize(texels);
     for (auto& s : slope) s.resize(texels);
     for (auto& b : beside) b.resize(texels);
@@ -29,6 +35,7 @@ struct HalfSums {
   void forget(std::size_t i) {
     for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
     if (!moments.empty()) moments[i] = Vec4(0);
+    for (Vec3& light : booked.of(i)) light = Vec3(0);
     samples[i] = 0;
   }
   void take(std::size_t i, const HalfSums& from, std::size_t k) {
@@ -49,6 +56,13 @@ struct HalfSums {
     return beside[h][i] + (samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0));
   }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
+  BookedLight mean_booked() const {
+    BookedLight mean = beside_booked;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      for (std::size_t g = 0; g < mean.groups && samples[i] > 0; ++g)
+        mean.of(i)[g] += booked.of(i)[g] / static_cast<float>(kHalves * samples[i]);
+    return mean;
+  }
 };
 
 // Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. Directions are

@@ -41,6 +41,20 @@ void add_up(std::vector<Arrival>& arrivals) {
   arrivals.shrink_to_fit();
 }
 
+// The same light by group of lamps.
+struct BookedArrival {
+  std::uint32_t texel = 0, group = 0;
+  Vec3 light{0};
+};
+void fields(Archive& archive, BookedArrival& a) {
+  archive(a.texel, a.group, a.light);
+}
+
+// Of particles of one group; adds them to those of others.
+void book(std::span<const Arrival> arrivals, std::uint32_t group, std::vector<BookedArrival>& booked) {
+  for (const Arrival& a : arrivals) booked.push_back({a.texel, group, a.light});
+}
+
 // One particle, from its lamp on.
 class LampWalk {
  public:
@@ -192,6 +206,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
     const std::uint64_t first = light.particles, count = std::min(per_half - first, kUnit * (kUnits / kHalves));
     const std::size_t units = (count + kUnit - 1) / kUnit;  // of each half
     std::vector<std::vector<Arrival>> arrivals(units * kHalves);
+    std::vector<std::vector<BookedArrival>> booked(units * kHalves);
     UnitLoop loop{.stage = "lamp paths", .count = arrivals.size(), .rays = 4.0 * kUnit};
     loop.inputs = [&](std::size_t u, Archive& key) { key(first, count, u, around.near(), texels.eyes); };
     loop.compute = [&](std::size_t u) {
@@ -200,13 +215,20 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
       for (std::uint64_t k = from; k < to && !context.stopped(); ++k) {
         Sampler sampler(context.seed + seeds::kLampPaths, u % kHalves, static_cast<std::uint32_t>(k));
         const Particle particle = sources.emit(SourceKind::kNear, sampler);
+        const std::size_t before = arrivals[u].size();
         traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
+        if (!light.booked.empty()) book(std::span(arrivals[u]).subspan(before), particle.group, booked[u]);
       }
       add_up(arrivals[u]);
       return traced;
     };
-    loop.results = [&](std::size_t u, Archive& archive) { archive(arrivals[u]); };
+    loop.results = [&](std::size_t u, Archive& archive) {
+      archive(arrivals[u]);
+      if (!light.booked.empty()) archive(booked[u]);
+    };
     ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+    for (const auto& unit : booked)
+      for (const BookedArrival& a : unit) light.booked.of(a.texel)[a.group] += a.light;
     for (std::size_t u = 0; u < arrivals.size(); ++u)
       for (const Arrival& a : arrivals[u]) {
         light.sum[u % kHalves][a.texel] += a.light;

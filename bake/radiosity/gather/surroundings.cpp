@@ -38,6 +38,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   answers.unreflected.assign(rays.size(), Vec3(0));
   answers.texel.assign(rays.size(), kNoTexel);
   answers.share.assign(rays.size(), 1.0f);
+  answers.booked.assign(rays.size() * groups(), Vec3(0));
   answers.links.clear();
   answers.rays = 0;
   t_.accel.intersect(rays, answers.hits);
@@ -46,6 +47,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     if (!hit) {
       answers.unreflected[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       answers.light[i] = answers.unreflected[i];
+      if (groups() > 0) answers.booked[i * groups() + scene().sky_group] = answers.light[i];
       continue;
     }
     const Kind kind = kinds_[hit.triangle];
@@ -73,11 +75,18 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
   if (!(chance > 0) || sampler.next1() >= chance) return;
   const std::size_t before = answers.links.size();
   const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
-  const PathLight light =
-      specular_light(t_, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
   // Of surfaces too near for particles, too.
   const std::uint32_t texel = answers.texel[number];
   const bool lamps = lamps_ || (max_component(texels_.albedo[texel]) > 0 && goes_on(hit.distance, texel));
+  LightBook book_of_path;
+  Transport t = t_;
+  if (groups() > 0) {
+    book_of_path.begin(groups(), {0, 0, 1 / chance, lamps ? 1 / chance : 0});
+    t.book = &book_of_path;
+  }
+  const PathLight light =
+      specular_light(t, surface_at(scene(), hit, ray.direction), -ray.direction, sampler, answers.rays, on_diffuse);
+  book(number, book_of_path.light(), answers);
   answers.light[number] = (light.scattered + (lamps ? light.lamps : Vec3(0))) / chance;
   for (std::size_t i = before; i < answers.links.size(); ++i) answers.links[i].weight /= chance;
 }
@@ -95,7 +104,15 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
   Sampler sampler(seed_, about.stream, about.sample);
   const auto on_diffuse = [&](const DiffuseVertex& v) { return link_to(about, v, number, answers); };
   const float pdf = closed_form_ ? 0 : about.incidence / kPi;
-  const PathLight light = trace_to_diffuse(t_, ray, hit, pdf, sampler, answers.rays, on_diffuse);
+  LightBook book_of_path;
+  Transport t = t_;
+  if (groups() > 0) {
+    book_of_path.begin(groups(), {closed_form_ ? 0.0f : 1.0f, closed_form_ ? sky_weight(ray.direction, about) : 1.0f,
+                                  1.0f, lamps_ ? 1.0f : 0.0f});
+    t.book = &book_of_path;
+  }
+  const PathLight light = trace_to_diffuse(t, ray, hit, pdf, sampler, answers.rays, on_diffuse);
+  book(number, book_of_path.light(), answers);
   answers.unreflected[number] = closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted;
   answers.light[number] = light.scattered + (lamps_ ? light.lamps : Vec3(0)) + answers.unreflected[number];
 }

@@ -31,6 +31,7 @@ struct Answers {
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.
   std::vector<Vec3> light;
   std::vector<Vec3> unreflected;  // of it what comes straight from the sky and from emitters
+  std::vector<Vec3> booked;       // light by group of lamps, at ray * groups + group; empty where there are none
   std::uint64_t rays = 0;         // traced, beyond the batch itself
 };
 
@@ -53,6 +54,7 @@ class Surroundings {
   float near() const { return near_; }
   void set_near(float sides) { near_ = sides; }
   const Transport& transport() const { return t_; }
+  std::size_t groups() const { return scene().light_groups.size(); }  // of lamps
   // Whether a path goes on from a texel that is met from that far, all light in it.
   bool goes_on(float distance, std::uint32_t texel) const {
     return texel != kNoTexel && distance < near_ * (texels_.has_many[texel] ? kCrowdedNear : 1.0f) * side_[texel];
@@ -87,6 +89,10 @@ class Surroundings {
   }
   std::optional<float> link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
                                Answers& answers) const;  // as OnDiffuse
+
+  void book(std::uint32_t number, std::span<const Vec3> light, Answers& answers) const {
+    for (std::size_t g = 0; g < light.size(); ++g) answers.booked[number * light.size() + g] += light[g];
+  }
 
   // The part of the sky met that rays answer for, the rest is left to light sampling.
   float sky_weight(const Vec3& direction, const GatherRay& about) const;

@@ -1,0 +1,178 @@
+#include "bake/run/group_light.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/scene/sky.h"
+#include "bake/trace/sampler.h"
+#include "bake/trace/warp.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kShareRays = 4096;  // of a map
+
+bool shines(const Material& material) {
+  return !material.unlit && max_component(material.emission) > 0;
+}
+
+// Parts and surfaces are in one order; a surface is one part for each page.
+std::vector<std::uint32_t> group_of_parts(const Scene& scene, const Mesh& mesh) {
+  std::vector<std::uint32_t> groups;
+  std::size_t surface = 0, left = 3 * std::size_t{scene.surfaces[0].triangle_count};
+  for (const MeshPart& part : mesh.parts) {
+    while (left == 0) left = 3 * std::size_t{scene.surfaces[++surface].triangle_count};
+    groups.push_back(scene.surfaces[surface].light_group);
+    left -= part.index_count;
+  }
+  return groups;
+}
+
+// Each shining material of one group: parts of others get copies.
+void divide_materials(const Scene& scene, Pack& pack) {
+  std::vector<std::uint32_t> owner(pack.materials.size(), kNone);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
+  const std::vector<std::uint32_t> groups = group_of_parts(scene, pack.mesh);
+  for (std::size_t p = 0; p < groups.size(); ++p) {
+    std::uint32_t& material = pack.mesh.parts[p].material;
+    if (!shines(pack.materials[material])) continue;
+    if (owner[material] == kNone) owner[material] = groups[p];
+    if (owner[material] == groups[p]) continue;
+    const auto [at, added] = copies.try_emplace({material, groups[p]}, pack.materials.size());
+    if (added) {
+      Material copy = pack.materials[material];
+      copy.name += " (" + pack.light_groups[groups[p]].name + ")";
+      pack.materials.push_back(std::move(copy));
+      owner.push_back(groups[p]);
+    }
+    material = at->second;
+  }
+  for (std::uint32_t m = 0; m < owner.size(); ++m)
+    if (owner[m] != kNone) pack.light_groups[owner[m]].materials.push_back(m);
+}
+
+// Of the shining triangle that has most of these corners; kNone: none has two.
+std::uint32_t group_of_corners(const Scene& scene, std::span<const Vec3> corners) {
+  std::uint32_t group = kNone;
+  int most = 1;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const Surface& surface = scene.surfaces[scene.triangle_surface[t]];
+    if (!(max_component(scene.materials[surface.material].emission) > 0)) continue;
+    int same = 0;
+    for (int k = 0; k < 3; ++k)
+      same += std::ranges::find(corners, scene.positions[scene.triangles[t][k]]) != corners.end() ? 1 : 0;
+    if (same > most) most = same, group = surface.light_group;
+  }
+  return group;
+}
+
+std::uint32_t group_of(const Scene& scene, const BrightLight& light) {
+  if (light.kind == BrightLightKind::kPolygon) return group_of_corners(scene, std::span(light.corners).first(3));
+  for (const Light& other : scene.lights)
+    if (other.name == light.name && other.intensity == light.intensity && other.direction == light.direction &&
+        (light.kind == BrightLightKind::kDirectional || other.position == light.position))
+      return other.light_group;
+  return kNone;
+}
+
+// What one place sees of each group's light: its share of the radiance that comes from all directions above a normal, or
+// all around. Lamps themselves do not count: they are seen in few directions, and would drown all else.
+class Shares {
+ public:
+  Shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light)
+      : baked_(baked), light_(light), scene_(baked.accel.scene()) {}
+
+  void add(const Ray& ray, std::vector<DVec3>& sum, std::uint64_t& rays) const {
+    ++rays;
+    const Hit hit = baked_.accel.intersect(ray);
+    if (!hit) {
+      sum[scene_.sky_group] += DVec3(sky_radiance(scene_, ray.direction));
+      return;
+    }
+    if (!hit.front) return;
+    const SurfacePoint point = surface_at(scene_, hit, ray.direction);
+    for (std::size_t g = 0; g < light_.size(); ++g)
+      sum[g] += DVec3(point.shade.diffuse / kPi *
+                      baked_irradiance(baked_.atlas, light_[g], hit.triangle, hit.barycentric, point.normal, point.normal));
+  }
+
+  std::vector<Vec3> of(const std::vector<DVec3>& sum) const {
+    DVec3 total(0);
+    for (const DVec3& part : sum) total += part;
+    std::vector<Vec3> shares;
+    for (const DVec3& part : sum)
+      shares.emplace_back(glm::min(part / glm::max(total, DVec3(1e-30)), DVec3(1)));
+    return shares;
+  }
+
+ private:
+  const BakedScene& baked_;
+  const std::vector<std::vector<LightmapPage>>& light_;
+  const Scene& scene_;
+};
+
+void find_shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light, std::uint64_t& rays,
+                 Pack& pack) {
+  const Shares shares(baked, light);
+  std::vector<LightGroup>& groups = pack.light_groups;
+  for (std::size_t r = 0; r < pack.reflectors.size(); ++r) {
+    const Reflector& reflector = pack.reflectors[r];
+    std::vector<DVec3> sum(groups.size(), DVec3(0));
+    const Mat3 rotation(reflector.pack_from_reflector);
+    for (std::uint32_t k = 0; k < kShareRays; ++k) {
+      Sampler sampler(r, 0, k);
+      const Vec2 at = glm::mix(reflector.lower, reflector.upper, sampler.next2());
+      const Vec3 direction = rotation * square_to_cosine_hemisphere(sampler.next2());
+      const Vec3 origin(reflector.pack_from_reflector * Vec4(at, 0, 1));
+      shares.add({origin + 1e-3f * rotation[2], direction}, sum, rays);
+    }
+    const std::vector<Vec3> found = shares.of(sum);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].reflectors.push_back(found[g]);
+  }
+  for (std::size_t m = 0; m < pack.surround_maps.size(); ++m) {
+    std::vector<DVec3> sum(groups.size(), DVec3(0));
+    for (std::uint32_t k = 0; k < kShareRays; ++k) {
+      Sampler sampler(m, 1, k);
+      shares.add({pack.surround_maps[m].centre, square_to_sphere(sampler.next2())}, sum, rays);
+    }
+    const std::vector<Vec3> found = shares.of(sum);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].surrounds.push_back(found[g]);
+  }
+}
+
+bool is_dark(const LightmapPage& page) {
+  const auto dark = [](const Vec3& light) { return light == Vec3(0); };
+  return std::ranges::all_of(page.irradiance, dark) && std::ranges::all_of(page.detail, dark);
+}
+
+}  // namespace
+
+void assemble_light_groups(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light,
+                           std::uint64_t& rays, Pack& pack) {
+  const Scene& scene = baked.accel.scene();
+  if (light.empty()) return;
+  for (const SceneLightGroup& group : scene.light_groups) {
+    LightGroup& added = pack.light_groups.emplace_back();
+    added.name = group.name, added.lamps = group.lamps;
+  }
+  const auto own = [&](std::uint32_t group, std::vector<std::uint32_t> LightGroup::*list, std::size_t index) {
+    if (group != kNone) (pack.light_groups[group].*list).push_back(static_cast<std::uint32_t>(index));
+  };
+  divide_materials(scene, pack);
+  for (std::size_t e = 0; e < pack.emitters.size(); ++e)
+    own(group_of_corners(scene, pack.emitters[e].corners), &LightGroup::emitters, e);
+  for (std::size_t b = 0; b < pack.light_field.lights.size(); ++b)
+    own(group_of(scene, pack.light_field.lights[b]), &LightGroup::bright_lights, b);
+  if (max_component(scene.sky) > 0) pack.light_groups[scene.sky_group].sky = true;
+  find_shares(baked, light, rays, pack);
+  for (std::uint32_t g = 0; g < light.size(); ++g)
+    for (std::uint32_t p = 0; p < light[g].size(); ++p) {
+      const LightmapPage& page = light[g][p];
+      if (is_dark(page)) continue;
+      pack.group_lights.push_back(
+          {g, p, page.width, page.height, page.irradiance, page.detail_width, page.detail_height, page.detail});
+    }
+}
+
+}  // namespace oriel

@@ -1,0 +1,217 @@
+#include "bake/run/light_groups.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "formats/core/color.h"
+#include "formats/core/file.h"
+#include "formats/core/text.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+
+// A node that shines, or the sky.
+struct Lamp {
+  std::string name, path, mesh, mark;
+  std::vector<std::uint32_t> surfaces, lights;
+  bool sky = false;
+  std::uint32_t group = kNone;
+};
+
+bool shines(const Scene& scene, const Surface& surface) {
+  const SceneMaterial& material = scene.materials[surface.material];
+  return !material.unlit && max_component(material.emission) > 0;
+}
+
+std::string last_step(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+std::string above(const std::string& path) {
+  const auto at = path.rfind('/');
+  return at == std::string::npos ? std::string() : path.substr(0, at);
+}
+
+// In the scene's order; of one path one: a lamp's shade and its point light are often siblings, but have names of their
+// own.
+std::vector<Lamp> find_lamps(const Scene& scene) {
+  std::vector<Lamp> lamps;
+  std::map<std::string, std::size_t> known;
+  const auto lamp_at = [&](const std::string& path, const std::string& name) -> Lamp& {
+    const auto [at, added] = known.try_emplace(path.empty() ? name : path, lamps.size());
+    if (added) lamps.push_back({name, path, {}, {}, {}, {}});
+    return lamps[at->second];
+  };
+  for (std::uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    if (!shines(scene, surface)) continue;
+    Lamp& lamp = lamp_at(surface.node_path, last_step(surface.node_path));
+    lamp.surfaces.push_back(i), lamp.mesh = surface.mesh_name, lamp.mark = surface.group_mark;
+  }
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    Lamp& lamp = lamp_at(light.node_path, light.name);
+    lamp.lights.push_back(i), lamp.mark = light.group_mark;
+  }
+  if (luminance(scene.sky) > 0) lamps.push_back({"sky", "sky", {}, {}, {}, {}, true});
+  return lamps;
+}
+
+// * stands for any letters.
+bool matches(std::string_view pattern, std::string_view name) {
+  const auto star = pattern.find('*');
+  if (star == std::string_view::npos) return pattern == name;
+  if (name.substr(0, star) != pattern.substr(0, star) || name.size() < star) return false;
+  for (std::size_t at = star; at <= name.size(); ++at)
+    if (matches(pattern.substr(star + 1), name.substr(at))) return true;
+  return false;
+}
+bool matches(std::string_view pattern, const Lamp& lamp) {
+  return matches(pattern, lamp.name) || matches(pattern, lamp.path);
+}
+
+class Groups {
+ public:
+  explicit Groups(Scene& scene) : scene_(scene), lamps_(find_lamps(scene)) {}
+  std::vector<Lamp>& lamps() { return lamps_; }
+
+  std::uint32_t group(const std::string& name) {
+    const auto at = std::ranges::find(names_, name);
+    if (at == names_.end()) names_.push_back(name);
+    return static_cast<std::uint32_t>(std::ranges::find(names_, name) - names_.begin());
+  }
+
+  Status by_names(const LightGroupOptions& options) {
+    for (const auto& [name, patterns] : options.named) {
+      const std::uint32_t number = group(name);
+      for (const std::string& pattern : patterns) {
+        bool any = false;
+        for (Lamp& lamp : lamps_) {
+          if (!matches(pattern, lamp)) continue;
+          any = true;
+          if (lamp.group != kNone && lamp.group != number)
+            return fail(ErrorCode::kUsage, options.file,
+                        "found the lamp \"{}\" in \"{}\" and in \"{}\", expected it in one group", lamp.path,
+                        names_[lamp.group], name);
+          lamp.group = number;
+        }
+        if (!any) return no_such_lamp(options.file, name, pattern);
+      }
+      if (std::ranges::none_of(lamps_, [&](const Lamp& lamp) { return lamp.group == number; }))
+        return fail(ErrorCode::kUsage, options.file, "found no lamp in the group \"{}\", expected one at least", name);
+    }
+    return {};
+  }
+
+  void by_marks(Context& context) {
+    for (Lamp& lamp : lamps_)
+      if (!lamp.mark.empty()) lamp.group = group(lamp.mark);
+    std::set<std::string> without;
+    for (const Surface& surface : scene_.surfaces)
+      if (!surface.group_mark.empty() && std::ranges::find(names_, surface.group_mark) == names_.end())
+        without.insert(surface.group_mark);
+    for (const std::string& name : without)
+      context.warning(fmt::format("the light group \"{}\" has no lamp: its nodes are there, but none shines", name));
+  }
+
+  // A node's lamps, or those with one mesh; what hangs on nothing is alone.
+  void by_place() {
+    for (Lamp& lamp : lamps_) {
+      const std::string parent = above(lamp.path);
+      const std::string mesh = lamp.mesh.empty() ? lamp.name : lamp.mesh;
+      lamp.group = group(!parent.empty() ? last_step(parent) : mesh);
+    }
+  }
+
+  void one_each() {
+    for (Lamp& lamp : lamps_) {
+      std::string name = lamp.name;
+      for (int n = 2; std::ranges::find(names_, name) != names_.end(); ++n) name = fmt::format("{} {}", lamp.name, n);
+      lamp.group = group(name);
+    }
+  }
+
+  void write(Context& context) {
+    if (names_.empty()) return;
+    const auto rest = static_cast<std::uint32_t>(std::min(names_.size(), kMostLightGroups - 1));
+    if (names_.size() > kMostLightGroups) {
+      context.warning(fmt::format("found {} light groups, expected at most {}: the lamps of \"{}\" and those after it "
+                                  "are switched together, as \"{}\"; --light-groups FILE chooses",
+                                  names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
+      for (Lamp& lamp : lamps_)
+        if (lamp.group >= rest) lamp.group = kNone;
+      names_.resize(rest);
+    }
+    if (std::ranges::any_of(lamps_, [](const Lamp& lamp) { return lamp.group == kNone; })) group(kOtherLamps);
+    scene_.light_groups.clear();
+    for (const std::string& name : names_) scene_.light_groups.push_back({name, {}});
+    const auto last = static_cast<std::uint32_t>(names_.size() - 1);
+    for (const Lamp& lamp : lamps_) {
+      const std::uint32_t number = lamp.group == kNone ? last : lamp.group;
+      scene_.light_groups[number].lamps.push_back(lamp.path.empty() ? lamp.name : lamp.path);
+      for (const std::uint32_t s : lamp.surfaces) scene_.surfaces[s].light_group = number;
+      for (const std::uint32_t l : lamp.lights) scene_.lights[l].light_group = number;
+      if (lamp.sky) scene_.sky_group = number;
+    }
+  }
+
+ private:
+  Status no_such_lamp(const std::string& file, const std::string& name, const std::string& pattern) const {
+    std::vector<std::string> names;
+    for (const Lamp& lamp : lamps_) names.push_back(lamp.name);
+    for (const Surface& surface : scene_.surfaces)
+      if (matches(pattern, surface.name) || matches(pattern, surface.node_path))
+        return fail(ErrorCode::kUsage, file, "found \"{}\" in the group \"{}\", which does not shine; lamps are {}",
+                    pattern, name, names_like(pattern, names));
+    return fail(ErrorCode::kUsage, file, "found \"{}\" in the group \"{}\", expected lamps of the scene: {}", pattern,
+                name, names_like(pattern, names));
+  }
+
+  Scene& scene_;
+  std::vector<Lamp> lamps_;
+  std::vector<std::string> names_;
+};
+
+Result<LightGroupOptions> read_groups(const std::string& file) {
+  using Json = nlohmann::ordered_json;
+  ORIEL_TRY(const Bytes bytes, read_file(file));
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const Json json = Json::parse(text, text + bytes.size(), nullptr, false);
+  const char* expected = "expected {\"group\": [\"node\", …], …}";
+  if (!json.is_object()) return invalid(file, "found no JSON object, {}", expected);
+  LightGroupOptions options{LightGrouping::kNamed, file, {}};
+  for (const auto& [name, nodes] : json.items()) {
+    if (!nodes.is_array() || std::ranges::any_of(nodes, [](const Json& node) { return !node.is_string(); }))
+      return invalid(file, "found no list of names in \"{}\", {}", name, expected);
+    if (name.empty()) return invalid(file, "found a group without a name, {}", expected);
+    options.named.emplace_back(name, nodes.get<std::vector<std::string>>());
+  }
+  if (options.named.empty()) return invalid(file, "found no group, {}", expected);
+  return options;
+}
+
+}  // namespace
+
+Result<LightGroupOptions> parse_light_groups(const std::string& text) {
+  for (const auto& [name, by] : {std::pair("marked", LightGrouping::kMarked), {"off", LightGrouping::kOff},
+                                 {"auto", LightGrouping::kAuto}, {"each", LightGrouping::kEach}})
+    if (text == name) return LightGroupOptions{by, {}, {}};
+  if (text.empty()) return fail(ErrorCode::kUsage, "", "found '', expected marked, off, auto, each or a file");
+  return read_groups(text);
+}
+
+Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context) {
+  if (options.by == LightGrouping::kOff) return {};
+  Groups groups(scene);
+  if (options.by == LightGrouping::kNamed) ORIEL_TRY_VOID(groups.by_names(options));
+  if (options.by == LightGrouping::kMarked) groups.by_marks(context);
+  if (options.by == LightGrouping::kAuto) groups.by_place();
+  if (options.by == LightGrouping::kEach) groups.one_each();
+  groups.write(context);
+  return {};
+}
+
+}  // namespace oriel
