@@ -8,7 +8,7 @@
 
 #include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
-#include "bake/radiosity/estimators/booked_pages.h"
+#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/estimators/cached.h"
 #include "bake/radiosity/estimators/detail.h"
 #include "bake/radiosity/estimators/path_estimator.h"

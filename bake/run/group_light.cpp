@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/scene/shade.h"
 #include "bake/scene/sky.h"
+#include "bake/trace/punctual.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
+#include "formats/core/color.h"
+#include "formats/query/group_light.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
-constexpr std::uint32_t kShareRays = 4096;  // of a map
+constexpr std::uint32_t kShareRays = 4096, kProbeRays = 256;  // of a map, of a probe
 
 bool shines(const Material& material) {
   return !material.unlit && max_component(material.emission) > 0;
@@ -112,6 +116,21 @@ class Shares {
   const Scene& scene_;
 };
 
+// Of each group's lamps together, by their lumens; a sky's counts where there is nothing else.
+void find_colors(const Scene& scene, Pack& pack) {
+  std::vector<DVec3> sum(pack.light_groups.size(), DVec3(0));
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (const Surface& surface = scene.surfaces[scene.triangle_surface[t]];
+        max_component(scene.materials[surface.material].emission) > 0 && !scene.materials[surface.material].unlit)
+      sum[surface.light_group] += triangle_area(scene, t) * DVec3(mean_emission(scene, t));
+  for (const Light& light : scene.lights)
+    sum[light.light_group] += light.type == LightType::kDirectional ? DVec3(light.intensity) : punctual_power(scene, light);
+  for (std::size_t g = 0; g < sum.size(); ++g) {
+    if (pack.light_groups[g].sky && sum[g] == DVec3(0)) sum[g] = DVec3(scene.sky);
+    if (luminance(sum[g]) > 0) pack.light_groups[g].own_color = Vec3(sum[g] / luminance(sum[g]));
+  }
+}
+
 void find_shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light, std::uint64_t& rays,
                  Pack& pack) {
   const Shares shares(baked, light);
@@ -139,11 +158,15 @@ void find_shares(const BakedScene& baked, const std::vector<std::vector<Lightmap
     const std::vector<Vec3> found = shares.of(sum);
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g].surrounds.push_back(found[g]);
   }
-}
-
-bool is_dark(const LightmapPage& page) {
-  const auto dark = [](const Vec3& light) { return light == Vec3(0); };
-  return std::ranges::all_of(page.irradiance, dark) && std::ranges::all_of(page.detail, dark);
+  for (std::size_t p = 0; p < pack.light_field.probes.size(); ++p) {
+    std::vector<DVec3> sum(groups.size(), DVec3(0));
+    for (std::uint32_t k = 0; k < kProbeRays; ++k) {
+      Sampler sampler(p, 2, k);
+      shares.add({pack.light_field.probes[p].position, square_to_sphere(sampler.next2())}, sum, rays);
+    }
+    const std::vector<Vec3> found = shares.of(sum);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].probes.push_back(found[g]);
+  }
 }
 
 }  // namespace
@@ -165,14 +188,10 @@ void assemble_light_groups(const BakedScene& baked, const std::vector<std::vecto
   for (std::size_t b = 0; b < pack.light_field.lights.size(); ++b)
     own(group_of(scene, pack.light_field.lights[b]), &LightGroup::bright_lights, b);
   if (max_component(scene.sky) > 0) pack.light_groups[scene.sky_group].sky = true;
+  find_colors(scene, pack);
   find_shares(baked, light, rays, pack);
-  for (std::uint32_t g = 0; g < light.size(); ++g)
-    for (std::uint32_t p = 0; p < light[g].size(); ++p) {
-      const LightmapPage& page = light[g][p];
-      if (is_dark(page)) continue;
-      pack.group_lights.push_back(
-          {g, p, page.width, page.height, page.irradiance, page.detail_width, page.detail_height, page.detail});
-    }
+  for (std::uint32_t p = 0; p < pack.lightmaps.size(); ++p)
+    pack.page_groups.push_back(groups_of_page(pack.lightmaps[p], p, light));
 }
 
 }  // namespace oriel

@@ -56,7 +56,7 @@ void remove_movers(Pack& pack) {
 
 void remove_light_groups(Pack& pack) {
   pack.light_groups.clear();
-  pack.group_lights.clear();
+  pack.page_groups.clear();
 }
 
 void remove_walk_grids(Pack& pack) {
@@ -79,7 +79,7 @@ const std::array<Removable, 12>& removables() {
       {"visible sets",
        {kVisibleSetsSection, kReflectedSetsSection},
        [](Pack& pack) { pack.visible_sets = {}, pack.reflected_sets = {}; }},
-      {"light groups", {kLightGroupSection, kGroupLightSection}, remove_light_groups},
+      {"light groups", {kLightGroupSection, kPageGroupsSection}, remove_light_groups},
       {"movers", {kMoverSection, kLightFieldSection}, remove_movers},
   }};
   return kAll;

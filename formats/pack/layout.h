@@ -97,7 +97,7 @@ inline constexpr std::uint32_t kReflectedSetsSection = fourcc("RVIS");
 inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 inline constexpr std::uint32_t kLightGroupSection = fourcc("LGRP");
-inline constexpr std::uint32_t kGroupLightSection = fourcc("GLIT");
+inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 
 // In the order in which the writer puts them; unknown sections follow.
 inline constexpr std::array<SectionKind, 26> kSectionKinds = {{
@@ -126,7 +126,7 @@ inline constexpr std::array<SectionKind, 26> kSectionKinds = {{
     {kMoverSection, "mover", true, false, true},
     {kLightFieldSection, "light field", true, false, false},
     {kLightGroupSection, "light groups", true, false, false},
-    {kGroupLightSection, "light of a group", true, false, true},
+    {kPageGroupsSection, "light of groups on a page", true, false, true},
 }};
 
 // nullptr for a kind that this version does not know.

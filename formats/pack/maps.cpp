@@ -154,29 +154,6 @@ void describe(Serial& s, LightmapPage& page) {
       });
 }
 
-void describe(Serial& s, GroupLight& light) {
-  s(light.group, light.page);
-  s.size(light.width, light.height);
-  s(light.detail_width, light.detail_height);
-  if (light.detail_width > kMaxDetailSide || light.detail_height > kMaxDetailSide)
-    s.refuse("found details of {} x {} points, expected at most {} a side", light.detail_width, light.detail_height,
-             kMaxDetailSide);
-  const int exponent = describe_half_exponent(s, light.irradiance, light.detail);
-  describe_halves(s, light.irradiance, std::uint64_t{light.width} * light.height, exponent, "irradiance");
-  describe_halves(s, light.detail, std::uint64_t{light.detail_width} * light.detail_height, exponent, "detail");
-}
-
-void describe(Serial& s, LightGroup& group) {
-  s(group.name);
-  s.list(group.lamps, s.count(group.lamps), [&](std::string& lamp) { s(lamp); });
-  s(group.value, group.color);
-  for (auto* indices : {&group.materials, &group.emitters, &group.bright_lights}) s.array(*indices, s.count(*indices));
-  s.choice("sky flag", 1, group.sky);
-  s.reserved(3);
-  for (auto* shares : {&group.reflectors, &group.surrounds})
-    s.list(*shares, s.count(*shares), [&](Vec3& share) { s(share); });
-}
-
 namespace {
 
 // Halves of light as they lie in the file.

@@ -29,7 +29,7 @@ void describe(Serial& s, ReflectedSets& sets);
 void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
 void describe(Serial& s, LightGroup& group);
-void describe(Serial& s, GroupLight& light);
+void describe(Serial& s, PageGroups& page);
 
 // The beginning of an image's section: all but what is there by texel.
 struct RadianceMapScale {
@@ -96,7 +96,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.each(kMoverSection, pack.movers);
   v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
   v.list(kLightGroupSection, pack.light_groups);
-  v.each(kGroupLightSection, pack.group_lights);
+  v.each(kPageGroupsSection, pack.page_groups);
 }
 inline void describe(Serial& s, Vec3& sky) {
   s(sky);

@@ -30,36 +30,54 @@ class Owned {
 };
 
 void validate_group(const Pack& pack, const LightGroup& group, IssueList& list) {
-  if (!not_negative(group.value) || !not_negative(group.color))
+  if (!not_negative(group.value) || !not_negative(group.color) || !not_negative(group.own_color))
     list.error(761, "group '{}': found value {} and colour {}, expected finite numbers from 0 up", group.name,
                group.value, text_of(group.color));
-  if (group.reflectors.size() != pack.reflectors.size() || group.surrounds.size() != pack.surround_maps.size())
-    list.error(764, "group '{}': found shares of {} reflectors and {} surround maps, expected of {} and {}", group.name,
-               group.reflectors.size(), group.surrounds.size(), pack.reflectors.size(), pack.surround_maps.size());
-  for (const auto* shares : {&group.reflectors, &group.surrounds})
+  const std::size_t probes = pack.light_field.probes.size();
+  if (group.reflectors.size() != pack.reflectors.size() || group.surrounds.size() != pack.surround_maps.size() ||
+      group.probes.size() != probes)
+    list.error(764,
+               "group '{}': found shares of {} reflectors, {} surround maps and {} probes, expected of {}, {} and {}",
+               group.name, group.reflectors.size(), group.surrounds.size(), group.probes.size(), pack.reflectors.size(),
+               pack.surround_maps.size(), probes);
+  for (const auto* shares : {&group.reflectors, &group.surrounds, &group.probes})
     list.each(
         764, "shares of maps", *shares, [](const Vec3& v) { return within(v, 0, 1); },
         [](const Vec3& v) { return text_of(v); }, "0 to 1");
 }
 
-void validate_light(const Pack& pack, const GroupLight& light, IssueList& list) {
-  if (light.group >= pack.light_groups.size() || light.page >= pack.lightmaps.size()) {
-    list.error(765, "found light of group {} on page {}, expected less than {} and {}", light.group, light.page,
-               pack.light_groups.size(), pack.lightmaps.size());
+// `rest` and codes of a page, or of its details: as many as there are texels.
+void validate_texels(const Pack& pack, std::size_t texels, const std::vector<std::uint8_t>& rest, IssueList& list) {
+  if (rest.size() != texels) list.error(766, "found brightest groups of {} texels, expected {}", rest.size(), texels);
+  list.each(
+      767, "brightest groups", rest, [&](std::uint8_t group) { return group < pack.light_groups.size(); },
+      [](std::uint8_t group) { return fmt::format("{}", group); }, "groups of the pack");
+}
+
+void validate_page(const Pack& pack, const PageGroups& page, IssueList& list) {
+  if (page.page >= pack.lightmaps.size()) {
+    list.error(765, "found page {}, expected less than {}", page.page, pack.lightmaps.size());
     return;
   }
-  const LightmapPage& page = pack.lightmaps[light.page];
-  if (light.width != page.width || light.height != page.height || light.detail_width != page.detail_width ||
-      light.detail_height != page.detail_height ||
-      light.irradiance.size() != std::size_t{light.width} * light.height ||
-      light.detail.size() != std::size_t{light.detail_width} * light.detail_height)
-    list.error(766, "found {} x {} texels and {} x {} details, expected the page's {} x {} and {} x {}", light.width,
-               light.height, light.detail_width, light.detail_height, page.width, page.height, page.detail_width,
-               page.detail_height);
-  for (const auto* values : {&light.irradiance, &light.detail})
-    list.each(
-        767, "texels of light", *values, [](const Vec3& v) { return not_negative(v); },
-        [](const Vec3& v) { return text_of(v); }, "finite numbers from 0 up");
+  const LightmapPage& of = pack.lightmaps[page.page];
+  if (page.width != of.width || page.height != of.height || page.detail_width != of.detail_width ||
+      page.detail_height != of.detail_height)
+    list.error(766, "found {} x {} texels and {} x {} details, expected the page's {} x {} and {} x {}", page.width,
+               page.height, page.detail_width, page.detail_height, of.width, of.height, of.detail_width,
+               of.detail_height);
+  const std::size_t texels = std::size_t{page.width} * page.height;
+  const std::size_t details = std::size_t{page.detail_width} * page.detail_height;
+  validate_texels(pack, texels, page.rest, list);
+  validate_texels(pack, details, page.rest_of_detail, list);
+  std::set<std::uint32_t> seen;
+  for (const GroupTexels& other : page.others) {
+    if (other.group >= pack.light_groups.size() || !seen.insert(other.group).second)
+      list.error(765, "found light of group {}, expected less than {} and each once", other.group,
+                 pack.light_groups.size());
+    if (other.light.size() != texels || other.detail.size() != details)
+      list.error(766, "found light of {} texels and {} points of group {}, expected {} and {}", other.light.size(),
+                 other.detail.size(), other.group, texels, details);
+  }
 }
 
 }  // namespace
@@ -78,13 +96,12 @@ void validate_light_groups(const Pack& pack, IssueList& list) {
     emitters.check(group, group.emitters, list);
     bright.check(group, group.bright_lights, list);
   }
-  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
-  for (std::size_t i = 0; i < pack.group_lights.size(); ++i) {
-    list.in_section(kGroupLightSection, i);
-    const GroupLight& light = pack.group_lights[i];
-    validate_light(pack, light, list);
-    if (!seen.emplace(light.group, light.page).second)
-      list.error(765, "found light of group {} on page {} a second time", light.group, light.page);
+  std::set<std::uint32_t> pages;
+  for (std::size_t i = 0; i < pack.page_groups.size(); ++i) {
+    list.in_section(kPageGroupsSection, i);
+    validate_page(pack, pack.page_groups[i], list);
+    if (!pages.insert(pack.page_groups[i].page).second)
+      list.error(765, "found page {} a second time", pack.page_groups[i].page);
   }
 }
 

@@ -1,4 +1,5 @@
 // oriel-play: shows a pack in a window or in files.
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,6 +12,7 @@
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
 #include "player/session/arguments.h"
+#include "player/session/light_settings.h"
 #include "player/window/window.h"
 
 namespace {
@@ -27,10 +29,23 @@ void list_cameras(const Pack& pack) {
     const DVec3 at = DVec3(mover.rest.position) + pack.mesh.origin;
     fmt::print("mover {} at {:.2f},{:.2f},{:.2f}\n", mover.name, at.x, at.y, at.z);
   }
+  for (const LightGroup& group : pack.light_groups)
+    fmt::print("lights {}: {}\n", group.name, fmt::join(group.lamps, ", "));
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
 
-Status play(const PlayArguments& arguments, std::chrono::steady_clock::time_point started) {
+// Lamps as the user wants them, or as the pack has them.
+Result<std::vector<LightSetting>> choose_lights(const Pack& pack, const PlayArguments& arguments) {
+  std::vector<LightSetting> settings = settings_of(pack);
+  if (!arguments.lights_file.empty()) {
+    ORIEL_TRY(const std::vector<std::string> changes, read_lights(arguments.lights_file));
+    ORIEL_TRY_VOID(set_lights(pack, changes, settings));
+  }
+  ORIEL_TRY_VOID(set_lights(pack, arguments.lights, settings));
+  return settings;
+}
+
+Status play(PlayArguments arguments, std::chrono::steady_clock::time_point started) {
   auto read = open_pack(arguments.pack);
   // Started from a desktop there is no terminal that would say why.
   if (!read && !arguments.list && !arguments.offscreen && ::isatty(STDERR_FILENO) == 0)
@@ -40,6 +55,8 @@ Status play(const PlayArguments& arguments, std::chrono::steady_clock::time_poin
     list_cameras(pack.pack);
     return {};
   }
+  ORIEL_TRY(arguments.light_settings, choose_lights(pack.pack, arguments));
+  arguments.frame.lights = factors_of(pack.pack, arguments.light_settings);
   if (!arguments.reference.empty()) return play_compare(std::move(pack), arguments);
   return arguments.offscreen ? play_offscreen(std::move(pack), arguments)
                              : play_in_window(std::move(pack), arguments, stop_requested, started);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "formats/assets/light_group.h"
 #include "formats/assets/lightmap.h"
 #include "formats/assets/material.h"
 #include "formats/pack/half_page.h"
@@ -32,6 +33,9 @@ struct LightData {
   float mean_lux = 0;  // luminance over what has light; 0: nothing has
 };
 LightData light_data(HalfPage page, int coarser = 0);
+
+// The page where groups of lamps shine so many times as they were baked (formats/query/group_light.h).
+HalfPage relit(const HalfPage& baked, const PageGroups& groups, std::span<const Vec3> factors);
 
 // On the device, without the data: of a texture with mipmaps, of a page of light.
 std::size_t mipmapped_bytes(const IVec2& size, int coarser);

@@ -1,5 +1,7 @@
 #include "player/images/image_source.h"
 
+#include <algorithm>
+
 #include <new>
 
 #include "formats/core/parallel.h"
@@ -60,6 +62,7 @@ ImageSource::ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages>
     : pack_(deferred ? nullptr : &pack),
       deferred_(std::move(deferred)),
       elements_(std::move(elements)),
+      page_groups_(pack.page_groups),
       users_(pack.textures.size()) {
   for (const Material& m : pack.materials)
     if (m.base_color_texture >= 0) users_[static_cast<std::size_t>(m.base_color_texture)].push_back(m);
@@ -147,8 +150,7 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
       return out;
     }
     case ImageKind::kLight: {
-      ORIEL_TRY(HalfPage page,
-                deferred_ ? deferred_->light(name.index) : Result<HalfPage>(half_page(pack_->lightmaps[name.index])));
+      ORIEL_TRY(HalfPage page, light_of_page(name.index, out.lights));
       LightData data = light_data(std::move(page), coarser);
       out.textures.push_back(std::move(data.light));
       out.directional = data.direction.has_value();
@@ -174,6 +176,39 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
     }
   }
   return out;
+}
+
+void ImageSource::set_lights(std::span<const Vec3> factors) {
+  const std::scoped_lock lock(lights_->mutex);
+  lights_->factors.assign(factors.begin(), factors.end());
+  ++lights_->changes;
+}
+
+std::uint64_t ImageSource::lights() const {
+  const std::scoped_lock lock(lights_->mutex);
+  return lights_->changes;
+}
+
+Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, std::uint64_t& lights) const {
+  std::shared_ptr<const HalfPage> known;
+  std::vector<Vec3> factors;
+  {
+    const std::scoped_lock lock(lights_->mutex);
+    lights = lights_->changes, factors = lights_->factors;
+    if (const auto at = lights_->baked.find(page); at != lights_->baked.end()) known = at->second;
+  }
+  const bool as_baked = std::ranges::all_of(factors, [](const Vec3& factor) { return factor == Vec3(1); });
+  const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
+  if (!known) {
+    ORIEL_TRY(HalfPage baked,
+              deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page])));
+    if (as_baked || groups == page_groups_.end()) return baked;
+    known = std::make_shared<const HalfPage>(std::move(baked));
+    const std::scoped_lock lock(lights_->mutex);
+    lights_->baked.emplace(page, known);
+  }
+  if (as_baked || groups == page_groups_.end()) return *known;
+  return relit(*known, *groups, factors);
 }
 
 Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser) const {

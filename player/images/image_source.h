@@ -3,7 +3,10 @@
 
 #include <array>
 #include <atomic>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <span>
 
 #include "formats/pack/deferred.h"
 #include "player/images/image_data.h"
@@ -32,6 +35,7 @@ struct PreparedImage {
       textures;  // light: directions second, cells and details last; maps: light, disparity and ranges of each element
   float scale = 0, mean_lux = 0;               // of light
   bool directional = false;                    // likewise
+  std::uint64_t lights = 0;                    // likewise: ImageSource::lights() that it was made for
   std::vector<std::vector<float>> map_scales;  // of maps, by element and layer
   std::vector<std::vector<IVec2>> map_sizes;
   MapMeans means;
@@ -47,6 +51,11 @@ class ImageSource {
   ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
               std::vector<std::vector<ReflectorElement>> elements);
 
+  // Pages of light are made of groups of lamps that shine so many times as they were baked, from now on. Not while
+  // prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
+  void set_lights(std::span<const Vec3> factors);
+  std::uint64_t lights() const;  // rises with each change
+
   // coarser: halvings of the texels a side, up to coarsest(). Errors of DeferredImages; kRuntime without memory.
   Result<PreparedImage> prepare(const ImageName& name, int coarser) const;
   int coarsest(const ImageName& name) const;
@@ -61,14 +70,24 @@ class ImageSource {
 
  private:
   Result<PreparedImage> make(const ImageName& name, int coarser) const;
+  Result<HalfPage> light_of_page(std::uint32_t page, std::uint64_t& lights) const;
   Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;
   const Pack* pack_ = nullptr;  // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;
   std::vector<std::vector<ReflectorElement>> elements_;
+  std::span<const PageGroups> page_groups_;
   std::vector<std::vector<Material>> users_;  // by texture
   std::vector<IVec2> textures_, normal_textures_, pages_, details_, maps_;
   std::vector<bool> directional_;  // by page
   std::vector<std::uint32_t> surrounds_;
+  // What lamps shine now, and pages as they were baked, once any shines otherwise.
+  struct Lights {
+    std::mutex mutex;
+    std::uint64_t changes = 0;
+    std::vector<Vec3> factors;
+    std::map<std::uint32_t, std::shared_ptr<const HalfPage>> baked;
+  };
+  std::unique_ptr<Lights> lights_ = std::make_unique<Lights>();
   std::unique_ptr<std::atomic<bool>> abandoned_ = std::make_unique<std::atomic<bool>>(false);
 };
 

@@ -25,6 +25,13 @@ struct LoadedLightmap {
 struct ReflectorMaps {
   std::vector<MapArray> elements;
   MapMeans means;
+  std::vector<std::vector<float>> baked_scales;  // of elements, and mean radiance, as the lamps were baked
+  Vec3 baked_radiance{0};
+};
+
+// How many times what was baked the light is on average that maps show: by reflector, by surround map.
+struct MapFactors {
+  std::vector<Vec3> reflectors, surrounds;
 };
 
 struct LoadingOptions {
@@ -80,6 +87,10 @@ class SceneImages {
   // there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
 
+  // Pages of light and maps show lamps that shine so many times as they were baked, by group; those that are there at
+  // once. Maps do on average.
+  Status set_lights(std::span<const Vec3> factors, MapFactors of_maps);
+
   void use_mipmaps(bool on);
   LoadingState state() const;
   std::uint64_t map_bytes() const { return map_bytes_; }
@@ -122,6 +133,10 @@ class SceneImages {
   bool step_upload(Clock::time_point end);
   void check_more();
   void settle(Upload& upload);
+  void settle_light(std::uint32_t index, PreparedImage& image, std::vector<TextureUpload>& textures);
+  Status show_lights(std::uint32_t index);
+  void scale_maps(std::uint32_t reflector);
+  void scale_surround(std::uint32_t index);
 
   ImageSource source_;
   LoadingOptions options_;
@@ -137,6 +152,8 @@ class SceneImages {
   std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
+  std::vector<float> baked_surround_scales_;
+  MapFactors map_factors_;
   std::map<std::uint32_t, gpu::Texture2d> points_;
   std::uint64_t points_bytes_ = 0;
   std::map<std::uint32_t, Result<LightmapPage>> pages_;

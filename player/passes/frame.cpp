@@ -121,6 +121,7 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
   in_window_ = false;
+  ORIEL_TRY_VOID(scene.set_lights(options.lights));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;

@@ -16,6 +16,7 @@
 #include "player/scene/gpu_map_meshes.h"
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
+#include "player/scene/lights.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
@@ -64,6 +65,10 @@ class GpuScene {
     return create(DeferredPack{std::move(pack), nullptr}, device, loading);
   }
 
+  // By group of lamps, how many times they shine as they were baked; of another number of groups, or none: once. Takes
+  // time where that changes: light of lightmaps is added up anew. Errors of images.
+  Status set_lights(std::span<const Vec3> factors);
+
   // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
   // background all of that is there afterwards, but for maps. Errors of images.
   Status aim(const View& view);
@@ -74,7 +79,7 @@ class GpuScene {
   std::vector<Error> advance_all(SceneImages::Clock::time_point until = SceneImages::Clock::time_point::max());
 
   const Pack& pack() const { return pack_; }
-  // Of this scene alone, for what others keep of it.
+  // Of this scene alone, and of its lamps as they shine now, for what others keep of it.
   std::uint64_t serial() const { return serial_; }
   const Bounds& bounds() const { return bounds_; }
   // Sorted by material and page.
@@ -180,6 +185,8 @@ class GpuScene {
   LoadedLightmap no_lightmap_;
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
+  BakedLamps baked_;
+  std::vector<Vec3> lights_;  // by group
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

@@ -12,6 +12,7 @@
 #include "player/images/residency.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
+#include "player/session/light_settings.h"
 #include "player/session/pace.h"
 
 namespace oriel {
@@ -31,6 +32,9 @@ struct PlayArguments {
   bool sized = false;                // --size was given
   bool sampled = false;              // --samples was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
+  std::vector<std::string> lights;  // as written, for set_lights(); of a file before others
+  std::string lights_file;
+  std::vector<LightSetting> light_settings;  // what both make of the pack's, once it is open; frame.lights too
   std::vector<MoverMove> moves;
   double time_s = 0;           // of animations; the window's clock starts there
   std::optional<float> ev100;  // nothing: automatic

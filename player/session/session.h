@@ -15,6 +15,7 @@
 #include "player/scene/frame_options.h"
 #include "player/session/comparison.h"
 #include "player/session/keys.h"
+#include "player/session/light_settings.h"
 #include "player/session/pace.h"
 
 namespace oriel {
@@ -41,6 +42,7 @@ struct Session {
   bool panel = false, key_sheet = false;
   bool advanced = false;    // the panel shows what the method is made of
   bool presenting = false;  // the whole screen, and no words
+  std::vector<LightSetting> lights;  // by group: what frame.lights follow from
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged
   ComparisonView comparison;

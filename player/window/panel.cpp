@@ -6,6 +6,7 @@
 
 #include "player/window/comparison_panel.h"
 #include "player/window/legend.h"
+#include "player/window/lights_panel.h"
 #include "player/window/widgets.h"
 
 namespace oriel {
@@ -177,6 +178,7 @@ void draw_panel(const Pack& pack, const FrameMeter& meter, const std::optional<P
       draw_light(session);
       draw_quality(meter, session);
     }
+    if (!pack.light_groups.empty() && opens("Lights")) draw_lights(pack, session);
     if (opens("Places")) draw_places(pack, session);
     if (session.comparison.on() && opens("Beside each other")) draw_comparison(session.comparison);
     if (opens("Under the pointer")) draw_picked(picked);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "formats/query/group_light.h"
+
 namespace oriel::testing {
 namespace {
 
@@ -241,6 +243,34 @@ Pack tiny_pack() {
   return pack;
 }
 
+namespace {
+
+// Two, of which each has a part of each texel's light, the first more of every third's.
+void add_tiny_groups(Pack& pack) {
+  pack.light_groups.resize(2);
+  for (std::uint32_t g = 0; g < 2; ++g) {
+    LightGroup& group = pack.light_groups[g];
+    group.name = g == 0 ? "desk" : "hall";
+    group.lamps = g == 0 ? std::vector<std::string>{"desk/lamp", "bulb"} : std::vector<std::string>{"sky"};
+    group.materials = group.emitters = {g};
+    group.bright_lights = {1 - g};
+    group.sky = g == 1;
+    group.reflectors.assign(pack.reflectors.size(), Vec3(g == 0 ? 0.25f : 0.75f));
+    group.surrounds.assign(pack.surround_maps.size(), Vec3(0.5f, 1.0f - static_cast<float>(g), 0.5f));
+    group.probes.assign(pack.light_field.probes.size(), Vec3(0.5f));
+  }
+  pack.light_groups[0].value = 0.5f, pack.light_groups[0].color = Vec3(1, 0.75f, 0.5f);
+  pack.light_groups[0].own_color = Vec3(1.5f, 0.875f, 0.5f);
+  const LightmapPage& page = pack.lightmaps[0];
+  std::vector<std::vector<LightmapPage>> light(2, {page});
+  for (std::size_t g = 0; g < 2; ++g)
+    for (std::vector<Vec3>* values : {&light[g][0].irradiance, &light[g][0].detail})
+      for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] *= (i % 3 == 0) == (g == 0) ? 0.75f : 0.25f;
+  pack.page_groups = {groups_of_page(page, 0, light)};
+}
+
+}  // namespace
+
 Pack tiny_mapped_pack() {
   Pack pack = tiny_pack();
   LightmapPage& page = pack.lightmaps[0];
@@ -300,6 +330,7 @@ Pack tiny_mapped_pack() {
   pack.reflected_sets.made_for = reflected_hash(sets, pack.reflectors);
   pack.movers = {tiny_mover()};
   pack.light_field = tiny_field();
+  add_tiny_groups(pack);
   return pack;
 }
 

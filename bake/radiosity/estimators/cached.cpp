@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "bake/radiosity/estimators/booked_pages.h"
+#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
 #include "bake/radiosity/estimators/lamp_light.h"
@@ -11,7 +11,6 @@
 #include "bake/radiosity/estimators/patches.h"
 #include "bake/radiosity/estimators/reuse.h"
 #include "bake/radiosity/estimators/work_left.h"
-#include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/gather/survival.h"
 #include "bake/radiosity/texels/frame_error.h"
 #include "formats/core/color.h"
@@ -69,17 +68,7 @@ class CachedEstimator : public LightEstimator {
     report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
-    for (std::size_t i = 0; i < texels_.count(); ++i) {
-      LightmapPage& page = light.pages[texels_.page[i]];
-      const std::size_t texel = std::size_t{texels_.y[i]} * page.width + texels_.x[i];
-      light.visible[texels_.page[i]][texels_.index[i]] = texels_.visible[i];
-      page.state[texel] = texels_.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
-      if (texels_.visible[i] == 0) continue;
-      if (!page.direction.empty()) page.direction[texel] = direction_of(direct_.moments[i] + of_gathered[i]);
-      page.irradiance[texel] = glm::max(smooth_direct_.value[i] + estimate_.value[i], Vec3(0));
-      const Vec3 edited = page.irradiance[texel] * (keeps(i) ? reuse_->change(i) : 0);
-      page.standard_error[texel] = glm::sqrt(smooth_direct_.variance[i] + estimate_.variance[i] + edited * edited);
-    }
+    write_texels({texels_, smooth_direct_, estimate_, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr}, light);
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
@@ -155,22 +144,11 @@ class CachedEstimator : public LightEstimator {
     }
   }
 
-  // Direct light that looks the same at a glance is taken as it was.
-  void take_known_direct() {
-    known_direct_ = reuse_->same_glance(graph_, direct_.value);
-    for (std::size_t i = 0; i < texels_.count(); ++i)
-      if (known_direct_[i]) direct_.value[i] = reuse_->known().first_direct[reuse_->before(i)];
-  }
-
   // What texels that keep their light knew of it in the end; of those whose direct light is the same, that.
   void take_known() {
     if (!reuse_) return;
     reuse_->compare(texels_, order_, coarse_, lamps_.particles > 0, options_.reuse_error);
-    for (std::size_t i = 0; i < texels_.count(); ++i) {
-      const std::uint32_t k = reuse_->before(i);
-      if (known_direct_[i] || reuse_->keeps(i)) direct_.take(i, reuse_->known().direct, k);
-      if (reuse_->keeps(i)) gathered_.take(i, reuse_->known().gathered, k);
-    }
+    reuse_->give(known_direct_, direct_, gathered_);
   }
   bool keeps(std::size_t i) const { return reuse_ && reuse_->keeps(i); }
   std::vector<std::uint32_t> not_kept() const {
@@ -191,7 +169,7 @@ class CachedEstimator : public LightEstimator {
     std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
     ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, quick_rays_));
     known_now_.glance = direct_.value;
-    if (reuse_) take_known_direct();
+    if (reuse_) reuse_->give_first(known_direct_ = reuse_->same_glance(graph_, direct_.value), direct_.value);
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
     std::uint32_t per_half = first;
     const double least = options_.left ? (1 - kDirectTime) * options_.left() : 0;
@@ -265,12 +243,6 @@ class CachedEstimator : public LightEstimator {
 
   std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
 
-  void assume_coarse(std::uint32_t i) {
-    gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError);
-    for (std::size_t g = 0; g < booked_.groups; ++g)
-      gathered_.booked.of(i)[g] = float{kHalves} * sweeps_.booked.of(i)[g];
-  }
-
   // Texels that time leaves none of the first rays keep the light of the bounces.
   Status first_gather() {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
@@ -281,7 +253,7 @@ class CachedEstimator : public LightEstimator {
     ORIEL_TRY_VOID(gather_list(per_half));
     for (const std::uint32_t i : list)
       if (gathered_.samples[i] == 0 && texels_.visible[i] > 0)
-        assume_coarse(i);
+        gathered_.assume(i, irradiance_[i] - direct_.value[i] - gathered_.mean(i), kCoarseError, sweeps_.booked);
     std::erase_if(list, [&](std::uint32_t i) { return !is_crowded(i); });
     if (const std::uint32_t more = std::min(most_gathered(), kFirstCrowded); more > per_half && !ended_early_)
       ORIEL_TRY_VOID(gather_list(more));

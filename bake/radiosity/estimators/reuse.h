@@ -49,6 +49,18 @@ class Reuse {
   void compare(const Texels& texels, std::span<const std::uint32_t> order, std::span<const Vec3> coarse, bool lamps,
                double error);
   bool keeps(std::size_t texel) const { return kept_[texel]; }
+  // Direct light that looks the same at a glance is taken as it was before it was refined.
+  void give_first(const std::vector<bool>& same_direct, std::vector<Vec3>& direct) const {
+    for (std::size_t i = 0; i < direct.size(); ++i)
+      if (same_direct[i]) direct[i] = known_.first_direct[number_[i]];
+  }
+  // Texels that are kept get what was known of them; those of `same_direct` the direct light.
+  void give(const std::vector<bool>& same_direct, DirectSums& direct, HalfSums& gathered) const {
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      if (same_direct[i] || kept_[i]) direct.take(i, known_.direct, number_[i]);
+      if (kept_[i]) gathered.take(i, known_.gathered, number_[i]);
+    }
+  }
   // Root mean square, over its tile, of what the edit changes in the light of a texel that is kept, relative.
   float change(std::size_t texel) const { return change_[texel]; }
   const ReuseReport& report() const { return report_; }

@@ -47,10 +47,12 @@ struct HalfSums {
     for (int h = 0; h < kHalves; ++h) beside[h][i] = from.beside[h][i];
     if (!beside_moments.empty()) beside_moments[i] = from.beside_moments[i];
   }
-  // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it.
-  void assume(std::size_t i, const Vec3& light, float uncertain) {
+  // Stands for a sample that was not taken: light known from elsewhere, uncertain by that share of it. of_groups: the
+  // same by group of lamps, of all texels.
+  void assume(std::size_t i, const Vec3& light, float uncertain, const BookedLight& of_groups) {
     sum[0][i] = (1 + uncertain) * light, sum[1][i] = (1 - uncertain) * light;
     samples[i] = 1;
+    for (std::size_t g = 0; g < booked.groups; ++g) booked.of(i)[g] = float{kHalves} * of_groups.of(i)[g];
   }
   Vec3 half(int h, std::size_t i) const {
     return beside[h][i] + (samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0));

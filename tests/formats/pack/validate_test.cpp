@@ -204,6 +204,32 @@ const Break kBreaks[] = {
     {743, "PROB", [](Pack& p) { p.light_field.probes[0].kept = 1; }},
     {744, "PROB", [](Pack& p) { p.light_field.lights[0].corners.pop_back(); }},
     {744, "PROB", [](Pack& p) { p.light_field.lights[1].intensity.g = -1; }},
+    {761, "LGRP", [](Pack& p) { p.light_groups[1].name = p.light_groups[0].name; }},
+    {761, "LGRP", [](Pack& p) { p.light_groups[1].value = -1; }},
+    {761, "LGRP", [](Pack& p) { p.light_groups[1].color.b = kNan; }},
+    {761, "LGRP", [](Pack& p) { p.light_groups[0].own_color.r = kInf; }},
+    {762, "LGRP", [](Pack& p) { p.light_groups[0].materials = {2}; }},
+    {762, "LGRP", [](Pack& p) { p.light_groups[0].emitters = {2}; }},
+    {762, "LGRP", [](Pack& p) { p.light_groups[0].bright_lights = {2}; }},
+    {763, "LGRP", [](Pack& p) { p.light_groups[0].materials = {1}; }},
+    {764, "LGRP", [](Pack& p) { p.light_groups[1].probes.pop_back(); }},
+    {764, "LGRP", [](Pack& p) { p.light_groups[1].reflectors[0].g = 1.5f; }},
+    {764, "LGRP", [](Pack& p) { p.light_groups[1].surrounds.clear(); }},
+    {765, "GLMP 0", [](Pack& p) { p.page_groups[0].page = 1; }},
+    {765, "GLMP 0", [](Pack& p) { p.page_groups[0].others[0].group = 2; }},
+    {765, "GLMP 1", [](Pack& p) { p.page_groups.push_back(p.page_groups[0]); }},
+    {766, "GLMP 0", [](Pack& p) { p.page_groups[0].width = 4; }},
+    {766, "GLMP 0", [](Pack& p) { p.page_groups[0].rest.pop_back(); }},
+    {766, "GLMP 0", [](Pack& p) { p.page_groups[0].others[1].light.pop_back(); }},
+    {767, "GLMP 0", [](Pack& p) { p.page_groups[0].rest[3] = 2; }},
+    {768, "LGRP",
+     [](Pack& p) {
+       for (int i = 0; i < 63; ++i) {
+         p.light_groups.push_back(p.light_groups[1]);
+         LightGroup& added = p.light_groups.back();
+         added.name += std::to_string(i), added.materials = {}, added.emitters = {}, added.bright_lights = {};
+       }
+     }},
     {801, "PROV", [](Pack& p) { p.provenance = "{\"a\":"; }},
     {802, "PROV", [](Pack& p) { p.provenance.clear(); }},
     {803, "PLAN", [](Pack& p) { p.plan = "[1]"; }},

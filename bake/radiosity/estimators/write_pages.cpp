@@ -1,4 +1,6 @@
-#include "bake/radiosity/estimators/booked_pages.h"
+#include "bake/radiosity/estimators/write_pages.h"
+
+#include "bake/radiosity/gather/moments.h"
 
 namespace oriel {
 namespace {
@@ -15,6 +17,24 @@ void share_out_all(const std::vector<Vec3>& whole, std::size_t groups, const Lig
 }
 
 }  // namespace
+
+void write_texels(const TexelEstimate& estimate, Radiosity& light) {
+  const Texels& texels = estimate.texels;
+  for (std::size_t i = 0; i < texels.count(); ++i) {
+    LightmapPage& page = light.pages[texels.page[i]];
+    const std::size_t texel = std::size_t{texels.y[i]} * page.width + texels.x[i];
+    light.visible[texels.page[i]][texels.index[i]] = texels.visible[i];
+    page.state[texel] = texels.visible[i] > 0 ? TexelState::kValid : TexelState::kBuried;
+    if (texels.visible[i] == 0) continue;
+    if (!page.direction.empty())
+      page.direction[texel] = direction_of(estimate.direct_moments[i] + estimate.gathered_moments[i]);
+    page.irradiance[texel] = glm::max(estimate.direct.value[i] + estimate.gathered.value[i], Vec3(0));
+    const bool kept = estimate.reuse && estimate.reuse->keeps(i);
+    const Vec3 edited = page.irradiance[texel] * (kept ? estimate.reuse->change(i) : 0);
+    page.standard_error[texel] =
+        glm::sqrt(estimate.direct.variance[i] + estimate.gathered.variance[i] + edited * edited);
+  }
+}
 
 void write_booked(const Texels& texels, const BookedLight& booked, std::vector<std::vector<LightmapPage>>& pages) {
   for (std::size_t i = 0; i < texels.count(); ++i)

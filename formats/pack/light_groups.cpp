@@ -1,0 +1,57 @@
+// Groups of lamps, and what lightmap pages have of each.
+#include "formats/pack/sections.h"
+
+namespace oriel {
+namespace {
+
+// Green as it is, the others as their difference from it: all three rise and fall together.
+void describe_codes(Serial& s, std::vector<GroupCode>& codes, std::uint64_t n) {
+  s.coded<GroupCode>(
+      codes, n,
+      [](const GroupCode& c) {
+        return GroupCode{static_cast<std::uint16_t>(c[0] - c[1]), c[1], static_cast<std::uint16_t>(c[2] - c[1])};
+      },
+      [&](const GroupCode& c, std::size_t i) {
+        const GroupCode code{static_cast<std::uint16_t>(c[0] + c[1]), c[1], static_cast<std::uint16_t>(c[2] + c[1])};
+        for (const std::uint16_t channel : code)
+          if (channel > kLargestGroupCode)
+            s.refuse("found code {:#x} of light at {}, expected at most {:#x}", channel, i, kLargestGroupCode);
+        return code;
+      });
+}
+
+}  // namespace
+
+void describe(Serial& s, LightGroup& group) {
+  s(group.name);
+  s.list(group.lamps, s.count(group.lamps), [&](std::string& lamp) { s(lamp); });
+  s(group.value, group.color, group.own_color);
+  for (auto* indices : {&group.materials, &group.emitters, &group.bright_lights}) s.array(*indices, s.count(*indices));
+  s.choice("sky flag", 1, group.sky);
+  s.reserved(3);
+  for (auto* shares : {&group.reflectors, &group.surrounds, &group.probes})
+    s.list(*shares, s.count(*shares), [&](Vec3& share) { s(share); });
+}
+
+void describe(Serial& s, PageGroups& page) {
+  s(page.page);
+  s.size(page.width, page.height);
+  s(page.detail_width, page.detail_height);
+  if (page.detail_width > kMaxDetailSide || page.detail_height > kMaxDetailSide)
+    s.refuse("found details of {} x {} points, expected at most {} a side", page.detail_width, page.detail_height,
+             kMaxDetailSide);
+  s.scale_exponent(page.exponent);
+  const std::uint64_t texels = std::uint64_t{page.width} * page.height;
+  const std::uint64_t details = std::uint64_t{page.detail_width} * page.detail_height;
+  const std::uint32_t others = s.count(page.others);
+  if (others > kMaxLightGroups) s.refuse("found light of {} groups, expected at most {}", others, kMaxLightGroups);
+  s.planes(page.rest, texels);
+  s.planes(page.rest_of_detail, details);
+  s.list(page.others, others, [&](GroupTexels& of_group) {
+    s(of_group.group);
+    describe_codes(s, of_group.light, texels);
+    describe_codes(s, of_group.detail, details);
+  });
+}
+
+}  // namespace oriel

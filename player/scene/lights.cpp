@@ -1,0 +1,36 @@
+#include "player/scene/lights.h"
+
+namespace oriel {
+
+BakedLamps::BakedLamps(const Pack& pack) : sky_(pack.sky) {
+  for (const Material& m : pack.materials) emission_.push_back(m.emission);
+  for (const Emitter& emitter : pack.emitters) emitters_.push_back(emitter.radiance);
+  for (const BrightLight& light : pack.light_field.lights) bright_.push_back(light.intensity);
+  for (const LightProbe& probe : pack.light_field.probes) harmonics_.push_back(probe.sh);
+}
+
+void BakedLamps::shine(std::span<const Vec3> factors, Pack& pack) const {
+  for (std::size_t g = 0; g < factors.size(); ++g) {
+    const LightGroup& group = pack.light_groups[g];
+    for (const std::uint32_t m : group.materials) pack.materials[m].emission = factors[g] * emission_[m];
+    for (const std::uint32_t e : group.emitters) pack.emitters[e].radiance = factors[g] * emitters_[e];
+    for (const std::uint32_t b : group.bright_lights) pack.light_field.lights[b].intensity = factors[g] * bright_[b];
+    if (group.sky) pack.sky = factors[g] * sky_;
+  }
+  for (std::size_t p = 0; p < harmonics_.size(); ++p) {
+    const Vec3 factor = mean_factor(pack, factors, &LightGroup::probes, p);
+    std::vector<float>& sh = pack.light_field.probes[p].sh;
+    const std::size_t each = sh.size() / 3;
+    for (std::size_t k = 0; k < sh.size(); ++k) sh[k] = factor[static_cast<int>(k / each)] * harmonics_[p][k];
+  }
+}
+
+Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,
+                 std::size_t index) {
+  Vec3 factor(1);
+  for (std::size_t g = 0; g < factors.size(); ++g)
+    factor += (factors[g] - Vec3(1)) * (pack.light_groups[g].*shares)[index];
+  return glm::max(factor, Vec3(0));
+}
+
+}  // namespace oriel

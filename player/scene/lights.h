@@ -1,0 +1,32 @@
+// Lamps of a pack that shine otherwise than they were baked.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+// Of a pack as it was read: what set_lights() changes in it.
+class BakedLamps {
+ public:
+  BakedLamps() = default;
+  explicit BakedLamps(const Pack& pack);
+
+  // By group: its lamps shine so many times as they were baked, R, G, B. Changes the pack's emission, emitters, bright
+  // lights, sky, and the harmonics of its probes by each group's share of them; not its lightmaps and maps. Factors of 1
+  // give what was baked to the bit.
+  void shine(std::span<const Vec3> factors, Pack& pack) const;
+
+ private:
+  std::vector<Vec3> emission_, emitters_, bright_;
+  std::vector<std::vector<float>> harmonics_;
+  Vec3 sky_{0};
+};
+
+// What light of which groups have these shares becomes, over what it was; exactly 1 where all factors are 1.
+Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,
+                 std::size_t index);
+
+}  // namespace oriel

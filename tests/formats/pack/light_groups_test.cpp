@@ -1,0 +1,42 @@
+// Light groups in packs: what goes in comes out, and damage is named.
+#include "tests/formats/pack/hostile.h"
+
+namespace oriel {
+namespace {
+
+using namespace testing;
+
+TEST(Pack, LightGroupsComeBack) {
+  const Pack in = tiny_mapped_pack(), out = decode_pack(tiny_file()).value();
+  ASSERT_EQ(out.light_groups.size(), 2u);
+  for (std::size_t g = 0; g < 2; ++g) {
+    const LightGroup &a = out.light_groups[g], &b = in.light_groups[g];
+    EXPECT_EQ(std::tie(a.name, a.lamps, a.value, a.color, a.own_color, a.materials, a.emitters, a.bright_lights, a.sky),
+              std::tie(b.name, b.lamps, b.value, b.color, b.own_color, b.materials, b.emitters, b.bright_lights, b.sky));
+    EXPECT_EQ(std::tie(a.reflectors, a.surrounds, a.probes), std::tie(b.reflectors, b.surrounds, b.probes));
+  }
+  ASSERT_EQ(out.page_groups.size(), 1u);
+  const PageGroups &a = out.page_groups[0], &b = in.page_groups[0];
+  EXPECT_EQ(std::tie(a.page, a.width, a.height, a.detail_width, a.detail_height, a.exponent, a.rest, a.rest_of_detail),
+            std::tie(b.page, b.width, b.height, b.detail_width, b.detail_height, b.exponent, b.rest, b.rest_of_detail));
+  ASSERT_EQ(a.others.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_EQ(std::tie(a.others[k].group, a.others[k].light, a.others[k].detail),
+              std::tie(b.others[k].group, b.others[k].light, b.others[k].detail));
+}
+
+TEST(Hostile, LightGroups) {
+  const std::string group = "section LGRP (light groups): ", page = "section GLMP 0 (light of groups on a page): ";
+  expect_refusal(with_raw(kLightGroupSection, 0, ~0u), group + "its counts need more");
+  expect_refusal(with_raw(kLightGroupSection, 8, ~0u), group + "its counts need more");  // lamps
+  expect_refusal(with_raw(kPageGroupsSection, 4, 0u), page + "found 0 x 4 texels");
+  expect_refusal(with_raw(kPageGroupsSection, 4, 32768u), page + "its counts need more");
+  expect_refusal(with_raw(kPageGroupsSection, 12, 16385u), page + "found details of 16385");
+  expect_refusal(with_raw(kPageGroupsSection, 20, 113), page + "found scale exponent 113");
+  expect_refusal(with_raw(kPageGroupsSection, 24, 65u), page + "found light of 65 groups");
+  expect_refusal(with_raw(kPageGroupsSection, 24, 3u), page + "its counts need more");
+  expect_refusal(with_record(kPageGroupsSection, [](SectionRecord& r) { r.count = 2; }), page + "found 2 elements");
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,64 @@
+// Lamps that are switched, in frames.
+#include "formats/query/group_light.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+
+using namespace testing;
+
+// A wall lit by two groups, and a panel of each that shines.
+Pack lit_wall() {
+  Pack pack;
+  pack.materials.resize(3);
+  pack.materials[0].base_color = Vec3(0.5f);
+  for (std::uint32_t g = 0; g < 2; ++g) pack.materials[1 + g].emission = g == 0 ? Vec3(20, 10, 5) : Vec3(0, 30, 60);
+  add_quad(pack, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0, 0);
+  add_quad(pack, {-1, -1, 0.1f}, {0.5f, 0, 0}, {0, 0.5f, 0}, 1, -1);
+  add_quad(pack, {0.5f, -1, 0.1f}, {0.5f, 0, 0}, {0, 0.5f, 0}, 2, -1);
+  const Vec3 of_group[] = {{300, 200, 100}, {30, 40, 80}};
+  pack.lightmaps = {flat_page(of_group[0] + of_group[1])};
+  std::vector<std::vector<LightmapPage>> light;
+  for (const Vec3& e : of_group) light.push_back({flat_page(e)});
+  pack.page_groups = {groups_of_page(pack.lightmaps[0], 0, light)};
+  pack.light_groups.resize(2);
+  for (std::uint32_t g = 0; g < 2; ++g)
+    pack.light_groups[g].name = std::to_string(g), pack.light_groups[g].materials = {1 + g};
+  return pack;
+}
+
+Camera camera() {
+  return {"c", {0, 0, 2}, {0, 0, -1}, {0, 1, 0}, 1.0f, 0};
+}
+
+using LightsTest = FrameTest;
+
+TEST_F(LightsTest, AtOneAreAsBakedToTheBit) {
+  const Pack pack = lit_wall();
+  Pack plain = pack;
+  plain.light_groups.clear(), plain.page_groups.clear();
+  const Picture without = draw(plain, camera(), 64, 48);
+  EXPECT_EQ(draw(pack, camera(), 64, 48).rgb, without.rgb);
+  EXPECT_EQ(draw(pack, camera(), 64, 48, {.lights = {Vec3(1), Vec3(1)}}).rgb, without.rgb);
+  EXPECT_EQ(draw(pack, camera(), 64, 48, {.lights = {Vec3(1)}}).rgb, without.rgb);  // of another pack
+}
+
+TEST_F(LightsTest, ShowWhatIsLeft) {
+  const Pack pack = lit_wall();
+  const auto expect = [&](const Vec3& wall, const Vec3& left, const Vec3& right, const std::vector<Vec3>& lights) {
+    const Picture picture = draw(pack, camera(), 64, 48, {.lights = lights});
+    const auto near = [](const Vec3& is, const Vec3& wanted) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(is[c], wanted[c], 0x1p-7f * wanted[c] + 1e-3f);
+    };
+    near(picture.at(32, 12), wall * (0.5f / kPi));
+    near(picture.at(17, 38), left);
+    near(picture.at(46, 38), right);
+  };
+  expect({330, 240, 180}, {20, 10, 5}, {0, 30, 60}, {});
+  expect({30, 40, 80}, {0, 0, 0}, {0, 30, 60}, {Vec3(0), Vec3(1)});
+  expect({300, 200, 100}, {20, 10, 5}, {0, 0, 0}, {Vec3(1), Vec3(0)});
+  expect({165, 220, 200}, {10, 10, 0}, {0, 15, 150}, {Vec3(0.5f, 1, 0), Vec3(0.5f, 0.5f, 2.5f)});
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,97 @@
+// What --light takes, and what it makes of the lamps.
+#include <gtest/gtest.h>
+
+#include "formats/core/color.h"
+#include "formats/core/file.h"
+#include "player/session/light_settings.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_pack.h"
+
+namespace oriel {
+namespace {
+
+Pack pack_as_baked() {
+  Pack pack = testing::tiny_mapped_pack();
+  pack.light_groups[0].value = 1, pack.light_groups[0].color = Vec3(1);
+  return pack;
+}
+
+std::vector<Vec3> factors(const Pack& pack, const std::vector<std::string>& changes) {
+  std::vector<LightSetting> settings = settings_of(pack);
+  const Status set = set_lights(pack, changes, settings);
+  EXPECT_TRUE(set) << set.error().text();
+  return factors_of(pack, settings);
+}
+
+std::string refusal(const Pack& pack, const std::string& change) {
+  std::vector<LightSetting> settings = settings_of(pack);
+  const Status set = set_lights(pack, {change}, settings);
+  return set ? "" : set.error().text();
+}
+
+TEST(Lights, AreDimmedSwitchedAndColoured) {
+  const Pack pack = pack_as_baked();
+  const Vec3 own = pack.light_groups[0].own_color;
+  EXPECT_EQ(factors(pack, {}), std::vector<Vec3>(2, Vec3(1)));
+  EXPECT_EQ(factors(pack, {"desk=0.3"}), (std::vector<Vec3>{Vec3(0.3f), Vec3(1)}));
+  EXPECT_EQ(factors(pack, {"desk=0.3", "desk=off"})[0], Vec3(0));
+  EXPECT_EQ(factors(pack, {"*=off", "hall=on"}), (std::vector<Vec3>{Vec3(0), Vec3(1)}));
+  // Red of the luminance that the lamp has.
+  const Vec3 red = factors(pack, {"desk=#ff0000"})[0] * own;
+  EXPECT_NEAR(luminance(red), 1, 1e-5);
+  EXPECT_EQ(red.g, 0);
+  EXPECT_EQ(red.b, 0);
+  const Vec3 dimmed = factors(pack, {"desk=2700K 0.5"})[0] * own;
+  EXPECT_NEAR(luminance(dimmed), 0.5f, 1e-5);
+}
+
+// Planck's locus in xy (CIE 15: 2856 K is illuminant A), and what is white.
+TEST(Lights, HaveTheColourOfATemperature) {
+  const Vec3 a = color_of_kelvin(2856);
+  const DVec3 xyz(0.4124564 * a.r + 0.3575761 * a.g + 0.1804375 * a.b, luminance(a),
+                  0.0193339 * a.r + 0.1191920 * a.g + 0.9503041 * a.b);
+  EXPECT_NEAR(xyz.x / (xyz.x + xyz.y + xyz.z), 0.4476, 0.001);
+  EXPECT_NEAR(xyz.y / (xyz.x + xyz.y + xyz.z), 0.4074, 0.001);
+  const Vec3 day = color_of_kelvin(6504);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(day[c], 1, 0.03);
+  for (float k = kLeastKelvin; k <= kMostKelvin; k += 100) {
+    const Vec3 color = color_of_kelvin(k);
+    EXPECT_TRUE(is_finite(color));
+    EXPECT_NEAR(luminance(color), 1, 1e-5);
+  }
+}
+
+TEST(Lights, RefuseWhatTheyDoNotKnow) {
+  const Pack pack = pack_as_baked();
+  EXPECT_NE(refusal(pack, "desc=off").find("found the light group \"desc\", expected one of the pack's: \"desk\""),
+            std::string::npos)
+      << refusal(pack, "desc=off");
+  for (const char* bad : {"desk", "=off", "desk=", "desk=-1", "desk=101", "desk=nan", "desk=1600K", "desk=#ff", "desk=#000000", "desk=dim"})
+    EXPECT_NE(refusal(pack, bad), "") << bad;
+  EXPECT_NE(refusal(testing::tiny_pack(), "desk=off").find("no light groups"), std::string::npos);
+}
+
+TEST(Lights, AreKeptInAFile) {
+  const testing::TemporaryFolder folder;
+  const Pack pack = pack_as_baked();
+  std::vector<LightSetting> settings = settings_of(pack), again = settings;
+  EXPECT_EQ(lights_json(pack, settings), "");
+  ASSERT_TRUE(set_lights(pack, {"desk=0.25 2700K", "hall=#ff8000 off"}, settings));
+  const std::string json = lights_json(pack, settings);
+  const auto file = folder.path() / "evening.json";
+  ASSERT_TRUE(write_file_atomically(file, std::as_bytes(std::span(json))));
+  const auto changes = read_lights(file.string());
+  ASSERT_TRUE(changes);
+  ASSERT_TRUE(set_lights(pack, *changes, again));
+  EXPECT_EQ(again[0], settings[0]);
+  EXPECT_FALSE(again[1].on);
+  EXPECT_NEAR(glm::length(*again[1].color - *settings[1].color), 0, 0.02);
+  EXPECT_EQ(factors_of(pack, again)[1], Vec3(0));
+  const std::string broken = "[1]";
+  ASSERT_TRUE(write_file_atomically(file, std::as_bytes(std::span(broken))));
+  EXPECT_FALSE(read_lights(file.string()));
+  EXPECT_FALSE(read_lights((folder.path() / "none.json").string()));
+}
+
+}  // namespace
+}  // namespace oriel
