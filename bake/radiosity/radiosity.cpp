@@ -142,9 +142,14 @@ Result<std::vector<FramePixel>> pixels_of(const Transport& transport, const Atla
 Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (task.options.hidden == Hidden::kBlack) return {};
   for (std::size_t p = 0; p < task.map.size(); ++p) {
-    if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p]);
-    fill_buried(task.atlas, task.map[p], light.pages[p]);
-    dilate(task.options.dilation, light.pages[p]);
+    std::vector<LightmapPage*> groups;
+    for (auto& pages : light.groups) groups.push_back(&pages[p]);
+    if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p], groups);
+    groups.push_back(&light.pages[p]);
+    for (LightmapPage* page : groups) {
+      fill_buried(task.atlas, task.map[p], *page);
+      dilate(task.options.dilation, *page);
+    }
   }
   if (!task.options.stitch || is_dark(task.transport)) return {};
   if (task.options.late()) {
@@ -156,30 +161,18 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   return stitch_lightmap(task, light);
 }
 
-// The light by group of lamps, filled and dilated as the pages, which share it out where they are stitched and fitted.
+// The light by group of lamps as the estimator has it.
 void write_groups(const RadiosityTask& task, const LightEstimator& estimator, Radiosity& light) {
   const std::size_t groups = task.transport.accel.scene().light_groups.size();
   if (groups == 0 || task.options.hidden == Hidden::kBlack) return;
-  const Radiosity empty = empty_radiosity(task.map, false);
-  light.groups.assign(groups, empty.pages);
-  if (!estimator.write_groups(light.groups)) {
-    light.groups.clear();
-    return;
-  }
-  for (std::size_t p = 0; p < task.map.size(); ++p) {
-    for (auto& pages : light.groups) {
-      for (const std::uint32_t texel : task.map[p].texel) {
-        const bool valid = light.pages[p].state[texel] == TexelState::kValid;
-        pages[p].state[texel] = valid ? TexelState::kValid : TexelState::kBuried;
-      }
-      fill_buried(task.atlas, task.map[p], pages[p]);
-      dilate(task.options.dilation, pages[p]);
-    }
-    share_out_page(light.pages[p], p, light.groups);
-  }
+  light.groups.assign(groups, empty_radiosity(task.map, false).pages);
+  if (!estimator.write_groups(light.groups)) light.groups.clear();
+  for (auto& pages : light.groups)
+    for (std::size_t p = 0; p < pages.size(); ++p) pages[p].state = light.pages[p].state;
 }
 
-void share_out_details(Radiosity& light) {
+// What groups share in what was stitched, clamped and added between texels.
+void share_out_light(Radiosity& light) {
   for (std::size_t p = 0; p < light.pages.size() && !light.groups.empty(); ++p)
     share_out_page(light.pages[p], p, light.groups);
 }
@@ -297,10 +290,11 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     light = empty_radiosity(texel_map, options.directional);
     light.report.refinements = refinements;
     estimator->write(light);
-    ORIEL_TRY_VOID(fill_and_stitch(task, light));
     write_groups(task, *estimator, light);
+    ORIEL_TRY_VOID(fill_and_stitch(task, light));
+    share_out_light(light);
     ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
-    share_out_details(light);
+    share_out_light(light);
     summarize(task, light);
     std::vector<FramePixel> held_out;
     ORIEL_TRY(light.report.certificate, verify(task, light, held_out));

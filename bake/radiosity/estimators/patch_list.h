@@ -16,7 +16,7 @@ inline void fields(Archive& archive, PatchLink& link) {
   archive(link.patch, link.weight);
 }
 
-struct Patch {
+struct LightPatch {
   std::vector<std::uint32_t> texels;  // those that see light
   std::vector<PatchLink> links;       // weights divided by the number of rays
   DVec3 source{0};                    // irradiance found that no patch holds, lux: direct light after one reflection,

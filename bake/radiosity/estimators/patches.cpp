@@ -46,7 +46,7 @@ class Solver {
       for (const std::uint32_t j : graph.of(i))
         if (patch_of_[i] != patch_of_[j] && same_chart(texels, i, j))
           patches_[patch_of_[i]].beside.push_back(patch_of_[j]);
-    for (Patch& patch : patches_) {
+    for (LightPatch& patch : patches_) {
       std::sort(patch.beside.begin(), patch.beside.end());
       patch.beside.erase(std::unique(patch.beside.begin(), patch.beside.end()), patch.beside.end());
     }
@@ -105,7 +105,7 @@ class Solver {
  private:
   std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
   // Texels take turns in proportion to the surface that they show.
-  std::uint32_t texel_for(const Patch& patch, std::uint32_t turn) const {
+  std::uint32_t texel_for(const LightPatch& patch, std::uint32_t turn) const {
     const double target = (turn + 0.5) / (options_.rays_per_patch / kSites) * patch.area_m2;
     double sum = 0;
     for (const std::uint32_t t : patch.texels)
@@ -130,7 +130,7 @@ class Solver {
     around_.answer(batch, about, answers);
     const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
-      Patch& patch = patches_[first + ray];
+      LightPatch& patch = patches_[first + ray];
       patch.source += DVec3(weight * direct_[texel] * share);
       for (std::size_t g = 0; g < patch.booked.size(); ++g)
         patch.booked[g] += DVec3(weight * options_.booked->of(texel)[g] * share);
@@ -152,7 +152,7 @@ class Solver {
   // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
   // to sweep. What is reflected there is told by what the patches beside it and those that it sees hand on, on average;
   // more than they get they never do.
-  static DVec3 handed_on(const Patch& patch) {
+  static DVec3 handed_on(const LightPatch& patch) {
     DVec3 sum(0);
     for (const PatchLink& link : patch.links) sum += DVec3(link.weight);
     return sum;
@@ -168,11 +168,11 @@ class Solver {
   }
   std::vector<DVec3> all_handed_on() const {
     std::vector<DVec3> sums;
-    for (const Patch& patch : patches_) sums.push_back(handed_on(patch));
+    for (const LightPatch& patch : patches_) sums.push_back(handed_on(patch));
     return sums;
   }
   // Whether it had to be.
-  static bool bound(Patch& patch, const DVec3& most) {
+  static bool bound(LightPatch& patch, const DVec3& most) {
     const DVec3 sum = handed_on(patch);
     if (!glm::any(glm::greaterThan(sum, kWhole * most))) return false;
     const Vec3 share(glm::min(most / glm::max(sum, DVec3(1e-30)), DVec3(1)));
@@ -198,7 +198,7 @@ class Solver {
   const Surroundings& around_;
   std::span<const Vec3> direct_;
   SweepOptions options_;
-  std::vector<Patch> patches_;
+  std::vector<LightPatch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by texel
   std::vector<Vec3> solution_;           // by patch
 };
@@ -242,10 +242,10 @@ Solver::End Solver::run(Context& context, bool watches, Sweeps& result) {
   const int most = options_.most.value_or(around_.transport().options.max_bounces);
   std::vector<Vec3> next(patches_.size());
   solution_.resize(patches_.size());
-  std::ranges::transform(patches_, solution_.begin(), &Patch::unreflected);
+  std::ranges::transform(patches_, solution_.begin(), &LightPatch::unreflected);
   if (most == 0) return End::kDone;
   double area = 0, scale = 0;
-  for (const Patch& patch : patches_) area += patch.area_m2;
+  for (const LightPatch& patch : patches_) area += patch.area_m2;
   const auto patches = static_cast<double>(patches_.size());
   Change before;
   // A geometric tail, from the ratio q of the last two changes; the first sweep only has its own size to go by.
@@ -293,7 +293,7 @@ Status Solver::solve(Context& context, Sweeps& result) {
   for (int round = 1; end == End::kGrows; ++round) {
     const std::size_t bounded = round < kRounds ? bound_growing(context) : 0;
     if (bounded == 0)
-      for (Patch& patch : patches_) result.bounded += bound(patch, DVec3(1));
+      for (LightPatch& patch : patches_) result.bounded += bound(patch, DVec3(1));
     result.bounded += bounded;
     end = run(context, bounded > 0, result);
   }

@@ -48,13 +48,9 @@ std::vector<FittedTexel> valid_texels(const Atlas& atlas, const TexelMapPage& ma
   return list;
 }
 
-}  // namespace
-
-void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page) {
-  const std::vector<FittedTexel> list = valid_texels(atlas, map, page);
-  std::vector<Vec3> mean, lower, upper;
-  for (const FittedTexel& t : list) mean.push_back(page.irradiance[t.texel]);
-  lower = upper = mean;
+// Values whose interpolation has the means.
+std::vector<Vec3> fitted_to(const std::vector<FittedTexel>& list, const std::vector<Vec3>& mean) {
+  std::vector<Vec3> lower = mean, upper = mean;
   for (std::size_t k = 0; k < list.size(); ++k)
     for (const std::uint32_t other : list[k].around)
       lower[k] = glm::min(lower[k], mean[other]), upper[k] = glm::max(upper[k], mean[other]);
@@ -68,11 +64,32 @@ void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page)
     }
     std::swap(fitted, next);
   }
+  return fitted;
+}
+
+std::vector<Vec3> means_of(const std::vector<FittedTexel>& list, const LightmapPage& page) {
+  std::vector<Vec3> mean;
+  for (const FittedTexel& t : list) mean.push_back(page.irradiance[t.texel]);
+  return mean;
+}
+
+}  // namespace
+
+void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page,
+                std::span<LightmapPage* const> groups) {
+  const std::vector<FittedTexel> list = valid_texels(atlas, map, page);
+  const std::vector<Vec3> mean = means_of(list, page), fitted = fitted_to(list, mean);
+  std::vector<float> weight(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Vec3 change = fitted[k] - mean[k];
     const Vec3 noise = kNoiseGate * page.standard_error[list[k].texel];
     const float signal2 = length2(change), noise2 = length2(noise);
-    if (signal2 > 0) page.irradiance[list[k].texel] += signal2 / (signal2 + noise2) * change;
+    weight[k] = signal2 > 0 ? signal2 / (signal2 + noise2) : 0;
+    if (signal2 > 0) page.irradiance[list[k].texel] += weight[k] * change;
+  }
+  for (LightmapPage* group : groups) {
+    const std::vector<Vec3> own = means_of(list, *group), fit = fitted_to(list, own);
+    for (std::size_t k = 0; k < list.size(); ++k) group->irradiance[list[k].texel] += weight[k] * (fit[k] - own[k]);
   }
 }
 

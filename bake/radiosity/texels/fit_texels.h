@@ -1,6 +1,8 @@
 // Texel values whose interpolation has the texels' light.
 #pragma once
 
+#include <span>
+
 #include "bake/atlas/texel_map.h"
 #include "formats/assets/lightmap.h"
 
@@ -14,6 +16,8 @@ namespace oriel {
 // change d is weighted d² / (d² + (2 σ)²), σ the standard error (Wiener). Neighbours are of the same chart and valid;
 // texels without a whole square of surface stay. The sum over a chart stays within noise and bounds. Standard errors
 // stay: they are of the means. All valid texels are finite and not negative if they were.
-void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page);
+// groups: pages with the light of groups of lamps, which sum to the page's: fitted as far as it is.
+void fit_texels(const Atlas& atlas, const TexelMapPage& map, LightmapPage& page,
+                std::span<LightmapPage* const> groups = {});
 
 }  // namespace oriel

@@ -272,9 +272,10 @@ TEST(Hostile, MapMeshes) {
 TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   Forge forge = Forge::from(tiny_file());
   std::reverse(forge.sections.begin(), forge.sections.end());
-  // All but the radiance maps and their meshes, whose number is their order.
+  // All but the radiance maps and their meshes, whose number is their order; and what counts reflectors.
   std::erase_if(forge.sections, [](const auto& s) {
     return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
+           s.record.kind == kLightGroupSection || s.record.kind == kPageGroupsSection ||
            s.record.kind == kMapMeshSection || s.record.kind == kReflectedSetsSection;
   });
   const auto pack = decode_pack(forge.file());

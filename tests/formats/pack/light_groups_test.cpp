@@ -29,11 +29,11 @@ TEST(Hostile, LightGroups) {
   const std::string group = "section LGRP (light groups): ", page = "section GLMP 0 (light of groups on a page): ";
   expect_refusal(with_raw(kLightGroupSection, 0, ~0u), group + "its counts need more");
   expect_refusal(with_raw(kLightGroupSection, 8, ~0u), group + "its counts need more");  // lamps
-  expect_refusal(with_raw(kPageGroupsSection, 4, 0u), page + "found 0 x 4 texels");
+  expect_refusal(with_raw(kPageGroupsSection, 4, 0u), page + "element 0: found 0 x 4 texels");
   expect_refusal(with_raw(kPageGroupsSection, 4, 32768u), page + "its counts need more");
-  expect_refusal(with_raw(kPageGroupsSection, 12, 16385u), page + "found details of 16385");
-  expect_refusal(with_raw(kPageGroupsSection, 20, 113), page + "found scale exponent 113");
-  expect_refusal(with_raw(kPageGroupsSection, 24, 65u), page + "found light of 65 groups");
+  expect_refusal(with_raw(kPageGroupsSection, 12, 16385u), page + "element 0: found details of 16385");
+  expect_refusal(with_raw(kPageGroupsSection, 20, 113), page + "element 0: found scale exponent 113");
+  expect_refusal(with_raw(kPageGroupsSection, 24, 65u), page + "element 0: found light of 65 groups");
   expect_refusal(with_raw(kPageGroupsSection, 24, 3u), page + "its counts need more");
   expect_refusal(with_record(kPageGroupsSection, [](SectionRecord& r) { r.count = 2; }), page + "found 2 elements");
 }
