@@ -7,10 +7,10 @@
 namespace oriel {
 
 struct CurvedOptions {
-  std::uint32_t max_reflectors = 32;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
-  float min_extent_m = 0.05f;         // diagonal of the bounds: smaller ones are not seen
-  float max_extent_m = 2;             // longest side of the bounds: larger ones see too much from their middle, so
-  std::uint32_t max_pieces = 8;       // they are cut into at most so many pieces
+  std::uint32_t max_reflectors = 128;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
+  float min_extent_m = 0.05f;          // diagonal of the bounds: smaller ones are not seen
+  float max_extent_m = 2;              // longest side of the bounds: larger ones see too much from their middle, so
+  std::uint32_t max_pieces = 8;        // they are cut into at most so many pieces
   std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps in the pack, kMapBytesPerPixel each
 };
 
@@ -27,8 +27,8 @@ struct FoundCurvedReflector {
   double area_m2 = 0;
   double diagonal_m = 0;  // of its bounds
   SeenOfTriangle seen;    // of all of them
-  bool sees_itself =
-      false;  // the fronts of its object are in its map: it is hollow, and its map is taken from the hollow
+  // The fronts of its object are in its map: it is hollow, and its map is taken from the hollow.
+  bool sees_itself = false;
 };
 
 // A connected shiny surface.
