@@ -8,10 +8,10 @@
 
 #include "bake/radiosity/certificate.h"
 #include "bake/radiosity/dilate.h"
-#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/estimators/cached.h"
 #include "bake/radiosity/estimators/detail.h"
 #include "bake/radiosity/estimators/path_estimator.h"
+#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/seams.h"
 #include "bake/radiosity/stitch.h"
 #include "bake/radiosity/texels/fit_texels.h"

@@ -80,8 +80,8 @@ std::uint32_t group_of(const Scene& scene, const BrightLight& light) {
   return kNone;
 }
 
-// What one place sees of each group's light: its share of the radiance that comes from all directions above a normal, or
-// all around. Lamps themselves do not count: they are seen in few directions, and would drown all else.
+// What one place sees of each group's light: its share of the radiance that comes from all directions above a normal,
+// or all around. Lamps themselves do not count: they are seen in few directions, and would drown all else.
 class Shares {
  public:
   Shares(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light)
@@ -97,16 +97,16 @@ class Shares {
     if (!hit.front) return;
     const SurfacePoint point = surface_at(scene_, hit, ray.direction);
     for (std::size_t g = 0; g < light_.size(); ++g)
-      sum[g] += DVec3(point.shade.diffuse / kPi *
-                      baked_irradiance(baked_.atlas, light_[g], hit.triangle, hit.barycentric, point.normal, point.normal));
+      sum[g] +=
+          DVec3(point.shade.diffuse / kPi *
+                baked_irradiance(baked_.atlas, light_[g], hit.triangle, hit.barycentric, point.normal, point.normal));
   }
 
   std::vector<Vec3> of(const std::vector<DVec3>& sum) const {
     DVec3 total(0);
     for (const DVec3& part : sum) total += part;
     std::vector<Vec3> shares;
-    for (const DVec3& part : sum)
-      shares.emplace_back(glm::min(part / glm::max(total, DVec3(1e-30)), DVec3(1)));
+    for (const DVec3& part : sum) shares.emplace_back(glm::min(part / glm::max(total, DVec3(1e-30)), DVec3(1)));
     return shares;
   }
 
@@ -124,7 +124,8 @@ void find_colors(const Scene& scene, Pack& pack) {
         max_component(scene.materials[surface.material].emission) > 0 && !scene.materials[surface.material].unlit)
       sum[surface.light_group] += triangle_area(scene, t) * DVec3(mean_emission(scene, t));
   for (const Light& light : scene.lights)
-    sum[light.light_group] += light.type == LightType::kDirectional ? DVec3(light.intensity) : punctual_power(scene, light);
+    sum[light.light_group] +=
+        light.type == LightType::kDirectional ? DVec3(light.intensity) : punctual_power(scene, light);
   for (std::size_t g = 0; g < sum.size(); ++g) {
     if (pack.light_groups[g].sky && sum[g] == DVec3(0)) sum[g] = DVec3(scene.sky);
     if (luminance(sum[g]) > 0) pack.light_groups[g].own_color = Vec3(sum[g] / luminance(sum[g]));

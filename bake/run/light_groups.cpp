@@ -138,9 +138,10 @@ class Groups {
     if (names_.empty()) return;
     const auto rest = static_cast<std::uint32_t>(std::min(names_.size(), kMostLightGroups - 1));
     if (names_.size() > kMostLightGroups) {
-      context.warning(fmt::format("found {} light groups, expected at most {}: the lamps of \"{}\" and those after it "
-                                  "are switched together, as \"{}\"; --light-groups FILE chooses",
-                                  names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
+      context.warning(
+          fmt::format("found {} light groups, expected at most {}: the lamps of \"{}\" and those after it "
+                      "are switched together, as \"{}\"; --light-groups FILE chooses",
+                      names_.size(), kMostLightGroups, names_[rest], kOtherLamps));
       for (Lamp& lamp : lamps_)
         if (lamp.group >= rest) lamp.group = kNone;
       names_.resize(rest);
@@ -196,8 +197,10 @@ Result<LightGroupOptions> read_groups(const std::string& file) {
 }  // namespace
 
 Result<LightGroupOptions> parse_light_groups(const std::string& text) {
-  for (const auto& [name, by] : {std::pair("marked", LightGrouping::kMarked), {"off", LightGrouping::kOff},
-                                 {"auto", LightGrouping::kAuto}, {"each", LightGrouping::kEach}})
+  for (const auto& [name, by] : {std::pair("marked", LightGrouping::kMarked),
+                                 {"off", LightGrouping::kOff},
+                                 {"auto", LightGrouping::kAuto},
+                                 {"each", LightGrouping::kEach}})
     if (text == name) return LightGroupOptions{by, {}, {}};
   if (text.empty()) return fail(ErrorCode::kUsage, "", "found '', expected marked, off, auto, each or a file");
   return read_groups(text);

@@ -42,7 +42,7 @@ struct BakeOptions {
   bool memory_given = false;       // by the user: else it is the machine's, and not recorded
   bool choose_texel = false;       // from what people see and how far (view_demand.h), instead of atlas.texel_m
   LightGroupOptions light_groups;
-  RadiosityOptions radiosity;      // radiosity.directional follows from the next
+  RadiosityOptions radiosity;  // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
   ReflectorOptions reflectors;
   WaysWanted ways = WaysWanted::kAuto;

@@ -261,7 +261,8 @@ class Bake {
     result_.findings = ledger_findings(result_.ledger);
     pack().lightmaps = std::move(radiosity_.pages);
     if (!scene().light_groups.empty() && radiosity_.groups.empty())
-      result_.omissions.emplace_back("light groups: --estimator cached tells whose light it is, without --hidden-black");
+      result_.omissions.emplace_back(
+          "light groups: --estimator cached tells whose light it is, without --hidden-black");
     return {};
   }
 

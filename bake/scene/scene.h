@@ -79,7 +79,7 @@ struct Surface {
   std::uint32_t first_triangle = 0, triangle_count = 0;  // into Scene::triangles
   std::uint32_t first_vertex = 0, vertex_count = 0;      // into the vertex arrays; not shared with other surfaces
   bool has_uv1 = false;
-  std::int32_t mover = -1;  // into Scene::movers; -1: it stands still
+  std::int32_t mover = -1;        // into Scene::movers; -1: it stands still
   std::string group_mark{};       // extras.oriel.light_group of its node, or of the nearest above it that has one
   std::uint32_t light_group = 0;  // into Scene::light_groups, where it shines and there are any
 };
@@ -115,7 +115,7 @@ struct Light {
   Vec3 intensity{0};         // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles
   float angular_radius_rad = 0;                           // directional: half its angular diameter, at most π/2
-  std::int32_t profile = -1;  // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
+  std::int32_t profile = -1;      // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
   std::string node_path{};        // as Surface's
   std::string group_mark{};       // likewise
   std::uint32_t light_group = 0;  // into Scene::light_groups, where there are any

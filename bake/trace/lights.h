@@ -14,8 +14,8 @@ struct LightSample {
   float distance = 3.0e38f;  // that a shadow ray must go; may be <= 0 where the light touches the point
   Vec3 estimate{0};          // incident radiance over pdf; for delta lights the irradiance on a facing plane over the
                      // probability of picking that light. Times f·cosθ: an unbiased estimate of reflected light
-  float pdf = 0;      // per steradian, including the choice of the light; 0 for delta lights
-  bool near = false;  // an emissive triangle, a point or a spot
+  float pdf = 0;            // per steradian, including the choice of the light; 0 for delta lights
+  bool near = false;        // an emissive triangle, a point or a spot
   std::uint32_t group = 0;  // of lamps: into Scene::light_groups
 };
 

@@ -60,8 +60,8 @@ struct Pack {
   ReflectedSets reflected_sets;      // of reflectors, in the groups of visible_sets; empty: all is drawn in each
   std::vector<Mover> movers;
   std::vector<LightGroup> light_groups;  // none: lamps shine as they were baked
-  std::vector<PageGroups> page_groups;  // of each lightmap page at most one
-  LightField light_field;  // that movers are lit by; none where bands is 0
+  std::vector<PageGroups> page_groups;   // of each lightmap page at most one
+  LightField light_field;                // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;
 };
 

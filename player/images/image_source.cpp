@@ -200,8 +200,7 @@ Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, std::uint64_t& l
   const bool as_baked = std::ranges::all_of(factors, [](const Vec3& factor) { return factor == Vec3(1); });
   const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
   if (!known) {
-    ORIEL_TRY(HalfPage baked,
-              deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page])));
+    ORIEL_TRY(HalfPage baked, deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page])));
     if (as_baked || groups == page_groups_.end()) return baked;
     known = std::make_shared<const HalfPage>(std::move(baked));
     const std::scoped_lock lock(lights_->mutex);

@@ -48,7 +48,7 @@ struct FrameOptions {
   // Fills FrameStats::reflected_pixels to sharp: reads images back, which is slow.
   bool count_holes = false;
   std::vector<MoverPose> poses{};  // by Pack::movers; empty: all at rest
-  std::vector<Vec3> lights{};    // by Pack::light_groups, times what was baked; empty: as baked
+  std::vector<Vec3> lights{};      // by Pack::light_groups, times what was baked; empty: as baked
   MoverLights mover_lights = MoverLights::kShadowed;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds

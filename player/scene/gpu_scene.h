@@ -186,7 +186,7 @@ class GpuScene {
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
-  std::vector<Vec3> lights_;  // by group
+  std::vector<Vec3> lights_;             // by group
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

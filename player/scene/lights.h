@@ -15,8 +15,8 @@ class BakedLamps {
   explicit BakedLamps(const Pack& pack);
 
   // By group: its lamps shine so many times as they were baked, R, G, B. Changes the pack's emission, emitters, bright
-  // lights, sky, and the harmonics of its probes by each group's share of them; not its lightmaps and maps. Factors of 1
-  // give what was baked to the bit.
+  // lights, sky, and the harmonics of its probes by each group's share of them; not its lightmaps and maps. Factors of
+  // 1 give what was baked to the bit.
   void shine(std::span<const Vec3> factors, Pack& pack) const;
 
  private:

@@ -32,8 +32,9 @@ constexpr const char* kExitCodes =
 constexpr double kFilmFps = 30;
 constexpr int kPanoramaWidth = 2048;
 
-constexpr const char *kPack = "Arguments", *kWindow = "Window", *kPicture = "Picture", *kLights = "Lights", *kMovers = "Movers",
-                     *kOffscreen = "Offscreen", *kCompare = "Comparison", *kPath = "Paths", *kDevice = "Device";
+constexpr const char *kPack = "Arguments", *kWindow = "Window", *kPicture = "Picture", *kLights = "Lights",
+                     *kMovers = "Movers", *kOffscreen = "Offscreen", *kCompare = "Comparison", *kPath = "Paths",
+                     *kDevice = "Device";
 
 OptionValue size(PlayArguments& out) {
   return {"WxH",
@@ -265,7 +266,8 @@ std::vector<Option> path_options(PlayArguments& out) {
 std::vector<Option> light_options(PlayArguments& out) {
   return {
       {"--light", kLights,
-       "A group of lamps (--list tells which there are) dimmed, switched or coloured: a share of what was baked, off, a "
+       "A group of lamps (--list tells which there are) dimmed, switched or coloured: a share of what was baked, off, "
+       "a "
        "colour temperature, a colour. * stands for all groups. May be repeated; the last counts",
        texts(out.lights, "NAME=0.3|off|on|2700K|#rrggbb"), Use::kEveryday, "lights"},
       {"--lights", kLights,
@@ -316,8 +318,8 @@ std::vector<Option> window_options(PlayArguments& out) {
 
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
-  for (auto&& more :
-       {offscreen_options(out), picture_options(out), light_options(out), mover_options(out), path_options(out), compare_options(out)})
+  for (auto&& more : {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
+                      path_options(out), compare_options(out)})
     append(options, more);
   return options;
 }

@@ -32,7 +32,7 @@ struct PlayArguments {
   bool sized = false;                // --size was given
   bool sampled = false;              // --samples was given
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
-  std::vector<std::string> lights;  // as written, for set_lights(); of a file before others
+  std::vector<std::string> lights;   // as written, for set_lights(); of a file before others
   std::string lights_file;
   std::vector<LightSetting> light_settings;  // what both make of the pack's, once it is open; frame.lights too
   std::vector<MoverMove> moves;

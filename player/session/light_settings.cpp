@@ -12,7 +12,7 @@
 namespace oriel {
 namespace {
 
-constexpr float kMostValue = 100;  // of a dimmer
+constexpr float kMostValue = 100;   // of a dimmer
 constexpr float kLeastOwn = 0.01f;  // of a lamp's own colour: what it has less of is not made more of
 
 Vec3 of_luminance_one(const Vec3& color) {

@@ -13,9 +13,9 @@ namespace oriel {
 // Of a group of lamps.
 struct LightSetting {
   bool on = true;
-  float value = 1;             // times the light that was baked
-  std::optional<Vec3> color;   // of its light, linear, of luminance 1, instead of its own
-  std::optional<float> kelvin; // that color is of, if any
+  float value = 1;              // times the light that was baked
+  std::optional<Vec3> color;    // of its light, linear, of luminance 1, instead of its own
+  std::optional<float> kelvin;  // that color is of, if any
 
   bool operator==(const LightSetting&) const = default;
 };

@@ -40,8 +40,8 @@ struct Session {
   bool screenshot = false, light_screenshot = false, reload = false;
   std::optional<Vec2> go_to;  // what is seen at that place of the window, [0,1]² from the top left corner
   bool panel = false, key_sheet = false;
-  bool advanced = false;    // the panel shows what the method is made of
-  bool presenting = false;  // the whole screen, and no words
+  bool advanced = false;             // the panel shows what the method is made of
+  bool presenting = false;           // the whole screen, and no words
   std::vector<LightSetting> lights;  // by group: what frame.lights follow from
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
 #include "bake/radiosity/estimators/lamp_light.h"
@@ -11,6 +10,7 @@
 #include "bake/radiosity/estimators/patches.h"
 #include "bake/radiosity/estimators/reuse.h"
 #include "bake/radiosity/estimators/work_left.h"
+#include "bake/radiosity/estimators/write_pages.h"
 #include "bake/radiosity/gather/survival.h"
 #include "bake/radiosity/texels/frame_error.h"
 #include "formats/core/color.h"
@@ -68,7 +68,8 @@ class CachedEstimator : public LightEstimator {
     report.ended_early = ended_early_, report.out_of_rays = out_of_rays_, report.first_rays = first_rays_;
     report.reuse = reuse_ ? reuse_->report() : ReuseReport{.asked = options_.reuse_error};
     const std::vector<Vec4> of_gathered = smoothed_moments(graph_, gathered_, context_);
-    write_texels({texels_, smooth_direct_, estimate_, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr}, light);
+    write_texels({texels_, smooth_direct_, estimate_, direct_.moments, of_gathered, reuse_ ? &*reuse_ : nullptr},
+                 light);
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {

@@ -227,8 +227,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   const Conductance edges = conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance, halves.steps},
                                          options.strength, context);
   TwoHalves smooth = half;
-  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, booked,
-                   context);
+  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, booked, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
   std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
   each_texel(context, n, [&](std::size_t i) {

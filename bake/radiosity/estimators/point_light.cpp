@@ -86,8 +86,8 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
 BookedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, BookedLight booked) {
   for (std::size_t i = 0; i < points.count() && !known.beside.empty(); ++i)
     for (std::size_t g = 0; g < booked.groups; ++g)
-      booked.of(i)[g] += between_texels(known, points, i, side,
-                                        [&](std::uint32_t texel) { return known.beside_booked.of(texel)[g]; });
+      booked.of(i)[g] +=
+          between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.beside_booked.of(texel)[g]; });
   return booked;
 }
 

@@ -36,9 +36,9 @@ struct BookedLight {
   }
 };
 
-// Makes the groups' light of one texel sum to `total`, channel by channel: what rounding, clamps and decisions taken for
-// the total leave between the two is shared as the light is. Negative light counts as none. Where no group has any, the
-// groups get even shares.
+// Makes the groups' light of one texel sum to `total`, channel by channel: what rounding, clamps and decisions taken
+// for the total leave between the two is shared as the light is. Negative light counts as none. Where no group has any,
+// the groups get even shares.
 inline void share_out(std::span<Vec3> groups, const Vec3& total) {
   Vec3 sum(0);
   for (Vec3& light : groups) sum += light = glm::max(light, Vec3(0));

@@ -89,23 +89,21 @@ TEST(LightGroups, SumToAllLightWhichTheyDoNotChange) {
   }
 }
 
-// Both are as good as was asked, by their own samples.
+// Both are as good as was asked, by their own samples: relative, what is darker than a tenth of the mean light as that.
+// A group that has a few percent of all light is noisier beside its own: samples are where all light wants them.
 TEST(LightGroups, AreWhatTheirLampsGiveAlone) {
   const Radiosity& light = together().radiosity;
+  const double floor = 0.1 * luminance(light.report.mean);
   for (std::uint32_t g = 0; g < 4; ++g) {
     const Baked alone = bake(rooms(false, g), 0.15f, options());
-    double mean = 0, squares = 0, bias = 0, count = 0;
-    alone.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
-      mean += double{luminance(page.irradiance[t])}, ++count;
-    });
-    mean /= count;
+    double sum = 0, squares = 0, bias = 0, count = 0;
     alone.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t) {
       const auto p = static_cast<std::size_t>(&page - alone.radiosity.pages.data());
       const double one = luminance(page.irradiance[t]), off = luminance(light.groups[g][p].irradiance[t]) - one;
-      squares += off * off / (one * one + 0.01 * mean * mean), bias += off;
+      squares += off * off / (one * one + floor * floor), bias += off, sum += one, ++count;
     });
     EXPECT_LT(std::sqrt(squares / count), std::sqrt(2.0) * kError) << g;
-    EXPECT_LT(std::abs(bias / count / mean), kError / 2) << g;
+    EXPECT_LT(std::abs(bias / sum), kError / 2) << g;
   }
 }
 

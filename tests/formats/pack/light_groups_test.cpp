@@ -11,8 +11,9 @@ TEST(Pack, LightGroupsComeBack) {
   ASSERT_EQ(out.light_groups.size(), 2u);
   for (std::size_t g = 0; g < 2; ++g) {
     const LightGroup &a = out.light_groups[g], &b = in.light_groups[g];
-    EXPECT_EQ(std::tie(a.name, a.lamps, a.value, a.color, a.own_color, a.materials, a.emitters, a.bright_lights, a.sky),
-              std::tie(b.name, b.lamps, b.value, b.color, b.own_color, b.materials, b.emitters, b.bright_lights, b.sky));
+    EXPECT_EQ(
+        std::tie(a.name, a.lamps, a.value, a.color, a.own_color, a.materials, a.emitters, a.bright_lights, a.sky),
+        std::tie(b.name, b.lamps, b.value, b.color, b.own_color, b.materials, b.emitters, b.bright_lights, b.sky));
     EXPECT_EQ(std::tie(a.reflectors, a.surrounds, a.probes), std::tie(b.reflectors, b.surrounds, b.probes));
   }
   ASSERT_EQ(out.page_groups.size(), 1u);

@@ -69,7 +69,8 @@ TEST(Lights, RefuseWhatTheyDoNotKnow) {
   const std::string unknown = refusal(pack, "desc=off");
   EXPECT_NE(unknown.find("found the light group \"desc\", expected one of the pack's"), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("\"desk\""), std::string::npos) << unknown;
-  for (const char* bad : {"desk", "=off", "desk=", "desk=-1", "desk=101", "desk=nan", "desk=1600K", "desk=#ff", "desk=#000000", "desk=dim"})
+  for (const char* bad : {"desk", "=off", "desk=", "desk=-1", "desk=101", "desk=nan", "desk=1600K", "desk=#ff",
+                          "desk=#000000", "desk=dim"})
     EXPECT_NE(refusal(pack, bad), "") << bad;
   EXPECT_NE(refusal(testing::tiny_pack(), "desk=off").find("no light groups"), std::string::npos);
 }
