@@ -92,6 +92,16 @@ Json movers_json(const Pack& pack) {
   return out;
 }
 
+// Lightmap pages that have any of its light.
+std::vector<std::uint32_t> pages_of_group(const Pack& pack, std::size_t group) {
+  std::vector<std::uint32_t> pages;
+  for (const PageGroups& page : pack.page_groups)
+    if (std::ranges::find(page.others, group, &GroupTexels::group) != page.others.end() ||
+        std::ranges::find(page.rest, group) != page.rest.end())
+      pages.push_back(page.page);
+  return pages;
+}
+
 Json light_field_json(const LightField& field) {
   if (field.bands == 0) return Json();
   Json lights = Json::array();
@@ -101,6 +111,21 @@ Json light_field_json(const LightField& field) {
           {"probes", field.probes.size()},  {"valid_probes", valid_probes(field)},
           {"depth_side", field.depth_side}, {"relative_standard_error", field.error},
           {"bright_lights", lights}};
+}
+
+Json light_groups_json(const Pack& pack) {
+  Json out = Json::array();
+  for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
+    const LightGroup& group = pack.light_groups[g];
+    out.push_back({{"name", group.name},
+                   {"lamps", group.lamps},
+                   {"value", group.value},
+                   {"color", triple(group.color)},
+                   {"own_color", triple(group.own_color)},
+                   {"sky", group.sky},
+                   {"pages", pages_of_group(pack, g)}});
+  }
+  return out;
 }
 
 Json materials_json(const Pack& pack) {
@@ -203,6 +228,7 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["visible_sets"] = visible_sets_json(pack);
   out["movers"] = movers_json(pack);
   out["light_field"] = light_field_json(pack.light_field);
+  out["light_groups"] = light_groups_json(pack);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -271,6 +297,12 @@ void print_movers(const Pack& pack) {
         "mover '{}': {} triangles, {} keys, transfer of {} bands in {} clusters, {} bytes a vertex, error {:.2g} %\n",
         m.name, m.mesh.indices.size() / 3, m.keys.size(), m.transfer.bands, m.transfer.clusters,
         m.transfer.bytes_per_vertex(), 100 * m.transfer.error);
+  for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
+    const LightGroup& group = pack.light_groups[g];
+    fmt::print("light group '{}': {} lamps ({}{}), light on {} lightmap pages\n", group.name, group.lamps.size(),
+               group.lamps.empty() ? "" : group.lamps.front(), group.lamps.size() > 1 ? ", …" : "",
+               pages_of_group(pack, g).size());
+  }
   const LightField& field = pack.light_field;
   if (field.bands > 0)
     fmt::print("light field: {} x {} x {} cells, {} of {} probes valid, {} bands, {} bright lights, noise {:.2g} %\n",
