@@ -24,6 +24,7 @@ struct MapArray {
   gpu::TextureArray light, disparity, ranges;
   std::vector<float> scale;
   std::vector<IVec2> sizes;  // of the layers' maps, pixels
+  Vec3 tint{1};              // of light, for lamps that shine otherwise than it shows
 };
 
 // A map as points, float RGBA: radiance, and disparity, which is -1 where the pixel saw nothing usable.

@@ -42,7 +42,6 @@ SceneImages::SceneImages(ImageSource source, const std::vector<ImageUse>& uses, 
   lights_.resize(counts[2]);
   maps_ = std::vector<ReflectorMaps>(counts[3]);
   surrounds_.resize(counts[4]);
-  baked_surround_scales_.resize(counts[4]);
   const std::array<std::uint8_t, 4> grey{188, 188, 188, 255}, flat{128, 128, 255, 255};
   grey_ = gpu::Texture2d(gpu::kSrgbAlpha8, 1, 1, grey.data());
   flat_ = gpu::Texture2d(gpu::kRgba8, 1, 1, flat.data());
@@ -268,18 +267,16 @@ void SceneImages::settle(Upload& upload) {
       for (std::size_t e = 0; e < upload.image.map_scales.size(); ++e)
         maps.elements.push_back({std::move(textures[3 * e].array), std::move(textures[3 * e + 1].array),
                                  std::move(textures[3 * e + 2].array), std::move(upload.image.map_scales[e]),
-                                 std::move(upload.image.map_sizes[e])});
-      maps.baked_scales.clear(), maps.baked_radiance = maps.means.radiance;
-      for (const MapArray& element : maps.elements) maps.baked_scales.push_back(element.scale);
-      scale_maps(i);
+                                 std::move(upload.image.map_sizes[e]), Vec3(1)});
+      maps.baked_radiance = maps.means.radiance;
+      tint_maps(i);
       break;
     }
     case ImageKind::kSurround:
       surrounds_[i] = std::move(upload.image.surround);
       surrounds_[i].light = std::move(textures[0].texture);
       surrounds_[i].inverse_distance = std::move(textures[1].texture);
-      baked_surround_scales_[i] = surrounds_[i].scale;
-      scale_surround(i);
+      tint_surround(i);
       break;
   }
   if (is_map(item.name.kind)) map_bytes_ += item.bytes[static_cast<std::size_t>(item.level)];

@@ -25,8 +25,7 @@ struct LoadedLightmap {
 struct ReflectorMaps {
   std::vector<MapArray> elements;
   MapMeans means;
-  std::vector<std::vector<float>> baked_scales;  // of elements, and mean radiance, as the lamps were baked
-  Vec3 baked_radiance{0};
+  Vec3 baked_radiance{0};  // means.radiance as the lamps were baked
 };
 
 // How many times what was baked the light is on average that maps show: by reflector, by surround map.
@@ -135,8 +134,8 @@ class SceneImages {
   void settle(Upload& upload);
   void settle_light(std::uint32_t index, PreparedImage& image, std::vector<TextureUpload>& textures);
   Status show_lights(std::uint32_t index);
-  void scale_maps(std::uint32_t reflector);
-  void scale_surround(std::uint32_t index);
+  void tint_maps(std::uint32_t reflector);
+  void tint_surround(std::uint32_t index);
 
   ImageSource source_;
   LoadingOptions options_;
@@ -152,7 +151,6 @@ class SceneImages {
   std::vector<LoadedLightmap> lights_;
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
-  std::vector<float> baked_surround_scales_;
   MapFactors map_factors_;
   std::map<std::uint32_t, gpu::Texture2d> points_;
   std::uint64_t points_bytes_ = 0;

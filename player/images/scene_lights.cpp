@@ -1,17 +1,7 @@
 // Images of lamps that shine otherwise than they were baked.
-#include "formats/core/color.h"
 #include "player/images/scene_images.h"
 
 namespace oriel {
-namespace {
-
-// Maps have one scale for all channels.
-float grey(const Vec3& factor) {
-  return factor == Vec3(1) ? 1.0f : luminance(factor);
-}
-
-}  // namespace
-
 void SceneImages::settle_light(std::uint32_t index, PreparedImage& image, std::vector<TextureUpload>& textures) {
   LoadedLightmap& light = lights_[index];
   light = {std::move(textures[0].texture), image.scale, {}, {}, {}};
@@ -48,24 +38,21 @@ Status SceneImages::set_lights(std::span<const Vec3> factors, MapFactors of_maps
   map_factors_ = std::move(of_maps);
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (has({ImageKind::kLight, i})) ORIEL_TRY_VOID(show_lights(i));
-  for (std::uint32_t i = 0; i < maps_.size(); ++i) scale_maps(i);
-  for (std::uint32_t i = 0; i < surrounds_.size(); ++i) scale_surround(i);
+  for (std::uint32_t i = 0; i < maps_.size(); ++i) tint_maps(i);
+  for (std::uint32_t i = 0; i < surrounds_.size(); ++i) tint_surround(i);
   return {};
 }
 
-void SceneImages::scale_maps(std::uint32_t reflector) {
+void SceneImages::tint_maps(std::uint32_t reflector) {
   if (reflector >= map_factors_.reflectors.size()) return;
   ReflectorMaps& maps = maps_[reflector];
   const Vec3 factor = map_factors_.reflectors[reflector];
   maps.means.radiance = factor * maps.baked_radiance;
-  for (std::size_t e = 0; e < maps.elements.size(); ++e)
-    for (std::size_t m = 0; m < maps.elements[e].scale.size(); ++m)
-      maps.elements[e].scale[m] = grey(factor) * maps.baked_scales[e][m];
+  for (MapArray& element : maps.elements) element.tint = factor;
 }
 
-void SceneImages::scale_surround(std::uint32_t index) {
-  if (index < map_factors_.surrounds.size())
-    surrounds_[index].scale = grey(map_factors_.surrounds[index]) * baked_surround_scales_[index];
+void SceneImages::tint_surround(std::uint32_t index) {
+  if (index < map_factors_.surrounds.size()) surrounds_[index].tint = map_factors_.surrounds[index];
 }
 
 }  // namespace oriel

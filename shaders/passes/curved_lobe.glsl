@@ -8,7 +8,7 @@
 uniform vec3 u_centre;
 uniform int u_size;
 uniform sampler2D u_light;  // over u_light_scale
-uniform float u_light_scale;
+uniform vec3 u_light_scale;
 uniform sampler2D u_inverse_distance;
 uniform vec2 u_range;
 uniform sampler2D u_taps;  // see kernel_tap()
