@@ -32,6 +32,12 @@ constexpr float kCoarseError = 0.25f;                   // of bounces that no ga
 constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
 
+// Of direct light: its noise lies in penumbrae, which are no wider than the first scale's kernel.
+FilterOptions narrow(FilterOptions options) {
+  options.scales = std::min(options.scales, 1);
+  return options;
+}
+
 class CachedEstimator : public LightEstimator {
  public:
   CachedEstimator(const RadiosityTask& task, Texels texels)
@@ -73,9 +79,8 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    BookedLight direct = direct_.booked, gathered = gathered_.mean_booked();
-    (void)filtered_direct(&direct), (void)filtered_gathered(&gathered);
-    direct.add(gathered);
+    BookedLight direct = filter_groups(texels_, graph_, direct_.booked_halves(), narrow(options_.filter), context_);
+    direct.add(filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false));
     write_booked(texels_, direct, groups);
     return true;
   }
@@ -101,7 +106,9 @@ class CachedEstimator : public LightEstimator {
     irradiance_ = coarse_ = direct_.value;
     for (std::size_t i = 0; i < irradiance_.size(); ++i) irradiance_[i] += gathered_.mean(i);
     SweepOptions how = sweep_options(options_, goal.error, texels_.count());
-    if (around_.groups() > 0) booked_ = direct_.booked, booked_.add(gathered_.beside_booked), how.booked = &booked_;
+    if (around_.groups() > 0)
+      booked_ = direct_.booked, booked_.add(gathered_.beside_booked[0], 0.5f),
+      booked_.add(gathered_.beside_booked[1], 0.5f), how.booked = &booked_;
     ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
@@ -210,19 +217,12 @@ class CachedEstimator : public LightEstimator {
     return {};
   }
 
-  Estimate filtered_direct(BookedLight* booked = nullptr) const {
-    // Its noise lies in penumbrae, which are no wider than the first scale's kernel.
-    FilterOptions narrow = options_.filter;
-    narrow.scales = std::min(narrow.scales, 1);
-    return filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow, context_, booked);
-  }
-  Estimate filtered_gathered(BookedLight* booked = nullptr) const {
-    return filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_, booked);
+  void update_direct() {
+    smooth_direct_ = filter(texels_, graph_, halves_of(direct_, estimate_.value), narrow(options_.filter), context_);
   }
 
-  void update_direct() { smooth_direct_ = filtered_direct(); }
   void update_estimate() {
-    estimate_ = filtered_gathered();
+    estimate_ = filter(texels_, graph_, halves_of(gathered_, context_), options_.filter, context_);
     mean_luminance_ = mean_luminance(texels_, direct_.value, estimate_.value);
   }
 

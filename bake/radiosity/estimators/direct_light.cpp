@@ -30,7 +30,8 @@ class DirectGroup {
         per_half_(per_half),
         tallies_(list.size()),
         booked_(list.size(), scene().light_groups.size()),
-        booked_passed_(booked_) {
+        booked_difference_(booked_),
+        booked_passed_{booked_, booked_} {
     for (std::uint32_t i = 0; i < list.size(); ++i)
       if (d_.texels_.visible[list[i]] > 0) add_points(i);
   }
@@ -62,6 +63,7 @@ class DirectGroup {
       sums.per_half[list_[i]] = per_half_;
       if (!sums.moments.empty()) sums.moments[list_[i]] = tallies_[i].moments;
       std::ranges::copy(booked_.of(i), sums.booked.of(list_[i]).begin());
+      std::ranges::copy(booked_difference_.of(i), sums.booked_difference.of(list_[i]).begin());
     }
   }
   std::uint64_t rays() const { return rays_; }
@@ -164,7 +166,7 @@ class DirectGroup {
     Tally& tally = tallies_[p.texel];
     const Vec3 light = shot.weight * passed;
     tally.passed[p.half] += light;
-    if (shot.group < booked_.groups) booked_passed_.of(p.texel)[shot.group] += light;
+    if (shot.group < booked_.groups) booked_passed_[p.half].of(p.texel)[shot.group] += light;
     const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
     tally.from += moments_of(luminance(light) / cosine, shot.direction);
   }
@@ -195,13 +197,15 @@ class DirectGroup {
       const Vec3 open = radiance * (t.open[0] + t.open[1]) / n;
       const Vec3 value = open * (2.0f * share - halves);
       t.total += value;
-      if (!booked_.empty()) booked_.of(i)[group] += value;
       add_moments(t, value);
       // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
       t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
       // The closed form is exact at a point; the texel's mean is had from a few.
       t.uneven += radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
-      t.difference += radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half_);
+      const Vec3 difference =
+          radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half_);
+      t.difference += difference;
+      if (!booked_.empty()) booked_.of(i)[group] += value, booked_difference_.of(i)[group] += difference;
       forget_light(t);
     }
   }
@@ -244,8 +248,11 @@ class DirectGroup {
       t.difference += difference;
       forget_light(t);
     }
-    booked_.add(booked_passed_, 1 / (kHalves * n));
-    std::ranges::fill(booked_passed_.light, Vec3(0));
+    for (int h = 0; h < kHalves; ++h) {
+      booked_.add(booked_passed_[h], 1 / (kHalves * n));
+      booked_difference_.add(booked_passed_[h], (h == 0 ? 1 : -1) / n);
+      std::ranges::fill(booked_passed_[h].light, Vec3(0));
+    }
   }
 
   // The same for points, spots and suns, which no ray meets.
@@ -271,7 +278,8 @@ class DirectGroup {
   std::uint32_t per_half_;
   std::vector<Point> points_;
   std::vector<Tally> tallies_;
-  BookedLight booked_, booked_passed_;  // by texel of the list: of all lights so far; of those found by chance now
+  BookedLight booked_, booked_difference_;          // by texel of the list: of all lights so far,
+  std::array<BookedLight, kHalves> booked_passed_;  // and by half of those found by chance now
   std::vector<Ray> rays_to_trace_;
   std::vector<Shot> shots_;
   std::vector<Vec3> passed_;
@@ -303,7 +311,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     for (const std::uint32_t t : part(g)) {
       archive(sums.value[t], sums.difference[t], sums.variance[t], sums.uneven[t], sums.per_half[t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
-      if (!sums.booked.empty()) archive(sums.booked.of(t));
+      if (!sums.booked.empty()) archive(sums.booked.of(t), sums.booked_difference.of(t));
     }
   };
   return parallel_units(context, loop, &rays);

@@ -13,9 +13,9 @@ struct DirectSums {
   std::vector<Vec3> difference;  // of its halves, which share neither points nor rays
   std::vector<Vec3> variance;    // of value: closed forms by their mix of lit and dark samples, the rest by halves
   std::vector<Vec3> uneven;      // of the closed forms' means over the texel, likewise from one difference
-  std::vector<std::uint32_t> per_half;  // samples of each half for each light
-  std::vector<Vec4> moments;            // of luminance over the sphere (moments.h); empty unless asked for
-  BookedLight booked;                   // of value, by group of lamps
+  std::vector<std::uint32_t> per_half;    // samples of each half for each light
+  std::vector<Vec4> moments;              // of luminance over the sphere (moments.h); empty unless asked for
+  BookedLight booked, booked_difference;  // of value and difference, by group of lamps
 
   DirectSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : value(texels),
@@ -24,7 +24,15 @@ struct DirectSums {
         uneven(texels),
         per_half(texels),
         moments(directional ? texels : 0),
-        booked(texels, groups) {}
+        booked(texels, groups),
+        booked_difference(texels, groups) {}
+
+  // Of the halves' light by group.
+  std::array<BookedLight, kHalves> booked_halves() const {
+    std::array<BookedLight, kHalves> halves{booked, booked};
+    halves[0].add(booked_difference, 0.5f), halves[1].add(booked_difference, -0.5f);
+    return halves;
+  }
 
   void take(std::size_t i, const DirectSums& from, std::size_t k) {
     value[i] = from.value[k], difference[i] = from.difference[k];

@@ -73,20 +73,9 @@ std::vector<Vec3> gain(const Flow& flow, const TexelGraph& graph, const std::vec
   return sum;
 }
 
-// What smooths light on one scale, for the light of each group.
-void smooth_groups(const TexelGraph& graph, const Conductance& c, const std::vector<float>& share, float time,
-                   BookedLight& booked, Context& context) {
-  for (std::size_t g = 0; g < booked.groups; ++g) {
-    std::vector<Vec3> light = booked.of_group(g);
-    const std::vector<Vec3> change = gain(further_flow(graph, c, light, time, context), graph, share, context);
-    for (std::size_t i = 0; i < change.size(); ++i) light[i] += change[i];
-    booked.set_group(g, light);
-  }
-}
-
 // Smooths both halves on scale after scale, each only where that takes noise away.
 void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::vector<float>& weight, int scales,
-                      TwoHalves& halves, BookedLight* booked, Context& context) {
+                      TwoHalves& halves, Context& context) {
   const std::vector<float> all(weight.size(), 1.0f);
   float time = kFirstScale;
   for (int scale = 0; scale < scales; ++scale, time *= kNextScale) {
@@ -101,7 +90,6 @@ void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::
       const std::vector<Vec3> change = gain(flow[h], graph, share, context);
       for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
     }
-    if (booked) smooth_groups(graph, c, share, time, *booked, context);
   }
 }
 
@@ -195,7 +183,7 @@ float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, cons
 }
 
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
-                Context& context, BookedLight* booked) {
+                Context& context) {
   const std::size_t n = texels.count();
   const auto& half = halves.light;
   std::vector<Vec3> noise(n), mean(n);
@@ -227,7 +215,7 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   const Conductance edges = conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance, halves.steps},
                                          options.strength, context);
   TwoHalves smooth = half;
-  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, booked, context);
+  smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
   each_texel(context, n, [&](std::size_t i) { guide[i] = 0.5f * (smooth[0][i] + smooth[1][i]); });
   std::vector<Vec3>& of_both = guide_variance;  // noise of the mean of both
   each_texel(context, n, [&](std::size_t i) {

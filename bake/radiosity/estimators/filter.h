@@ -33,10 +33,8 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
 // It goes on from scale to scale, up to some 25 texels, and at each only where cross-validation of the two halves tells
 // that the light comes nearer to the truth. The error is measured, not modelled: each half is filtered alone and
 // compared with the other, unfiltered (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
-// booked: the mean of both halves by group of lamps, if somebody asks; is smoothed as that mean is, by the same
-// weights.
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
-                Context& context, BookedLight* booked = nullptr);
+                Context& context);
 
 // Of the sum of both, over texels that see light, lux.
 float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, const std::vector<Vec3>& gathered);

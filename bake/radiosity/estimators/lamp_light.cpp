@@ -28,18 +28,19 @@ void put_beside(const LampLight& lamps, const std::vector<bool>& keep, HalfSums&
     for (int h = 0; h < kHalves; ++h) sums.beside[h][i] = lamps.half(h, i);
     if (!sums.beside_moments.empty())
       sums.beside_moments[i] = lamps.moments[i] / static_cast<float>(kHalves * lamps.particles);
-    for (std::size_t g = 0; g < sums.beside_booked.groups; ++g)
-      sums.beside_booked.of(i)[g] = lamps.booked.of(i)[g] / static_cast<float>(kHalves * lamps.particles);
+    for (int h = 0; h < kHalves; ++h)
+      for (std::size_t g = 0; g < lamps.booked[h].groups; ++g)
+        sums.beside_booked[h].of(i)[g] = lamps.booked[h].of(i)[g] / static_cast<float>(lamps.particles);
   }
 }
 
 std::vector<Vec3> smooth_beside(const LampLight& lamps, const Texels& texels, const TexelGraph& graph,
                                 const HalfSums& sums, Context& context, BookedLight& booked) {
-  booked = sums.beside_booked;
   if (lamps.particles == 0) return {};
+  booked = filter_groups(texels, graph, sums.beside_booked, {.scales = 1}, context);
   Halves halves{sums.beside, std::vector<Vec3>(texels.count()), std::vector<Vec3>(texels.count())};
   for (std::size_t i = 0; i < texels.count(); ++i) halves.beside[i] = sums.mean(i);
-  return filter(texels, graph, halves, {.scales = 1}, context, &booked).value;
+  return filter(texels, graph, halves, {.scales = 1}, context).value;
 }
 
 bool particles_pay(const LampLight& lamps, const HalfSums& sums, std::span<const Vec3> light,

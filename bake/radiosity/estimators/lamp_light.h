@@ -1,7 +1,7 @@
 // How many particles lamps send, beside the rays of the gather.
 #pragma once
 
-#include "bake/radiosity/estimators/filter.h"
+#include "bake/radiosity/estimators/group_filter.h"
 #include "bake/radiosity/estimators/radiosity_options.h"
 #include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/gather/lamp_paths.h"

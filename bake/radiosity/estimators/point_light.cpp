@@ -4,6 +4,7 @@
 
 #include "bake/jobs/units.h"
 #include "bake/radiosity/estimators/direct_light.h"
+#include "bake/radiosity/estimators/group_filter.h"
 #include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -84,7 +85,7 @@ Vec3 beside_at(const TexelLight& known, const Texels& points, std::size_t i, std
 
 // The filtered light of points by group; what is beside it is added.
 BookedLight add_beside(const TexelLight& known, const Texels& points, std::uint32_t side, BookedLight booked) {
-  for (std::size_t i = 0; i < points.count() && !known.beside.empty(); ++i)
+  for (std::size_t i = 0; i < points.count() && !known.beside_booked.empty(); ++i)
     for (std::size_t g = 0; g < booked.groups; ++g)
       booked.of(i)[g] +=
           between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.beside_booked.of(texel)[g]; });
@@ -112,10 +113,10 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   const FilterOptions filters = task.options.filter;
   FilterOptions narrow = filters;
   narrow.scales = std::min(narrow.scales, 1);
-  BookedLight booked = gathered.mean_booked();
-  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context, &booked);
-  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context, &direct.booked);
-  booked.add(direct.booked);
+  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
+  BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), narrow, context);
+  booked.add(filter_groups(texels, graph, gathered.booked_halves(), filters, context, false));
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n);

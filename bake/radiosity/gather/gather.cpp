@@ -41,7 +41,7 @@ class GroupGather {
         sums.sum[half][m.texel] += m.sum;
         sums.slope[half][m.texel] += m.slope;
         if (moments_) sums.moments[m.texel] += m.moments;
-        const std::span<Vec3> booked = sums.booked.of(m.texel);
+        const std::span<Vec3> booked = sums.booked[half].of(m.texel);
         for (std::size_t g = 0; g < booked.size(); ++g) booked[g] += m.booked[g];
       }
     }
@@ -154,7 +154,8 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
       archive(sums.samples[t]);
       for (int h = 0; h < kHalves; ++h) archive(sums.sum[h][t], sums.slope[h][t]);
       if (!sums.moments.empty()) archive(sums.moments[t]);
-      if (!sums.booked.empty()) archive(sums.booked.of(t));
+      for (BookedLight& booked : sums.booked)
+        if (!booked.empty()) archive(booked.of(t));
     }
   };
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};

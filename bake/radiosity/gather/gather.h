@@ -19,15 +19,14 @@ struct HalfSums {
   // Σ of luminance over the sphere, both halves: vector (xyz) and mean (w) as LightmapPage::direction wants them, times
   // samples. Empty unless asked for.
   std::vector<Vec4> moments;
-  BookedLight booked;         // by group of lamps, of both halves: lux * samples
-  BookedLight beside_booked;  // of `beside`, the mean of both halves
+  std::array<BookedLight, kHalves> booked, beside_booked;  // of `sum` and `beside`, by group of lamps
 
   HalfSums(std::size_t texels, bool directional, std::size_t groups = 0)
       : samples(texels),
         beside_moments(directional ? texels : 0),
         moments(directional ? texels : 0),
-        booked(texels, groups),
-        beside_booked(texels, groups) {
+        booked{BookedLight(texels, groups), BookedLight(texels, groups)},
+        beside_booked(booked) {
     for (auto& s : sum) s.resize(texels);
     for (auto& s : slope) s.resize(texels);
     for (auto& b : beside) b.resize(texels);
@@ -35,7 +34,7 @@ struct HalfSums {
   void forget(std::size_t i) {
     for (int h = 0; h < kHalves; ++h) sum[h][i] = slope[h][i] = Vec3(0);
     if (!moments.empty()) moments[i] = Vec4(0);
-    for (Vec3& light : booked.of(i)) light = Vec3(0);
+    for (BookedLight& half : booked) std::ranges::fill(half.of(i), Vec3(0));
     samples[i] = 0;
   }
   void take(std::size_t i, const HalfSums& from, std::size_t k) {
@@ -52,18 +51,20 @@ struct HalfSums {
   void assume(std::size_t i, const Vec3& light, float uncertain, const BookedLight& of_groups) {
     sum[0][i] = (1 + uncertain) * light, sum[1][i] = (1 - uncertain) * light;
     samples[i] = 1;
-    for (std::size_t g = 0; g < booked.groups; ++g) booked.of(i)[g] = float{kHalves} * of_groups.of(i)[g];
+    for (BookedLight& half : booked) std::ranges::copy(of_groups.of(i), half.of(i).begin());
   }
   Vec3 half(int h, std::size_t i) const {
     return beside[h][i] + (samples[i] ? sum[h][i] / static_cast<float>(samples[i]) : Vec3(0));
   }
   Vec3 mean(std::size_t i) const { return 0.5f * (half(0, i) + half(1, i)); }
-  BookedLight mean_booked() const {
-    BookedLight mean = beside_booked;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      for (std::size_t g = 0; g < mean.groups && samples[i] > 0; ++g)
-        mean.of(i)[g] += booked.of(i)[g] / static_cast<float>(kHalves * samples[i]);
-    return mean;
+  // Of the halves' light by group.
+  std::array<BookedLight, kHalves> booked_halves() const {
+    std::array<BookedLight, kHalves> halves = beside_booked;
+    for (int h = 0; h < kHalves; ++h)
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        for (std::size_t g = 0; g < halves[h].groups && samples[i] > 0; ++g)
+          halves[h].of(i)[g] += booked[h].of(i)[g] / static_cast<float>(samples[i]);
+    return halves;
   }
 };
 

@@ -217,18 +217,18 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
         const Particle particle = sources.emit(SourceKind::kNear, sampler);
         const std::size_t before = arrivals[u].size();
         traced += LampWalk(texels, around, sampler, arrivals[u]).run(particle);
-        if (!light.booked.empty()) book(std::span(arrivals[u]).subspan(before), particle.group, booked[u]);
+        if (!light.booked[0].empty()) book(std::span(arrivals[u]).subspan(before), particle.group, booked[u]);
       }
       add_up(arrivals[u]);
       return traced;
     };
     loop.results = [&](std::size_t u, Archive& archive) {
       archive(arrivals[u]);
-      if (!light.booked.empty()) archive(booked[u]);
+      if (!light.booked[0].empty()) archive(booked[u]);
     };
     ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
-    for (const auto& unit : booked)
-      for (const BookedArrival& a : unit) light.booked.of(a.texel)[a.group] += a.light;
+    for (std::size_t u = 0; u < booked.size(); ++u)
+      for (const BookedArrival& a : booked[u]) light.booked[u % kHalves].of(a.texel)[a.group] += a.light;
     for (std::size_t u = 0; u < arrivals.size(); ++u)
       for (const Arrival& a : arrivals[u]) {
         light.sum[u % kHalves][a.texel] += a.light;

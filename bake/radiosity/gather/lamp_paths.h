@@ -10,11 +10,11 @@ namespace oriel {
 struct LampLight {
   std::array<std::vector<Vec3>, kHalves> sum;  // lux * particles
   std::vector<Vec4> moments;                   // as those of HalfSums, of both halves; empty unless asked for
-  BookedLight booked;                          // by group of lamps, of both halves: lux * particles
+  std::array<BookedLight, kHalves> booked;     // of `sum`, by group of lamps
   std::uint64_t particles = 0;                 // of each half
 
   LampLight(std::size_t texels, bool directional, std::size_t groups = 0)
-      : moments(directional ? texels : 0), booked(texels, groups) {
+      : moments(directional ? texels : 0), booked{BookedLight(texels, groups), BookedLight(texels, groups)} {
     for (auto& s : sum) s.resize(texels);
   }
   Vec3 half(int h, std::size_t i) const { return particles ? sum[h][i] / static_cast<float>(particles) : Vec3(0); }

@@ -21,6 +21,11 @@ struct BookedLight {
   std::span<Vec3> of(std::size_t texel) { return std::span(light).subspan(texel * groups, groups); }
   std::span<const Vec3> of(std::size_t texel) const { return std::span(light).subspan(texel * groups, groups); }
 
+  bool is_dark(std::size_t group) const {
+    for (std::size_t i = group; i < light.size(); i += groups)
+      if (light[i] != Vec3(0)) return false;
+    return true;
+  }
   // Adds that many times another's, of as many texels and groups.
   void add(const BookedLight& other, float times = 1) {
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += times * other.light[i];
