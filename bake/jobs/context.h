@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/core/hash.h"
@@ -102,6 +103,24 @@ class WarningLog {
  private:
   Context& context_;
   std::function<void(const Warning&)> listener_;
+};
+
+// While it lives, work is a trial: nothing of it is found or kept, so that it takes the time it takes, and none is
+// reported.
+class Trial {
+ public:
+  explicit Trial(Context& context)
+      : context_(context),
+        units_(std::exchange(context.units, nullptr)),
+        progress_(std::exchange(context.progress, nullptr)) {}
+  ~Trial() { context_.units = units_, context_.progress = std::move(progress_); }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+ private:
+  Context& context_;
+  UnitStore* units_;
+  std::function<void(const Progress&)> progress_;
 };
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 
 #include "bake/radiance/capture.h"
 #include "bake/run/assemble.h"
+#include "bake/run/fit_maps.h"
 #include "bake/run/lobe_share.h"
 #include "formats/pack/writer.h"
 
@@ -123,8 +124,8 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
   const ReflectedSurroundings surroundings(coarse.accel, fewer.reflectors, in.options.sight);
   double surround = 0;
   for (const SurroundMap& map : in.reflections.curved.maps) surround += double{1.0f * map.size} * map.size;
-  ORIEL_TRY(const double share, lobe_share(coarse, surroundings, fewer.maps, {}, context));
-  const std::uint32_t paths = lobe_paths(share * (more * fewer.pixels + surround));
+  ORIEL_TRY(const LobeShares shares, lobe_shares(coarse, surroundings, fewer.maps, in.reflections, context));
+  const std::uint32_t paths = lobe_paths(shares.planar * more * fewer.pixels + shares.surround * surround);
   double rays = 0, bytes = 0, seconds = 0, all = 0;
   for (const FoundReflector& found : fewer.reflectors) {
     const Reflector& r = found.reflector;
@@ -134,11 +135,10 @@ Result<Component> pilot_reflections(const CensusInput& in, const BakedScene& coa
     for (std::uint32_t m = 0; m < r.map_count; ++m) own += more * pixels(fewer.maps[r.first_map + m]);
     seconds += own * rate.seconds, rays += own * rate.rays, bytes += own * rate.bytes, all += own;
   }
-  // Texels of surround maps see the same light by one ray each.
-  const double scale = all > 0 ? 1 + surround / all : 1;
-  c.seconds += scale * seconds;
-  c.rays = static_cast<std::uint64_t>(scale * rays);
-  c.bytes = static_cast<std::uint64_t>(all > 0 ? scale * bytes : kMapBytesPerPixel * surround);
+  ORIEL_TRY(const SurroundCost cost, surround_cost(coarse, in.reflections, paths, context));
+  c.seconds += seconds + cost.seconds;
+  c.rays = static_cast<std::uint64_t>(rays + cost.rays);
+  c.bytes = static_cast<std::uint64_t>(bytes + (all > 0 ? bytes / all : kMapBytesPerPixel) * surround);
   c.raw_bytes = static_cast<std::uint64_t>(kMapBytesPerPixel * (all + surround));
   return c;
 }

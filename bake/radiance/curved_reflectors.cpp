@@ -176,6 +176,15 @@ std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m)
   return std::bit_ceil(std::max(kMinSide, static_cast<std::uint32_t>(texels)));
 }
 
+double make_coarser(std::uint32_t divisor, std::vector<SurroundMap>& maps) {
+  double texels = 0;
+  for (SurroundMap& map : maps) {
+    map.size = std::max(1u, map.size / divisor);
+    texels += double{1.0f * map.size} * map.size;
+  }
+  return texels;
+}
+
 FoundCurvedReflectors find_curved_reflectors(const Scene& scene, std::span<const std::uint32_t> triangles,
                                              std::span<const ReflectorMaterial> materials,
                                              std::span<const SeenOfTriangle> seen, const CurvedOptions& options) {

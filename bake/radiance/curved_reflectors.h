@@ -7,10 +7,10 @@
 namespace oriel {
 
 struct CurvedOptions {
-  std::uint32_t max_reflectors = 32;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
-  float min_extent_m = 0.05f;         // diagonal of the bounds: smaller ones are not seen
-  float max_extent_m = 2;             // longest side of the bounds: larger ones see too much from their middle, so
-  std::uint32_t max_pieces = 8;       // they are cut into at most so many pieces
+  std::uint32_t max_reflectors = 128;  // the largest by reflectance * (1 - roughness) * what eyes see are kept
+  float min_extent_m = 0.05f;          // diagonal of the bounds: smaller ones are not seen
+  float max_extent_m = 2;              // longest side of the bounds: larger ones see too much from their middle, so
+  std::uint32_t max_pieces = 8;        // they are cut into at most so many pieces
   std::uint64_t memory_bytes = std::uint64_t{32} << 20;  // of all maps in the pack, kMapBytesPerPixel each
 };
 
@@ -27,6 +27,8 @@ struct FoundCurvedReflector {
   double area_m2 = 0;
   double diagonal_m = 0;  // of its bounds
   SeenOfTriangle seen;    // of all of them
+  // The fronts of its object are in its map: it is hollow, and its map is taken from the hollow.
+  bool sees_itself = false;
 };
 
 // A connected shiny surface.
@@ -49,6 +51,9 @@ std::uint32_t surround_resolution(float roughness);
 // of 720 pixels and 60°. A mirroring sphere N pixels across turns the reflected direction by 4/N rad a pixel in its
 // middle, and a map of S² texels has √(4π)/S rad a texel: S = 0.9 N. Twice that, for pieces half as bent as a sphere.
 std::uint32_t surround_resolution_for_eyes(double diagonal_m, double distance_m);
+
+// Divides their sides, for trials. Returns the texels that they have then.
+double make_coarser(std::uint32_t divisor, std::vector<SurroundMap>& maps);
 
 // `triangles` (FoundReflectors::unplanar) that share positions and a material make an object; one that is too large is
 // cut across its longest side. Each piece sees its surroundings from the middle of its bounds. `seen`: by triangle of

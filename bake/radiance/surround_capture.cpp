@@ -35,13 +35,15 @@ constexpr double kRaysARow = 2048;  // about
 
 class SurroundCapture {
  public:
-  SurroundCapture(const Accel& accel, const CurvedObject& object, const OutgoingRadiance& outgoing, const Vec3& centre)
+  SurroundCapture(const Accel& accel, const FoundCurvedReflectors& found, const FoundCurvedReflector& reflector,
+                  const OutgoingRadiance& outgoing)
       : accel_(accel),
         scene_(accel.scene()),
-        object_(object),
+        object_(found.objects[reflector.object]),
         outgoing_(outgoing),
-        centre_(centre),
-        nearest_(std::max(kNearest * glm::length(object.upper - object.lower), 1e-12f)) {}
+        sees_itself_(reflector.sees_itself),
+        centre_(found.maps[reflector.reflector.map].centre),
+        nearest_(std::max(kNearest * glm::length(object_.upper - object_.lower), 1e-12f)) {}
 
   // The light of layers is asked for when it is known which of them lie outside: lobes are traced there, and a ray
   // leaves some bodies through dozens of surfaces.
@@ -66,12 +68,12 @@ class SurroundCapture {
       ++rays_;
       if (!hit) return sight;
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
-      if (own(hit.triangle)) {
-        if (!hit.front) sight = {};  // all before lies inside
+      if (own(hit.triangle) && !(sees_itself_ && hit.front)) {
+        if (!hit.front && !sees_itself_) sight = {};  // all before lies inside
       } else if (!sight.ended && hit.triangle != last) {
         meet(hit, p, direction, sight);
       }
-      if (sight.ended && glm::length(p - centre_) >= bounds_end) return sight;
+      if (sight.ended && (sees_itself_ || glm::length(p - centre_) >= bounds_end)) return sight;
       last = hit.triangle;
       ray.origin = p + direction * (kStep * max_component(glm::abs(p)) + 1e-6f * hit.distance);
     }
@@ -121,6 +123,7 @@ class SurroundCapture {
   const Scene& scene_;
   const CurvedObject& object_;
   const OutgoingRadiance& outgoing_;
+  bool sees_itself_;
   Vec3 centre_;
   float nearest_;  // m
   std::uint64_t rays_ = 0;
@@ -142,12 +145,12 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
   UnitLoop loop{.stage = "surroundings", .count = rows.size(), .rays = kRaysARow};
   loop.inputs = [&](std::size_t row, Archive& key) {
     const SurroundMap& map = found.maps[rows[row].x];
-    key(map.centre, map.size, rows[row].y, found.objects[found.reflectors[rows[row].x].object].triangles);
+    const FoundCurvedReflector& reflector = found.reflectors[rows[row].x];
+    key(map.centre, map.size, rows[row].y, found.objects[reflector.object].triangles, reflector.sees_itself);
   };
   loop.compute = [&](std::size_t row) {
     SurroundMap& map = found.maps[rows[row].x];
-    const CurvedObject& object = found.objects[found.reflectors[rows[row].x].object];
-    SurroundCapture capture(accel, object, outgoing, map.centre);
+    SurroundCapture capture(accel, found, found.reflectors[rows[row].x], outgoing);
     const std::uint32_t y = rows[row].y;
     for (std::uint32_t x = 0; x < map.size; ++x) {
       const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(map.size) * 2.0f - 1.0f;

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "bake/jobs/parallel.h"
+#include "bake/radiance/surround_capture.h"
 #include "bake/run/lobe_share.h"
 
 namespace oriel {
@@ -12,34 +11,55 @@ namespace {
 
 constexpr std::uint32_t kTried = 8;       // by which a map's sides are divided to time its capture
 constexpr std::uint32_t kLeastSide = 16;  // of a map that is made smaller
-constexpr double kPixel_s = 1e-6;         // of surround maps, where no planar map tells
 constexpr double kJudging = 0.3;          // of the seconds of planning: residual maps and held-out eyes
 
+// Captures maps whose sides are divided: what all of them are likely to take.
 Status time_capture(const BakeOptions& options, const BakedScene& dark, Context& context, PlannedReflections& planned) {
-  std::vector<RadianceMap> maps = planned.plan.maps;
-  double tried = 0;
-  for (RadianceMap& map : maps) {
-    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
-    tried += double{1.0f * map.width} * map.height;
-  }
+  const FoundReflections& all = planned.all;
   std::uint32_t paths = 1;
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     return baked_radiance_with_lobes(dark, seen, paths, context.seed, *seen.rays);
   };
-  const ReflectedSurroundings surroundings(dark.accel, planned.all.found.reflectors, options.sight);
-  ORIEL_TRY(const double share, lobe_share(dark, surroundings, planned.plan.maps, {}, context));
-  paths = lobe_paths(share * planned.pixels());
+  const ReflectedSurroundings surroundings(dark.accel, all.found.reflectors, options.sight);
+  ORIEL_TRY(const LobeShares shares, lobe_shares(dark, surroundings, planned.plan.maps, all, context));
+  paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
+  std::vector<RadianceMap> maps = planned.plan.maps;
+  double pixels = 0;
+  for (RadianceMap& map : maps) {
+    map.width = std::max(1u, map.width / kTried), map.height = std::max(1u, map.height / kTried);
+    pixels += double{1.0f * map.width} * map.height;
+  }
+  const std::vector<bool> is_curved = curved_triangles(dark.accel.scene(), all);
   const ElapsedTime clock;
-  UnitStore* const units = std::exchange(context.units, nullptr);  // what was found would take no time
-  const Status captured = capture_maps(surroundings, outgoing, context, maps, nullptr);
-  context.units = units;
-  ORIEL_TRY_VOID(captured);
-  const double a_pixel = tried > 0 ? clock.spent() / tried : kPixel_s;
-  planned.capture_s = planned.pixels() * a_pixel + kJudging * planned.seconds;
+  {
+    const Trial trial(context);
+    ORIEL_TRY_VOID(capture_maps(surroundings, with_lobes_of(is_curved, outgoing), context, maps, nullptr));
+  }
+  const double planar_s = clock.spent() * planned.planar_pixels() / std::max(pixels, 1.0);
+  ORIEL_TRY(const SurroundCost surround, surround_cost(dark, all, paths, context));
+  planned.surround_s = surround.seconds;
+  planned.capture_s = planar_s + planned.surround_s + kJudging * planned.seconds;
   return {};
 }
 
 }  // namespace
+
+Result<SurroundCost> surround_cost(const BakedScene& baked, const FoundReflections& all, std::uint32_t paths,
+                                   Context& context) {
+  const std::vector<bool> is_shiny = shiny_triangles(baked.accel.scene(), all);
+  const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
+    return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
+  };
+  FoundCurvedReflectors curved = all.curved;
+  const double texels = make_coarser(1, curved.maps), tried = make_coarser(kTried, curved.maps);
+  if (!(tried > 0)) return SurroundCost{};
+  std::atomic<std::uint64_t> rays{0};
+  const Trial trial(context);
+  const ElapsedTime clock;
+  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  const double times = texels / tried;
+  return SurroundCost{times * clock.spent(), times * static_cast<double>(rays)};
+}
 
 void leave_out_maps(const Warning& why, PlannedReflections& planned) {
   planned.plan = {};
@@ -53,12 +73,14 @@ void shrink_maps(double seconds, PlannedReflections& planned) {
   std::uint32_t halved = 0;
   const double judging = kJudging * planned.seconds;
   while (planned.capture_s > seconds && planned.capture_s > 1.1 * judging) {
-    const double before = planned.pixels();
+    const double planar = planned.planar_pixels(), surround = planned.surround_pixels();
+    const double planar_s = planned.capture_s - judging - planned.surround_s;
     for (RadianceMap& map : planned.plan.maps)
       map.width = std::max(kLeastSide, map.width / 2), map.height = std::max(kLeastSide, map.height / 2);
     for (SurroundMap& map : planned.all.curved.maps) map.size = std::max(kLeastSide, map.size / 2);
-    if (planned.pixels() >= before) break;  // all are as small as they may be
-    planned.capture_s = judging + (planned.capture_s - judging) * planned.pixels() / before;
+    if (planned.planar_pixels() + planned.surround_pixels() >= planar + surround) break;  // as small as they may be
+    planned.surround_s *= planned.surround_pixels() / std::max(surround, 1.0);
+    planned.capture_s = judging + planar_s * planned.planar_pixels() / std::max(planar, 1.0) + planned.surround_s;
     ++halved;
   }
   if (halved > 0)

@@ -216,9 +216,8 @@ class Bake {
       Pack dark;
       ORIEL_TRY_VOID(time_reflections(options_, prepared_, *lights_, dark, context_, planned_));
     }
-    const double surround = planned_.surround_pixels() / std::max(planned_.pixels(), 1.0);
-    forecast_.expect("radiance", (1 - surround) * planned_.capture_s);
-    forecast_.expect("surroundings", surround * planned_.capture_s);
+    forecast_.expect("radiance", planned_.capture_s - planned_.surround_s);
+    forecast_.expect("surroundings", planned_.surround_s);
     return {};
   }
 

@@ -10,6 +10,7 @@
 #include "bake/radiance/map_mesh.h"
 #include "bake/radiance/residual.h"
 #include "bake/radiance/surround_capture.h"
+#include "bake/radiance/surround_viewpoints.h"
 #include "bake/run/baked_light.h"
 #include "bake/run/fit_maps.h"
 #include "bake/run/inputs.h"
@@ -211,12 +212,6 @@ void keep(std::vector<Found>& found, const AssembledMesh& mesh, std::vector<Kept
   }
 }
 
-std::vector<bool> marked(const Scene& scene, std::span<const std::uint32_t> triangles) {
-  std::vector<bool> is_marked(scene.triangles.size());
-  for (const std::uint32_t t : triangles) is_marked[t] = true;
-  return is_marked;
-}
-
 std::vector<SeenOfTriangle> seen_triangles(const TexelDemand& demand) {
   std::vector<SeenOfTriangle> seen;
   for (const TriangleDemand& t : demand.triangles) seen.push_back({t.pixels, t.inverse_square});
@@ -243,6 +238,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
   all.curved =
       find_curved_reflectors(accel.scene(), all.found.unplanar, all.lobes, seen_triangles(prepared.demand), curved);
+  ORIEL_TRY_VOID(place_surround_maps(accel, all.eyes, context, all.curved));
   append(all.omissions, all.curved.omitted);
   return all;
 }
@@ -287,8 +283,8 @@ Result<PlannedReflections> plan_reflections(const BakeOptions& options, const Pr
   return planned;
 }
 
-double PlannedReflections::pixels() const {
-  double sum = surround_pixels();
+double PlannedReflections::planar_pixels() const {
+  double sum = 0;
   for (const RadianceMap& map : plan.maps) sum += double{1.0f * map.width} * map.height;
   return sum;
 }
@@ -314,18 +310,15 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   const OutgoingRadiance outgoing = [&](const SeenSurface& seen) {
     return baked_radiance_with_lobes(baked, seen, paths, context.seed, *seen.rays);
   };
-  // No ray is mirrored by curved things, and those of surround maps by nothing: there lobes are traced.
-  const std::vector<bool> is_curved = marked(accel.scene(), found.unplanar);
+  const std::vector<bool> is_curved = curved_triangles(accel.scene(), planned.all);
+  const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
   const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
-  std::vector<bool> is_shiny = is_curved;
-  for (const FoundReflector& r : reflectors)
-    for (const std::uint32_t t : r.triangles) is_shiny[t] = true;
   if (options.with_material)
     ORIEL_TRY_VOID(
         leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
-  ORIEL_TRY(const double share, lobe_share(baked, surroundings, plan.maps, is_curved, context));
-  paths = lobe_paths(share * planned.pixels());
+  ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
+  paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
   ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));

@@ -44,11 +44,12 @@ struct PlannedReflections {
   ViewPlan plan;                          // of the planar reflectors; without pixels
   double seconds = 0;                     // that planning takes where nothing of it is known already
   double capture_s = 0;                   // that the rest is likely to take; 0 unless asked for
+  double surround_s = 0;                  // of these, surround maps
   std::vector<KnownPlan> plans;           // to be known next time
   std::optional<KnownReflections> known;  // what the bake before knew; with RadiosityOptions::reuse_error
   bool light_reused = false;              // some of the lightmap is that of the bake before
-  double pixels() const;                  // of all maps
-  double surround_pixels() const;         // of those of curved reflectors
+  double planar_pixels() const;           // of all maps of planar reflectors
+  double surround_pixels() const;         // of those of curved ones
   bool has_images() const { return !plan.maps.empty() || !all.curved.reflectors.empty(); }
   bool empty() const { return all.empty(); }
 };

@@ -18,6 +18,10 @@ enum CurvedUnit {
   kCurvedShaded = 7,
 };
 
+// Radius (tangent) that holds half of a lobe, from which on its taps find their own distances: a roughness of about
+// 0.3.
+constexpr float kWideLobe = 0.1f;
+
 void draw_reflector(const GpuScene& scene, const GpuCurvedReflector& reflector, FrameStats& stats) {
   for (const DrawRange& range : scene.bind_curved(reflector)) draw_indices(range.first_index, range.index_count, stats);
 }
@@ -198,6 +202,7 @@ void CurvedPass::set_lobe(const gpu::Program& program, GpuScene& scene, const Gp
   program.set("u_taps", kCurvedTaps);
   program.set("u_tap_count", kernel.count);
   program.set("u_tap_rows", kernel.rows);
+  program.set("u_wide", kernel.median >= kWideLobe);
 }
 
 void CurvedPass::set_reflectance(const gpu::Program& program, const GpuScene& scene,

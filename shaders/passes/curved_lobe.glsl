@@ -1,5 +1,7 @@
-// Light that a curved reflector mirrors: the eye ray is reflected about the normal and marched through the distances around;
-// the lobe is taps of the kernel, each from the level of the surround map as wide as the tap at the distance that was met.
+// Light that a curved reflector mirrors: the eye ray is reflected about the normal; the lobe is taps of the kernel, each from the
+// level of the surround map as wide as the tap at the distance that is met. For a narrow lobe that is where the mirrored ray,
+// marched through the distances around, ends. In a wide one each tap finds its own: with one distance for all, its light
+// jumped where that ray passes an edge.
 #include "lib/kernel.glsl"
 #include "lib/surround.glsl"
 
@@ -11,6 +13,7 @@ uniform sampler2D u_inverse_distance;
 uniform vec2 u_range;
 uniform sampler2D u_taps;  // see kernel_tap()
 uniform int u_tap_count;   // 1: a mirror
+uniform bool u_wide;       // the lobe
 uniform int u_tap_rows;
 
 // Light from around a direction of a bundle that leaves the surface at `origin` and meets something at that distance; spread is
@@ -24,6 +27,24 @@ vec3 light_along(vec3 origin, vec3 direction, float inverse_distance, float spre
   return pyramid_light(u_light, u_size, from_centre, log2(max(texels, 1.0)));
 }
 
+const int kTapSteps = 2;
+
+// The inverse distance at which a tap meets something: where it leaves the sphere around the map's centre on which lies what the map
+// shows in the direction of the last guess.
+float tap_distance(vec3 origin, vec3 direction) {
+  float along = dot(origin, direction), apart = dot(origin, origin) - along * along;
+  float inverse = surround_distance(u_inverse_distance, u_size, direction).x;
+  for (int i = 0; i < kTapSteps; ++i) {
+    float seen = surround_distance(u_inverse_distance, u_size, normalize(direction + origin * inverse)).x;
+    if (!(seen > 0.0)) return 0.0;  // the sky
+    float radius = 1.0 / seen;
+    float way = sqrt(max(radius * radius - apart, 0.0)) - along;
+    inverse = 1.0 / max(way, 1e-3 * radius);
+  }
+  return inverse;
+}
+
+// inverse_distance: of the mirrored ray, in a narrow lobe.
 vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float inverse_distance, float spread) {
   vec3 along = normal - dot(normal, mirror) * mirror;
   vec3 side = cross(mirror, abs(mirror.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
@@ -36,7 +57,8 @@ vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float in
     vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(mirror, across, along, tap.xy);
     if (dot(direction, normal) <= 0.0) continue;
-    sum += tap.w * light_along(origin, direction, inverse_distance, max(tap.z, spread));
+    float inverse = u_wide ? tap_distance(origin, direction) : inverse_distance;
+    sum += tap.w * light_along(origin, direction, inverse, max(tap.z, spread));
     total += tap.w;
   }
   return total > 0.0 ? sum / total : light_along(origin, mirror, inverse_distance, spread);
@@ -45,7 +67,7 @@ vec3 lobe_light(vec3 origin, vec3 normal, vec3 mirror, float cos_theta, float in
 // (M * K), over u_light_scale. normal: unit, as mirrored() gives it.
 vec3 curved_light(vec3 position, vec3 normal, vec3 mirror, float cos_theta, float spread) {
   vec3 origin = position - u_centre;
-  vec4 hit = march_surroundings(u_inverse_distance, u_size, u_range, origin, mirror);
-  return u_tap_count > 1 ? lobe_light(origin, normal, mirror, cos_theta, hit.w, spread)
-                         : light_along(origin, mirror, hit.w, spread);
+  float inverse = u_wide ? 0.0 : march_surroundings(u_inverse_distance, u_size, u_range, origin, mirror).w;
+  return u_tap_count > 1 ? lobe_light(origin, normal, mirror, cos_theta, inverse, spread)
+                         : light_along(origin, mirror, inverse, spread);
 }

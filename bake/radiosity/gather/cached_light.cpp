@@ -38,13 +38,17 @@ void fit_slope(const TexelGraph& graph, const Vec3& normal, std::size_t i, std::
   }
 }
 
-// Shortens slopes until no site of the texel is below zero.
+// Shortens slopes until no site of the texel is below zero. An estimate may itself be below zero, where light is a
+// difference of two: then it has no slope.
 void limit_slope(const Texels& texels, std::size_t i, CachedTexel& texel) {
   for (int c = 0; c < 3; ++c) {
     float most = 0;
     for (const TexelSite& site : texels.site[i])
       most = std::max(most, std::abs(glm::dot(texel.slope[c], site.origin - texel.centre)));
-    if (most > texel.radiance[c]) texel.slope[c] *= texel.radiance[c] / most;
+    if (!(texel.radiance[c] > 0))
+      texel.slope[c] = Vec3(0);
+    else if (most > texel.radiance[c])
+      texel.slope[c] *= texel.radiance[c] / most;
   }
 }
 

@@ -54,6 +54,16 @@ TEST(CachedLight, AStepBringsNoLightBelowZero) {
     }
 }
 
+// Light that is a difference of two estimates may be a little below zero.
+TEST(CachedLight, LightBelowZeroIsMetAsNone) {
+  for (const float step : {0.0f, 5e-4f}) {
+    Floor floor([&](const Vec3& p) { return Vec3(-1e-3f + (p.x < 1 ? 0 : step)); });
+    const CachedLight cached = cache_light(floor.texels, floor.graph, floor.irradiance, floor.context);
+    for (std::size_t i = 0; i < floor.texels.count(); ++i)
+      for (const TexelSite& site : floor.texels.site[i]) EXPECT_EQ(cached.texels[i].at(site.origin).g, 0);
+  }
+}
+
 // A ray that meets a floor of 10 cm texels from 25 cm above: far from two texels, near to four, and then followed to
 // where it sees the sky.
 TEST(Surroundings, NearIsFollowedSoManySides) {

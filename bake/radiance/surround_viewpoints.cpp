@@ -1,0 +1,160 @@
+#include "bake/radiance/surround_viewpoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bake/jobs/parallel.h"
+#include "bake/scene/shade.h"
+#include "bake/trace/path.h"
+#include "bake/trace/sampler.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kTries = 4096;    // pairs of an eye and a point
+constexpr std::size_t kEnough = 256;      // of them that see each other
+constexpr int kLayers = 16;               // of the object itself and of glass before the first surface that counts
+constexpr float kSeeThrough = 0.5f;       // transmittance from which a surface hides nothing
+constexpr float kSame = 1e-3f;            // of the distance: so near is the same surface
+constexpr float kLeastDistance_m = 0.5f;  // of eyes, for their solid angle
+constexpr float kGain = 1.02f;            // what a place must see more than the middle to replace it
+
+// What an eye sees in the reflector, and by how much it counts.
+struct Reflection {
+  Vec3 on_surface{0};
+  Vec3 met{0};  // scene space; a unit direction where `sky`
+  bool sky = false;
+  float weight = 0;
+};
+
+class Viewpoint {
+ public:
+  Viewpoint(const Accel& accel, std::span<const Vec3> eyes, const FoundCurvedReflector& reflector,
+            const CurvedObject& object, std::uint64_t seed)
+      : accel_(accel), scene_(accel.scene()), eyes_(eyes), reflector_(reflector), object_(object), seed_(seed) {}
+
+  struct Choice {
+    Vec3 place{0};
+    bool sees_itself = false;
+  };
+  Choice best(const Vec3& middle) const {
+    Choice best{middle};
+    const std::vector<Reflection> seen = reflections();
+    if (seen.empty()) return best;
+    float most = kGain * share_seen(best, seen);
+    for (const bool itself : {false, true})
+      for (const Vec3& place : candidates(seen))
+        if (const float share = share_seen({place, itself}, seen); share > most) best = {place, itself}, most = share;
+    return best;
+  }
+
+ private:
+  std::vector<Reflection> reflections() const {
+    std::vector<float> until;  // areas of the triangles, summed up
+    for (const std::uint32_t t : reflector_.triangles)
+      until.push_back((until.empty() ? 0 : until.back()) + static_cast<float>(triangle_area(scene_, t)));
+    std::vector<Reflection> all;
+    for (std::uint32_t k = 0; k < kTries && all.size() < kEnough; ++k) {
+      Sampler sampler(seed_, reflector_.triangles.front(), k);
+      const auto place = std::upper_bound(until.begin(), until.end(), sampler.next1() * until.back());
+      const auto index = std::min<std::size_t>(place - until.begin(), until.size() - 1);
+      const Vec2 u = sampler.next2();
+      const float root = std::sqrt(u.x);
+      if (const auto r =
+              reflection(reflector_.triangles[index], {root * (1 - u.y), root * u.y}, eyes_[k % eyes_.size()]))
+        all.push_back(*r);
+    }
+    return all;
+  }
+
+  std::optional<Reflection> reflection(std::uint32_t triangle, const Vec2& barycentric, const Vec3& eye) const {
+    const Vec3 p = point_on(scene_, triangle, barycentric), towards = eye - p;
+    const float distance = glm::length(towards);
+    const Vec3 view = towards / distance, flat = geometric_normal(scene_, triangle);
+    const float cosine = glm::dot(flat, view);
+    if (!(cosine > 0)) return std::nullopt;
+    const SurfacePoint point = geometry_at(scene_, {.triangle = triangle, .barycentric = barycentric}, -view);
+    const Vec3 mirrored = glm::normalize(glm::reflect(-view, point.normal));
+    if (!(glm::dot(mirrored, flat) > 0)) return std::nullopt;
+    const Vec3 origin = spawn_origin(scene_, triangle, barycentric, view);
+    if (max_component(accel_.transmittance({origin, view, distance})) <= 0) return std::nullopt;
+    const Hit hit = first_hiding(origin, mirrored, true);
+    const float apart = std::max(distance, kLeastDistance_m);
+    return Reflection{p, hit ? point_on(scene_, hit.triangle, hit.barycentric) : mirrored, !hit,
+                      cosine / (apart * apart)};
+  }
+
+  // The first surface that hides what is behind it; of the object itself fronts do, or nothing.
+  Hit first_hiding(const Vec3& from, const Vec3& direction, bool itself) const {
+    Ray ray{from, direction};
+    for (int layer = 0; layer < kLayers; ++layer) {
+      const Hit hit = accel_.intersect(ray);
+      if (!hit) return hit;
+      const bool passes = own(hit.triangle)
+                              ? !(itself && hit.front)
+                              : max_component(transmittance_at(scene_, hit.triangle, hit.barycentric)) >= kSeeThrough;
+      if (!passes) return hit;
+      ray.origin = spawn_origin(scene_, hit.triangle, hit.barycentric, direction);
+    }
+    return {};
+  }
+
+  float share_seen(const Choice& from, std::span<const Reflection> reflections) const {
+    float sum = 0, seen = 0;
+    for (const Reflection& r : reflections) {
+      const Vec3 direction = r.sky ? r.met : glm::normalize(r.met - from.place);
+      const Hit hit = first_hiding(from.place, direction, from.sees_itself);
+      sum += r.weight;
+      if (r.sky ? !hit
+                : !hit || glm::length(point_on(scene_, hit.triangle, hit.barycentric) - r.met) <=
+                              kSame * glm::length(r.met - from.place))
+        seen += r.weight;
+    }
+    return seen / sum;
+  }
+
+  std::vector<Vec3> candidates(std::span<const Reflection> reflections) const {
+    Vec3 lower(scene_.positions[scene_.triangles[reflector_.triangles.front()].x]), upper = lower;
+    for (const std::uint32_t t : reflector_.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        lower = glm::min(lower, scene_.positions[scene_.triangles[t][corner]]);
+        upper = glm::max(upper, scene_.positions[scene_.triangles[t][corner]]);
+      }
+    Vec3 mean(0);
+    float weight = 0;
+    for (const Reflection& r : reflections) mean += r.weight * r.on_surface, weight += r.weight;
+    std::vector<Vec3> places{mean / weight};
+    for (int i = 0; i < 27; ++i)
+      places.push_back(glm::mix(lower, upper, (Vec3(i % 3, i / 3 % 3, i / 9) * 2.0f + 1.0f) / 6.0f));
+    return places;
+  }
+
+  bool own(std::uint32_t triangle) const {
+    const auto listed = [&](std::uint32_t t) { return std::ranges::binary_search(object_.triangles, t); };
+    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
+  }
+
+  const Accel& accel_;
+  const Scene& scene_;
+  std::span<const Vec3> eyes_;
+  const FoundCurvedReflector& reflector_;
+  const CurvedObject& object_;
+  std::uint64_t seed_;
+};
+
+}  // namespace
+
+Status place_surround_maps(const Accel& accel, std::span<const Vec3> eyes, Context& context,
+                           FoundCurvedReflectors& found) {
+  if (eyes.empty()) return {};
+  return parallel_for(context, "", found.reflectors.size(), [&](std::size_t i) {
+    FoundCurvedReflector& reflector = found.reflectors[i];
+    Vec3& centre = found.maps[reflector.reflector.map].centre;
+    const auto best = Viewpoint(accel, eyes, reflector, found.objects[reflector.object], context.seed).best(centre);
+    centre = best.place;
+    reflector.sees_itself = best.sees_itself;
+  });
+}
+
+}  // namespace oriel

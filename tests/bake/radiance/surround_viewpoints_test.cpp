@@ -1,0 +1,75 @@
+// Surround maps are taken from where they see what eyes see in their reflectors.
+#include "bake/radiance/surround_viewpoints.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/radiance/mirror_room.h"
+
+namespace oriel {
+namespace {
+
+// Of the room's curved reflectors, seen from above and beside them.
+FoundCurvedReflectors placed(const test::MirrorRoom& room, std::vector<Vec3> eyes = {{3.5f, 2.8f, 4.5f}, {1, 2.9f, 1}}) {
+  const auto accel = Accel::build(room.scene);
+  if (!accel) return {};
+  const auto flat = find_reflectors(*accel, room.materials(), room.reflector_options());
+  FoundCurvedReflectors found = find_curved_reflectors(room.scene, flat.unplanar, room.materials(), {});
+  Context context;
+  EXPECT_TRUE(place_surround_maps(*accel, eyes, context, found));
+  return found;
+}
+
+template <class Add>
+test::MirrorRoom room_with(Add&& add) {
+  test::MirrorRoom room;
+  test::SceneParts parts;
+  parts.scene() = std::move(room.scene);
+  add(parts);
+  room.scene = parts.finish();
+  return room;
+}
+
+// Four sides that face inwards.
+void sides(test::SceneParts& parts, const std::string& name, std::uint32_t material, const Vec3& o, const Vec3& size) {
+  const Vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+  parts.quad(name, material, o, y, z);
+  parts.quad(name, material, o + x, z, y);
+  parts.quad(name, material, o, x, y);
+  parts.quad(name, material, o + z, y, x);
+}
+
+TEST(SurroundViewpoints, ABallKeepsItsMiddle) {
+  const Vec3 middle(2.5f, 1, 3);
+  const auto room = room_with([&](test::SceneParts& parts) { parts.sphere("ball", 0, middle, 0.25f, 3); });
+  const FoundCurvedReflectors found = placed(room);
+  ASSERT_EQ(found.maps.size(), 1u);
+  EXPECT_LT(glm::length(found.maps[0].centre - middle), 1e-3f);
+  EXPECT_FALSE(found.reflectors[0].sees_itself);
+  EXPECT_LT(glm::length(placed(room, {}).maps[0].centre - middle), 1e-3f) << "without eyes";
+}
+
+// Four sides hide the lower two thirds of a column: all that eyes see in it is seen from above them.
+TEST(SurroundViewpoints, AHiddenMiddleIsLeft) {
+  const auto room = room_with([](test::SceneParts& parts) {
+    parts.box("column", 0, {2, 0, 3}, {2.1f, 1.5f, 3.1f});
+    sides(parts, "screen", 3, {1.9f, 0, 2.9f}, {0.3f, 1, 0.3f});
+  });
+  const FoundCurvedReflectors found = placed(room);
+  ASSERT_EQ(found.maps.size(), 1u);
+  EXPECT_GT(found.maps[0].centre.y, 1.0f);
+}
+
+// A tray: most of what eyes see in its inside is its own other sides.
+TEST(SurroundViewpoints, AHollowThingSeesItself) {
+  const auto room = room_with([](test::SceneParts& parts) {
+    const Vec3 corner(2, 0.5f, 3);
+    parts.quad("tray", 0, corner, {0, 0, 0.4f}, {0.4f, 0, 0});
+    sides(parts, "tray", 0, corner, {0.4f, 0.45f, 0.4f});
+  });
+  const FoundCurvedReflectors found = placed(room);
+  ASSERT_EQ(found.maps.size(), 1u);
+  EXPECT_TRUE(found.reflectors[0].sees_itself);
+}
+
+}  // namespace
+}  // namespace oriel
