@@ -52,7 +52,10 @@ std::string brightness_text(const Certificate& c) {
 }
 
 std::string light_line(const RadiosityReport& r) {
-  std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.relative_error);
+  std::string line = fmt::format("light: {} texels, stated error {:.2g} %", r.texels, 100 * r.stated());
+  if (r.detail.unresolved > 0)
+    line +=
+        fmt::format(" ({:.2g} % noise, {:.2g} % between texels)", 100 * r.relative_error, 100 * r.detail.unresolved);
   if (const Certificate& c = r.certificate; c.pixels > 0)
     line += fmt::format("; measured {:.2g} % ({:.2g} to {:.2g} %) on {} held-out pixels, {}", 100 * c.relative_error,
                         100 * c.error_low, 100 * c.error_high, c.pixels, brightness_text(c));

@@ -27,6 +27,8 @@ constexpr double kStitchShare = 0.6;       // of the error asked for: what stitc
 constexpr std::size_t kPixels = 1 << 16;   // that the error is told from, and as many others held out
 constexpr std::uint32_t kOpenEyes = 1024;  // where none is given
 
+constexpr double kMeets = 0.05;  // of the light of two sides of a seam, half their difference
+
 constexpr double kTolerated = 1.1;     // times the error asked for, measured
 constexpr double kUnexplained = 0.3;   // of the squared error asked for: more is a matter of what is looked up,
 constexpr double kLongerLeaves = 0.5;  // of which so much is left where rays look up from further away
@@ -63,15 +65,24 @@ void summarize(const RadiosityTask& task, Radiosity& light) {
   report.relative_error = stated_error(task.map, task.pixels, light.pages);
 }
 
+// Cells whose light goes on across a seam as stitching left it: where the two sides differ all the same, nothing is
+// lost by finer light.
 std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const LightmapPage> pages) {
   std::vector<std::vector<bool>> at;
   for (const LightmapPage& page : pages) at.emplace_back(page.state.size());
-  for (const SeamPoint& point : seams.points)
-    for (std::size_t side = 0; side < point.page.size(); ++side) {
+  for (const SeamPoint& point : seams.points) {
+    std::array<double, 2> light{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LightmapPage& page = pages[point.page[side]];
+      light[side] = luminance(irradiance_at(page, Vec2(point.place[side] / DVec2(page.width, page.height))));
+    }
+    if (std::fabs(light[0] - light[1]) > kMeets * (light[0] + light[1])) continue;
+    for (std::size_t side = 0; side < 2; ++side) {
       const LightmapPage& page = pages[point.page[side]];
       const DVec2 cell = glm::clamp(point.place[side] - 0.5, DVec2(0), DVec2(page.width - 1.0, page.height - 1.0));
       at[point.page[side]][std::size_t(cell.y) * page.width + std::size_t(cell.x)] = true;
     }
+  }
   return at;
 }
 

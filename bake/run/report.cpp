@@ -25,7 +25,11 @@ std::string text_of(const Json& json) {
 }
 
 Json detail_json(const DetailReport& r) {
-  return {{"cells", r.cells}, {"points", r.points}, {"relative_error", r.relative_error}, {"left_out", r.left_out}};
+  return {{"cells", r.cells},
+          {"points", r.points},
+          {"relative_error", r.relative_error},
+          {"unresolved", r.unresolved},
+          {"left_out", r.left_out}};
 }
 
 Json seams_json(const SeamReport& r) {
@@ -136,7 +140,7 @@ Json errors_json(const BakeFacts& f) {
   const Certificate& c = f.radiosity.certificate;
   Json diffuse = {{"component", "D"}};
   if (f.asked > 0) diffuse["asked"] = f.asked;
-  diffuse["stated"] = f.radiosity.relative_error;
+  diffuse["stated"] = f.radiosity.stated();
   if (c.pixels > 0) {
     diffuse["measured"] = c.relative_error;
     diffuse["measured_95_interval"] = {c.error_low, c.error_high};

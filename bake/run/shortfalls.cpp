@@ -27,7 +27,7 @@ void judge_error(const BakeOptions& options, const RadiosityReport& report, cons
       context.warning(text);
     }
   };
-  if (c.error_low > kWorse * std::max(asked, stated))
+  if (c.error_low > kWorse * std::max(asked, report.stated()))
     tell(fmt::format(
         "the lightmap's measured error is {:.3g} % ({:.3g} to {:.3g} %), asked for was {:.3g} % and stated is "
         "{:.3g} %: light varies more within texels than they tell; --texel makes those finer",

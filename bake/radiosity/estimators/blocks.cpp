@@ -2,119 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "formats/core/color.h"
+#include "bake/radiosity/estimators/level_grid.h"
 
 namespace oriel {
 namespace {
-
-constexpr float kBothNoises = 0.5f;  // times
-
-// By how much the points of a page's cells of one level differ from the interpolation of its texels.
-class LevelGrid {
- public:
-  LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
-            const PointLight& points, std::uint32_t page_number)
-      : side_(1u << level), width_((page.width + 2) * side_) {
-    for (std::uint32_t place = 0; place < levels.size(); ++place) {
-      if (levels[place] != level) continue;
-      for (std::uint32_t j = 0; j <= side_; ++j)
-        for (std::uint32_t i = 0; i <= side_; ++i)
-          place_.push_back(number(place % page.width, place / page.width, i, j));
-    }
-    std::sort(place_.begin(), place_.end());
-    place_.erase(std::unique(place_.begin(), place_.end()), place_.end());
-    change_.resize(place_.size()), known_.resize(place_.size());
-    std::vector<float> noise(place_.size());
-    for (std::size_t k = 0; k < place_.size(); ++k) {
-      const std::uint32_t x = place_[k] % width_, y = place_[k] / width_;
-      const std::uint32_t point = points.texels.at(page_number, static_cast<int>(x), static_cast<int>(y));
-      if (point == kNoTexel || points.texels.visible[point] == 0) continue;
-      change_[k] = points.light[point] - between_texels(page, x, y);
-      noise[k] = luminance(points.variance[point]);
-      known_[k] = true;
-    }
-    leave_noise(noise);
-    leave_dots();
-    for (std::uint32_t pass = 0; pass <= side_; ++pass) spread();
-  }
-
-  // Of point (i, j) of the cell at (x, y), which must be of this level or beside one.
-  Vec3 at(std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
-    const std::size_t k = find(number(x, y, i, j));
-    return k < place_.size() ? change_[k] : Vec3(0);
-  }
-  std::uint32_t side() const { return side_; }
-
- private:
-  std::uint32_t number(std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
-    return DetailPoints::fine(y, j, side_) * width_ + DetailPoints::fine(x, i, side_);
-  }
-  std::size_t find(std::uint32_t place) const {
-    const auto found = std::lower_bound(place_.begin(), place_.end(), place);
-    return found != place_.end() && *found == place ? static_cast<std::size_t>(found - place_.begin()) : place_.size();
-  }
-  Vec3 between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const {
-    const Vec2 texel = Vec2(x, y) / static_cast<float>(side_) - 1.0f;
-    return irradiance_at(page, (texel + 0.5f) / Vec2(page.width, page.height));  // which has no cells yet
-  }
-  // Of each change the share that is no noise, as the changes around tell (Wiener): where points do not tell more than
-  // texels, these are smoother.
-  void leave_noise(const std::vector<float>& noise) {
-    std::vector<float> share(place_.size());
-    for (std::size_t k = 0; k < place_.size(); ++k) {
-      float squares = 0, chance = 0;
-      for_each_around(k, [&](std::size_t other) {
-        const float change = luminance(change_[other]);
-        squares += change * change, chance += noise[other];
-      });
-      share[k] = squares > 0 ? std::max(0.0f, 1 - kBothNoises * chance / squares) : 0;
-    }
-    for (std::size_t k = 0; k < place_.size(); ++k) change_[k] *= share[k];
-  }
-
-  // A point alone that differs more than all around it is one lucky path: shadows are longer than a point.
-  void leave_dots() {
-    const std::vector<Vec3> before = change_;
-    for (std::size_t k = 0; k < place_.size(); ++k) {
-      Vec3 least(std::numeric_limits<float>::max()), most(-std::numeric_limits<float>::max());
-      for_each_around(k, [&](std::size_t other) {
-        if (other != k) least = glm::min(least, before[other]), most = glm::max(most, before[other]);
-      });
-      if (least.r <= most.r) change_[k] = glm::clamp(before[k], least, most);
-    }
-  }
-
-  // Points that are known, of the nine around one.
-  template <class Body>
-  void for_each_around(std::size_t k, const Body& body) const {
-    for (const int dy : {-1, 0, 1})
-      for (const int dx : {-1, 0, 1}) {
-        const std::size_t other = find(place_[k] + static_cast<std::uint32_t>(dy * static_cast<int>(width_) + dx));
-        if (other < place_.size() && known_[other]) body(other);
-      }
-  }
-
-  // To points that are not known, from those beside them.
-  void spread() {
-    std::vector<std::pair<std::size_t, Vec3>> found;
-    for (std::size_t k = 0; k < place_.size(); ++k) {
-      if (known_[k]) continue;
-      Vec3 sum(0);
-      float count = 0;
-      for_each_around(k, [&](std::size_t other) { sum += change_[other], ++count; });
-      if (count > 0) found.emplace_back(k, sum / count);
-    }
-    for (const auto& [k, change] : found) change_[k] = change, known_[k] = true;
-  }
-
-  std::uint32_t side_, width_;
-  std::vector<std::uint32_t> place_;  // ascending
-  std::vector<Vec3> change_;
-  std::vector<bool> known_;
-};
 
 class PageBlocks {
  public:
@@ -162,20 +55,11 @@ class PageBlocks {
     return count > 0 ? sum / count : Vec3(0);
   }
 
-  // What a cell of `level` at (x, y) adds to its texels' interpolation at a place in it, both of [0,1].
+  // What a cell of `level` at (x, y) adds to its texels' interpolation at point (i, j).
   Vec3 change_in(std::uint8_t level, std::uint32_t x, std::uint32_t y, std::uint32_t i, std::uint32_t j) const {
-    const LevelGrid& grid = *grids_[level];
-    const std::uint32_t n = grid.side();
-    const Vec2 f = Vec2(i, j) / static_cast<float>(n);
-    Vec3 change = grid.at(x, y, i, j);
-    for (const std::uint32_t b : {0u, 1u})
-      for (const std::uint32_t a : {0u, 1u}) {
-        const float share = (a ? f.x : 1 - f.x) * (b ? f.y : 1 - f.y);
-        if (share > 0)
-          change +=
-              share * (change_at_texel(static_cast<int>(x + a), static_cast<int>(y + b)) - grid.at(x, y, a * n, b * n));
-      }
-    return change;
+    const std::uint32_t n = 1u << level;
+    if (i % n == 0 && j % n == 0) return change_at_texel(static_cast<int>(x + i / n), static_cast<int>(y + j / n));
+    return grids_[level]->at(x, y, i, j);
   }
 
   // Light between the texels of the cell at (x, y); f: of [0,1].

@@ -389,7 +389,7 @@ class CachedEstimator : public LightEstimator {
 
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
   ORIEL_TRY(Texels texels,
-            list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays, task.options.eyes));
+            list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays, {task.options.eyes}));
   return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "formats/core/color.h"
 
@@ -11,38 +12,35 @@ namespace {
 
 constexpr float kEdge = 0.25f;     // of a second difference: what interpolation misses at an edge
 constexpr double kBeside = 0.4;    // of the error allowed: from there on what lies beside a chosen cell is one too
+constexpr double kNextLevel = 3;   // times the error
+constexpr double kUntold = 0.1;    // relative, that interpolation may miss where texels do not tell of it: in narrow
+                                   // charts, and at the rim of one where something is close by
 constexpr float kWhole = 0.999f;   // of a texel that is visible
 constexpr double kCoarser = 1.25;  // times the error, until there are few enough points
 constexpr float kNoise = 3;        // standard errors of a texel: what may bend by chance
 constexpr std::uint32_t kNone = ~0u;
 
-struct Candidate {
-  std::uint32_t page = 0, place = 0;
-  double error = 0;      // what interpolation misses, relative, of what people notice
-  bool contact = false;  // something stands or hangs on a corner
-};
-
 // What is known of the texels of a page, by place.
 class PageCells {
  public:
   PageCells(const Atlas& atlas, const TexelMapPage& map, const LightmapPage& page, const std::vector<float>& visible,
-            std::span<const float> shares)
-      : map_(map), page_(page), visible_(visible), number_(page.state.size(), kNone), shares_(shares) {
+            const CellTexels& texels)
+      : map_(map), page_(page), visible_(visible), number_(page.state.size(), kNone), texels_(texels) {
     for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
       number_[map.texel[i]] = i;
       chart_.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
     }
-    bend_.resize(map.texel.size());
-    for (std::uint32_t i = 0; i < map.texel.size(); ++i) bend_[i] = bend_at(i);
+    for (std::uint32_t i = 0; i < map.texel.size(); ++i) bend_.push_back(bend_at(i));
   }
 
   // usual: share of frames of a texel. left: cells to leave as they are, none where empty.
   void add(std::uint32_t page_number, const CellGoal& goal, double usual, const std::vector<bool>& left,
-           std::vector<Candidate>& found) const {
+           std::vector<CellCandidate>& found) const {
     for (std::uint32_t y = 0; y + 1 < page_.height; ++y)
       for (std::uint32_t x = 0; x + 1 < page_.width; ++x) {
         const std::uint32_t place = y * page_.width + x;
-        if (left.empty() || !left[place]) add_cell({page_number, place}, goal, usual, found);
+        const bool stays = !left.empty() && left[place];
+        add_cell({.page = page_number, .place = place, .stays = stays}, goal, usual, found);
       }
   }
 
@@ -58,10 +56,10 @@ class PageCells {
     return other != kNone && valid(other) && chart_[other] == chart_[i] ? other : kNone;
   }
 
-  // The larger of both axes' second differences, less what noise may bring.
-  float bend_at(std::uint32_t i) const {
-    if (!valid(i)) return 0;
-    float most = 0;
+  // The largest second difference, less what noise may bring; nothing where a chart is too narrow for one.
+  std::optional<float> bend_at(std::uint32_t i) const {
+    if (!valid(i)) return std::nullopt;
+    float most = -1;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
       const std::uint32_t before = beside(i, -dx, -dy), after = beside(i, dx, dy);
       if (before != kNone && after != kNone)
@@ -72,104 +70,144 @@ class PageCells {
       else if (const std::uint32_t back = before != kNone ? beside(before, -dx, -dy) : kNone; back != kNone)
         most = std::max(most, std::fabs(light(i) - 2 * light(before) + light(back)));
     }
+    if (most < 0) return std::nullopt;
     return std::max(0.0f, most - kNoise * luminance(page_.standard_error[map_.texel[i]]));
   }
 
-  void add_cell(Candidate cell, const CellGoal& goal, double usual, std::vector<Candidate>& found) const {
+  void add_cell(CellCandidate cell, const CellGoal& goal, double usual, std::vector<CellCandidate>& found) const {
     float bend = 0;
     double light_sum = 0, share = 0;
     int corners = 0;
+    bool crowded = false, narrow = true;
     for (const std::uint32_t corner :
          {cell.place, cell.place + 1, cell.place + page_.width, cell.place + page_.width + 1}) {
       const std::uint32_t i = number_[corner];
       cell.contact = cell.contact || (i != kNone && visible_[i] < kWhole);
       if (i == kNone || !valid(i)) continue;
-      bend = std::max(bend, bend_[i]);
-      light_sum += double{light(i)}, share += double{shares_[i]};
+      if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
+      crowded = crowded || texels_.crowded[i];
+      light_sum += double{light(i)}, share += double{texels_.shares[i]};
       ++corners;
     }
     if (corners == 0 || share <= 0) return;
     const double mean = light_sum / corners;
-    cell.error = double{kEdge} * double{bend} / std::sqrt(mean * mean + goal.floor * goal.floor + 1e-30);
-    cell.error *= std::sqrt(std::min(1.0, share / corners / usual));
+    cell.light = std::sqrt(mean * mean + goal.floor * goal.floor + 1e-30);
+    cell.weight = std::sqrt(share / corners / usual);
+    cell.error = double{kEdge} * double{bend} / cell.light * cell.weight;
+    cell.untold = narrow || (corners < 4 && crowded);
+    if (cell.untold) cell.error = std::max(cell.error, kUntold * cell.weight);
     if (cell.contact || cell.error > kBeside * goal.error) found.push_back(cell);
   }
 
   const TexelMapPage& map_;
   const LightmapPage& page_;
-  const std::vector<float>& visible_;  // by texel of the map
-  std::vector<std::uint32_t> number_;  // by place, into the map
-  std::vector<std::uint32_t> chart_;   // by texel of the map
-  std::vector<float> bend_;            // likewise
-  std::span<const float> shares_;      // likewise
+  const std::vector<float>& visible_;       // by texel of the map
+  std::vector<std::uint32_t> number_;       // by place, into the map
+  std::vector<std::uint32_t> chart_;        // by texel of the map
+  std::vector<std::optional<float>> bend_;  // likewise
+  CellTexels texels_;                       // likewise
 };
 
+// A further level halves what is missed at an edge, for four times the points: they do most for their number where that
+// takes about three times the error.
 std::uint8_t level_for(double error, const CellGoal& goal) {
   std::uint8_t level = 1;
-  while ((2u << level) <= goal.most_side && error > goal.error * (1u << level)) ++level;
+  for (double next = kNextLevel * goal.error; (2u << level) <= goal.most_side && error > next; next *= kNextLevel)
+    ++level;
   return level;
 }
 
-std::uint64_t points_of(std::uint8_t level) {
-  const std::uint64_t side = (std::uint64_t{1} << level) + 1;
-  return level == 0 ? 0 : side * side;
+// Cells beside each other share the points between them.
+std::uint64_t points_of(std::uint8_t level, const CellGoal& goal) {
+  const std::uint64_t side = std::uint64_t{1} << level;
+  return level <= goal.known ? 0 : side * (side + 1);
 }
 
-// Those that miss more than is allowed; and what lies beside one has as many steps where it misses nearly as much, or
-// lies at a contact: edges are not drawn in dashes. found: of which none has a place twice.
-CellLevels choose(std::span<const LightmapPage> pages, const std::vector<Candidate>& found, const CellGoal& goal,
-                  std::uint64_t& points) {
-  CellLevels levels(pages.size());
-  std::vector<std::vector<std::uint32_t>> at(pages.size());  // by place: number in `found`, + 1
-  for (std::size_t p = 0; p < pages.size(); ++p)
-    levels[p].resize(pages[p].state.size()), at[p].resize(pages[p].state.size());
-  std::vector<std::uint32_t> chosen;
-  points = 0;
-  const auto take = [&](std::uint32_t k, std::uint8_t level) {
-    std::uint8_t& now = levels[found[k].page][found[k].place];
-    if (level <= now) return;
-    points += points_of(level) - points_of(now);
-    now = level;
-    chosen.push_back(k);
-  };
-  for (std::uint32_t k = 0; k < found.size(); ++k) at[found[k].page][found[k].place] = k + 1;
-  for (std::uint32_t k = 0; k < found.size(); ++k)
-    if (found[k].error > goal.error) take(k, level_for(found[k].error, goal));
-  for (std::size_t next = 0; next < chosen.size(); ++next) {
-    const Candidate cell = found[chosen[next]];
-    const std::uint8_t own = levels[cell.page][cell.place];
-    const int width = static_cast<int>(pages[cell.page].width);
+// Candidates by place.
+class Chooser {
+ public:
+  Chooser(std::span<const LightmapPage> pages, std::span<const CellCandidate> found) : found_(found) {
+    for (const LightmapPage& page : pages) {
+      width_.push_back(static_cast<int>(page.width));
+      at_.emplace_back(page.state.size(), kNone);
+    }
+    for (std::uint32_t k = 0; k < found.size(); ++k) at_[found[k].page][found[k].place] = k;
+    // Texels that something stands on tell little of how light bends: what lies beside them does.
+    for (std::uint32_t k = 0; k < found.size(); ++k) {
+      error_.push_back(found[k].stays ? 0 : found[k].error);
+      if (found[k].contact && !found[k].stays)
+        for_each_beside(k, [&](std::uint32_t other) { error_[k] = std::max(error_[k], found[other].error); });
+    }
+  }
+
+  // Those that miss more than is allowed; and what lies beside one has as many steps where it misses nearly as much,
+  // so that edges are not drawn in dashes.
+  CellLevels choose(const CellGoal& goal, std::uint64_t& points) const {
+    CellLevels levels;
+    for (const auto& page : at_) levels.emplace_back(page.size());
+    std::vector<std::uint32_t> chosen;
+    points = 0;
+    const auto take = [&](std::uint32_t k, std::uint8_t level) {
+      std::uint8_t& now = levels[found_[k].page][found_[k].place];
+      if (level <= now) return;
+      points += points_of(level, goal) - points_of(now, goal);
+      now = level;
+      chosen.push_back(k);
+    };
+    for (std::uint32_t k = 0; k < found_.size(); ++k)
+      if (error_[k] > goal.error) take(k, level_for(error_[k], goal));
+    for (std::size_t next = 0; next < chosen.size(); ++next) {
+      const std::uint8_t own = levels[found_[chosen[next]].page][found_[chosen[next]].place];
+      for_each_beside(chosen[next], [&](std::uint32_t k) {
+        if (const double nearly = error_[k] / kBeside; nearly > goal.error)
+          take(k, std::min(own, level_for(nearly, goal)));
+      });
+    }
+    return levels;
+  }
+
+ private:
+  template <class Body>
+  void for_each_beside(std::uint32_t k, const Body& body) const {
     for (const int dy : {-1, 0, 1})
       for (const int dx : {-1, 0, 1}) {
-        const std::size_t place = cell.place + static_cast<std::size_t>(dy * width + dx);
-        if (place >= at[cell.page].size() || at[cell.page][place] == 0) continue;
-        const std::uint32_t k = at[cell.page][place] - 1;
-        const double nearly = found[k].error / kBeside;
-        if (found[k].contact)
-          take(k, own);
-        else if (nearly > goal.error)
-          take(k, std::min(own, level_for(nearly, goal)));
+        const std::size_t place = found_[k].place + static_cast<std::size_t>(dy * width_[found_[k].page] + dx);
+        const auto& page = at_[found_[k].page];
+        if (place < page.size() && page[place] != kNone && page[place] != k) body(page[place]);
       }
   }
-  return levels;
-}
+
+  std::span<const CellCandidate> found_;
+  std::vector<int> width_;                      // by page
+  std::vector<std::vector<std::uint32_t>> at_;  // by page and place: number of the candidate
+  std::vector<double> error_;                   // by candidate
+};
 
 }  // namespace
 
-CellLevels choose_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
-                        std::span<const float> shares, const CellGoal& goal) {
-  std::vector<Candidate> found;
+std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
+                                      const CellTexels& texels, const CellGoal& goal) {
+  std::vector<CellCandidate> found;
+  const std::span<const float> shares = texels.shares;
   const double usual = std::accumulate(shares.begin(), shares.end(), 0.0) / std::max<double>(1, shares.size());
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
-    PageCells(atlas, map[p], light.pages[p], light.visible[p], shares.subspan(first, map[p].texel.size()))
+    const std::size_t count = map[p].texel.size();
+    PageCells(atlas, map[p], light.pages[p], light.visible[p],
+              {shares.subspan(first, count), texels.crowded.subspan(first, count)})
         .add(p, goal, usual, light.at_seam.empty() ? std::vector<bool>() : light.at_seam[p], found);
-    first += map[p].texel.size();
+    first += count;
   }
+  return found;
+}
+
+CellLevels choose_cells(std::span<const LightmapPage> pages, std::span<const CellCandidate> found,
+                        const CellGoal& goal) {
+  const Chooser chooser(pages, found);
   CellGoal allowed = goal;
   for (;; allowed.error *= kCoarser) {
     std::uint64_t points = 0;
-    CellLevels levels = choose(light.pages, found, allowed, points);
+    CellLevels levels = chooser.choose(allowed, points);
     if (points <= goal.most_points) return levels;
   }
 }

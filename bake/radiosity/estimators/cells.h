@@ -14,13 +14,36 @@ struct CellGoal {
   double floor = 0;  // luminance, lux: what is darker is held against this
   std::uint32_t most_side = kMostDetail;
   std::uint64_t most_points = 0;  // of all cells
+  std::uint8_t known = 0;         // level up to which points are known already and count for none
+};
+
+// What is known of texels, numbered over all pages in the order of the texel map.
+struct CellTexels {
+  std::span<const float> shares;  // of frames
+  std::span<const char> crowded;  // whether something stands or hangs close to it (Texels::has_many)
+};
+
+// A cell in which interpolation may miss too much.
+struct CellCandidate {
+  std::uint32_t page = 0, place = 0;
+  double light = 0;      // that it is held against, luminance, lux
+  double weight = 0;     // of its error: the root of how much more than other cells people see it
+  double error = 0;      // what interpolation misses, relative to `light`, weighted
+  bool contact = false;  // something stands or hangs on a corner
+  bool stays = false;    // it has no points whatever it misses
+  bool untold = false;   // texels do not tell what interpolation misses: `error` is a guess
 };
 
 // Where light bends by D (second difference) from texel to texel, interpolation misses about D / 4 where that is an
-// edge, and n steps between texels leave an nth of it. What noise may bend does not count, and what is seen little
-// counts less. Where more points would be needed than allowed, more may be missed. light: filled and stitched. shares:
-// of frames, by texel, as numbered over all pages in the order of the texel map.
-CellLevels choose_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
-                        std::span<const float> shares, const CellGoal& goal);
+// edge, and n steps between texels leave an nth of it. What noise may bend does not count. In narrow charts, and at the
+// rim of one where something is close by, texels do not tell. What is seen little counts less. light: filled and
+// stitched.
+std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
+                                      const CellTexels& texels, const CellGoal& goal);
+
+// Those of the candidates that miss more than the goal allows, and so many steps. Where more points would be needed
+// than allowed, more may be missed.
+CellLevels choose_cells(std::span<const LightmapPage> pages, std::span<const CellCandidate> found,
+                        const CellGoal& goal);
 
 }  // namespace oriel

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "bake/radiosity/estimators/blocks.h"
+#include "bake/radiosity/estimators/level_grid.h"
 #include "bake/radiosity/texels/frame_error.h"
 #include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kFewPoints = 1 << 14;  // small scenes may have more than texels
-constexpr double kUsualError = 0.02;         // where none is asked for
+constexpr std::size_t kFewPoints = 1 << 14;  // small scenes may have more of each pass than this
+constexpr std::size_t kPointsATexel = 2;
+constexpr double kUsualError = 0.02;  // where none is asked for
+constexpr double kWorth = 0.4;        // of the error allowed: what misses less needs no points that are known
 
 // As pixels of frames are held against (texels/frame_error.h), for one eye that sees all.
 double floor_of(const RadiosityTask& task, const Radiosity& light, std::span<const float> shares) {
@@ -36,6 +40,141 @@ std::uint32_t most_side(const Atlas& atlas) {
   return side;
 }
 
+class DetailMaker {
+ public:
+  DetailMaker(const RadiosityTask& task, const TexelLight& known, const CellGoal& goal, Radiosity& light)
+      : task_(task), known_(known), goal_(goal), light_(light) {}
+
+  // Two steps first, wherever more may be needed; where these tell of it, more.
+  Status run() {
+    CellGoal first = goal_;
+    first.most_side = 2;
+    std::vector<CellCandidate> found =
+        find_cells(task_.atlas, task_.map, light_, {known_.shares, known_.texels.has_many}, goal_);
+    CellLevels levels = choose_cells(light_.pages, found, first);
+    ORIEL_TRY_VOID(light_cells(levels, 1, 0));
+    const std::vector<CellCandidate> foretold = std::exchange(found, measured(levels, found));
+    CellGoal further = goal_;
+    further.known = 1;
+    levels = choose_cells(light_.pages, found, further);
+    for (const CellCandidate& cell : found)
+      if (std::uint8_t& level = levels[cell.page][cell.place]; level == 0 && cell.error > kWorth * goal_.error)
+        level = 1;
+    for (std::uint8_t level = 2; level <= kDetailLevels; ++level)
+      ORIEL_TRY_VOID(light_cells(levels, level, level == 2 ? 0.3 : 0.6));
+    add_all_blocks(levels, light_.pages);
+    report(levels);
+    light_.report.detail.unresolved = unresolved(foretold, levels);
+    for (std::size_t g = 0; g < light_.groups.size(); ++g) {
+      for (auto& lit : points_)
+        if (lit) show_group(*lit, g);
+      add_all_blocks(levels, light_.groups[g]);
+    }
+    return {};
+  }
+
+ private:
+  void add_all_blocks(const CellLevels& levels, std::vector<LightmapPage>& pages) const {
+    for (std::uint32_t p = 0; p < pages.size(); ++p)
+      add_blocks(task_.map[p], levels[p], p, {points_[0].get(), points_[1].get(), points_[2].get()}, pages[p]);
+  }
+
+  // The points' light becomes that of one group of lamps, whose noise is taken to be that of as many paths.
+  static void show_group(PointLight& points, std::size_t group) {
+    for (std::size_t i = 0; i < points.light.size(); ++i) {
+      const Vec3 own = points.booked.of(i)[group];
+      const float all = luminance(points.light[i]);
+      points.variance[i] *= all > 0 ? luminance(glm::max(own, Vec3(0))) / all : 0;
+      points.light[i] = own;
+    }
+  }
+
+  Status light_cells(const CellLevels& levels, std::uint8_t level, double done) {
+    if (std::ranges::all_of(levels, [&](const auto& page) { return std::ranges::find(page, level) == page.end(); }))
+      return {};
+    task_.context.foretell("detail", done);
+    ORIEL_TRY(const DetailPoints points, list_points(task_.atlas, levels, level, task_.context));
+    ORIEL_TRY(PointLight lit, light_points(own_, known_, points));
+    points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
+    return {};
+  }
+
+  // Of the candidates those that are lit, with the error that their points tell of.
+  std::vector<CellCandidate> measured(const CellLevels& levels, std::span<const CellCandidate> found) {
+    std::vector<CellCandidate> measured;
+    for (std::uint32_t p = 0; points_[0] && p < levels.size(); ++p) {
+      const LevelGrid& grid = grids_.emplace_back(light_.pages[p], levels[p], std::uint8_t{1}, *points_[0], p);
+      const std::uint32_t width = light_.pages[p].width;
+      for (CellCandidate cell : found)
+        if (cell.page == p && levels[p][cell.place] > 0)
+          if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
+            cell.error = *missed / cell.light * cell.weight;
+            measured.push_back(cell);
+          }
+    }
+    return measured;
+  }
+
+  // Over the pixels that eyes see. An edge through a cell is missed in half the area with each further level. What no
+  // points were asked for is off as was foretold, by as much as those were that were asked.
+  double unresolved(std::span<const CellCandidate> foretold, const CellLevels& levels) const {
+    std::vector<std::vector<const CellCandidate*>> at;
+    for (const auto& page : levels) at.emplace_back(page.size());
+    for (const CellCandidate& cell : foretold) at[cell.page][cell.place] = &cell;
+    std::array<double, 2> told{}, met{}, rest{};  // squares, of cells that texels tell of and of others
+    double left = 0;
+    for (const FramePixel& pixel : task_.pixels) {
+      const CellCandidate* cell = at[pixel.page][pixel.texel[0]];
+      if (cell == nullptr) continue;
+      const double guess = std::pow(cell->error / cell->weight, 2);
+      const Vec2 within(pixel.share[1] + pixel.share[3], pixel.share[2] + pixel.share[3]);
+      const std::uint32_t width = light_.pages[pixel.page].width;
+      const auto missed = grids_.empty()
+                              ? std::nullopt
+                              : grids_[pixel.page].missed_at(pixel.texel[0] % width, pixel.texel[0] / width, within);
+      if (!missed) {
+        rest[cell->untold] += guess;
+        continue;
+      }
+      const double light2 = cell->light * cell->light, square = missed->square / light2;
+      const std::uint8_t level = levels[pixel.page][pixel.texel[0]];
+      told[cell->untold] += guess, met[cell->untold] += square;
+      left += std::ldexp(square, -level) + (level > 0 ? missed->noise / light2 : 0);
+    }
+    for (int k = 0; k < 2; ++k) left += told[k] > 0 ? rest[k] * met[k] / told[k] : rest[k];
+    return std::sqrt(left / static_cast<double>(std::max<std::size_t>(1, task_.pixels.size())));
+  }
+
+  void report(const CellLevels& levels) {
+    DetailReport& report = light_.report.detail;
+    report = {};
+    for (const auto& page : levels)
+      report.cells += page.size() - static_cast<std::size_t>(std::count(page.begin(), page.end(), 0));
+    double squares = 0;
+    for (const auto& lit : points_) {
+      if (!lit) continue;
+      report.points += lit->texels.count();
+      for (std::size_t i = 0; i < lit->light.size(); ++i) {
+        const double shown = luminance(lit->light[i]);
+        squares += double{luminance(lit->variance[i])} / (shown * shown + goal_.floor * goal_.floor + 1e-30);
+      }
+    }
+    if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));
+    report.rays = rays_ + quick_rays_;
+  }
+
+  const RadiosityTask& task_;
+  const TexelLight& known_;
+  const CellGoal goal_;
+  Radiosity& light_;
+  // Counted apart: the texels' refinement, which may go on, has so many rays of its own.
+  std::atomic<std::uint64_t> rays_{0}, quick_rays_{0};
+  const RadiosityTask own_{task_.transport, task_.atlas,   task_.map, task_.pixels,
+                           task_.options,   task_.context, rays_,     quick_rays_};
+  std::array<std::unique_ptr<PointLight>, kDetailLevels> points_;
+  std::vector<LevelGrid> grids_;  // by page, of the first pass
+};
+
 }  // namespace
 
 Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity& light) {
@@ -47,54 +186,8 @@ Status add_detail(const RadiosityTask& task, const TexelLight& known, Radiosity&
         "the lightmap's pages are too large for finer cells: a smaller --max-page leaves room for them");
     return {};
   }
-  goal.most_points = std::max(kFewPoints, 2 * known.texels.count());
-  const CellLevels levels = choose_cells(task.atlas, task.map, light, known.shares, goal);
-  std::array<std::unique_ptr<PointLight>, kDetailLevels> points;
-  DetailReport& report = light.report.detail;
-  report = {};
-  double squares = 0;
-  // Counted apart: the texels' refinement, which may go on, has so many rays of its own.
-  std::atomic<std::uint64_t> rays{0}, quick_rays{0};
-  const RadiosityTask own{task.transport, task.atlas,   task.map, task.pixels,
-                          task.options,   task.context, rays,     quick_rays};
-  const auto cells_of = [&](std::uint8_t level) {
-    std::size_t cells = 0;
-    for (const auto& page : levels) cells += static_cast<std::size_t>(std::count(page.begin(), page.end(), level));
-    return cells;
-  };
-  // About as many points, each level's as many times finer.
-  const auto points_of = [&](std::uint8_t level) {
-    return std::ldexp(static_cast<double>(cells_of(level)), 2 * level);
-  };
-  double all = 0, done = 0;
-  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) all += points_of(level);
-  for (std::uint8_t level = 1; level <= kDetailLevels; ++level) {
-    const std::size_t cells = cells_of(level);
-    if (cells == 0) continue;
-    task.context.foretell("detail", done / all);
-    done += points_of(level);
-    ORIEL_TRY(const DetailPoints of_level, list_points(task.atlas, levels, level, task.context));
-    ORIEL_TRY(PointLight lit, light_points(own, known, of_level));
-    report.cells += cells, report.points += lit.texels.count();
-    for (std::size_t i = 0; i < lit.light.size(); ++i) {
-      const double shown = luminance(lit.light[i]);
-      squares += double{luminance(lit.variance[i])} / (shown * shown + goal.floor * goal.floor + 1e-30);
-    }
-    points[level - 1u] = std::make_unique<PointLight>(std::move(lit));
-  }
-  report.rays = rays + quick_rays;
-  if (report.points > 0) report.relative_error = std::sqrt(squares / static_cast<double>(report.points));
-  const auto add_all_blocks = [&](std::vector<LightmapPage>& pages) {
-    for (std::uint32_t p = 0; p < pages.size(); ++p)
-      add_blocks(task.map[p], levels[p], p, {points[0].get(), points[1].get(), points[2].get()}, pages[p]);
-  };
-  add_all_blocks(light.pages);
-  for (std::size_t g = 0; g < light.groups.size(); ++g) {
-    for (auto& of_level : points)
-      if (of_level) of_level->light = of_level->booked.of_group(g);
-    add_all_blocks(light.groups[g]);
-  }
-  return {};
+  goal.most_points = std::max(kFewPoints, kPointsATexel * known.texels.count());
+  return DetailMaker(task, known, goal, light).run();
 }
 
 }  // namespace oriel

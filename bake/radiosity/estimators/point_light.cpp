@@ -16,6 +16,8 @@ constexpr std::uint32_t kFirstDirect = 2, kMostDirect = 32;  // samples a half, 
 constexpr float kUncertain = 0.02f;                          // of the direct light: others get more
 constexpr double kUsualError = 0.02;                         // asked for: then a point and half has
 constexpr std::uint32_t kGather = 16, kMostGather = 64;      // rays; where less is asked for more, at most
+constexpr float kNoisy = 0.05f;                              // relative error of a point's gathered light: then it has
+constexpr std::uint32_t kNoisyGather = 4;                    // times as many
 
 // While it lives, random numbers and units of work are the points' own.
 class OwnNumbers {
@@ -92,14 +94,31 @@ BookedLight add_beside(const TexelLight& known, const Texels& points, std::uint3
   return booked;
 }
 
+// The texel under a point has the light of one side of a wall that stands on it: points on the other side have none.
+void leave_out_parted(const TexelLight& known, const DetailPoints& points, Texels& texels) {
+  for (std::size_t i = 0; i < texels.count(); ++i) {
+    if (texels.visible[i] == 0) continue;
+    const TexelPoint at = sample_texel(points.atlas, points.map[texels.page[i]], texels.index[i], Vec3(0.5f));
+    if (known.texels.parts(at.triangle, at.barycentric)) texels.visible[i] = 0;
+  }
+}
+
+void leave_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std::vector<std::uint32_t>& list) {
+  std::erase_if(list, [&](std::uint32_t i) {
+    const float light = luminance(gathered.value[i] + direct[i]);
+    return !(luminance(gathered.variance[i]) > kNoisy * kNoisy * light * light);
+  });
+}
+
 }  // namespace
 
 Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points) {
   Context& context = task.context;
   const OwnNumbers own(context, points);
   PointLight result;
-  ORIEL_TRY(result.texels,
-            list_texels(task.transport, points.atlas, points.map, context, task.quick_rays, known.texels.eyes));
+  ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, context, task.quick_rays,
+                                       {.eyes = known.texels.eyes, .met = false}));
+  leave_out_parted(known, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
   const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);
@@ -108,15 +127,19 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   DirectSums direct(n, false, known.around.groups());
   ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
   HalfSums gathered(n, false, known.around.groups());
-  ORIEL_TRY_VOID(gather(texels, sites, known.around, order, gathered_rays(task.options), known.cached, context,
-                        gathered, task.rays));
-  const FilterOptions filters = task.options.filter;
-  FilterOptions narrow = filters;
+  Estimate indirect;
+  std::vector<std::uint32_t> list = order;
+  const std::uint32_t first = gathered_rays(task.options);
+  for (std::uint32_t rays = first; rays <= kNoisyGather * first && !list.empty(); rays *= kNoisyGather) {
+    ORIEL_TRY_VOID(gather(texels, sites, known.around, list, rays, known.cached, context, gathered, task.rays));
+    indirect = filter(texels, graph, halves_of(gathered, context), task.options.filter, context);
+    leave_noisy(indirect, direct.value, list);
+  }
+  FilterOptions narrow = task.options.filter;
   narrow.scales = std::min(narrow.scales, 1);
-  const Estimate indirect = filter(texels, graph, halves_of(gathered, context), filters, context);
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
   BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), narrow, context);
-  booked.add(filter_groups(texels, graph, gathered.booked_halves(), filters, context, false));
+  booked.add(filter_groups(texels, graph, gathered.booked_halves(), task.options.filter, context, false));
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n);

@@ -1,6 +1,7 @@
 // What radiosity is asked for, what it makes, and what it says of that.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "bake/atlas/texel_map.h"
@@ -113,6 +114,7 @@ struct ReuseReport {
 struct DetailReport {
   std::size_t cells = 0, points = 0;
   double relative_error = 0;  // stated, rms over points
+  double unresolved = 0;      // what interpolation still misses, as told: rms over frames, relative
   bool left_out = false;      // there was no time
   std::uint64_t rays = 0;
 };
@@ -124,16 +126,17 @@ struct RadiosityReport {
   std::uint64_t rays = 0;
   std::size_t texels = 0;  // valid ones
   std::size_t buried = 0;
-  Vec3 mean{0};                  // lux, over valid texels
-  Vec3 max{0};                   // lux
-  double relative_error = 0;     // stated: rms of standard error over the pixels that eyes see (texels/frame_error.h)
-  int sweeps = 0;                // cached: bounces computed in the coarse lightmap
-  bool ended_early = false;      // by `enough`: the error asked for does not hold
-  std::uint64_t first_rays = 0;  // cached: of `rays`, before any refinement
-  bool out_of_rays = false;      // by RadiosityOptions::most_rays: neither
-  int refinements = 0;           // cached: after held-out pixels told of a larger error than was asked for
-  double sweep_tail = 0;         // cached: bound on what further bounces would add, relative
-  double sweep_growth = 0;       // cached: what the last bounce added over what the one before did
+  Vec3 mean{0};               // lux, over valid texels
+  Vec3 max{0};                // lux
+  double relative_error = 0;  // rms of standard error over the pixels that eyes see (texels/frame_error.h)
+  double stated() const { return std::hypot(relative_error, detail.unresolved); }
+  int sweeps = 0;                   // cached: bounces computed in the coarse lightmap
+  bool ended_early = false;         // by `enough`: the error asked for does not hold
+  std::uint64_t first_rays = 0;     // cached: of `rays`, before any refinement
+  bool out_of_rays = false;         // by RadiosityOptions::most_rays: neither
+  int refinements = 0;              // cached: after held-out pixels told of a larger error than was asked for
+  double sweep_tail = 0;            // cached: bound on what further bounces would add, relative
+  double sweep_growth = 0;          // cached: what the last bounce added over what the one before did
   std::size_t bounded_patches = 0;  // cached: of the coarse lightmap, that handed on more than they got (patches.h)
   double filter_drift = 0;          // cached: size of the relative change of the gathered energy by the filter
   SeamReport seams;

@@ -20,13 +20,14 @@ constexpr std::uint32_t kColored = 2;  // sites of a half whose albedo is averag
 // Where a texel is partly buried: tried at least and at most, and those not buried that are enough.
 constexpr std::uint32_t kManyPoints = 64, kMostPoints = 512, kManySites = 32;
 constexpr std::size_t kSparse = 16;        // places of a page for each of its texels: more are not tabulated
+constexpr std::uint32_t kFewPoints = 16;   // tried where a texel lies under another body
 constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but something is close to it
 
 class SiteFinder {
  public:
-  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, std::span<const Vec3> eyes,
+  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const TexelUse& use,
              std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), onlookers_(t.accel, eyes), seed_(seed) {}
+      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), onlookers_(t.accel, use.eyes), seed_(seed) {}
 
   struct Found {
     TexelPart part;  // what a wall leaves of the texel
@@ -44,13 +45,13 @@ class SiteFinder {
       texels.site[i][k] = site_of(surface);
       buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
       crowded = crowded || meets_near(texels, i, k, stream, rays);
-      if (turn < kColored) shade.push_back(shade_at(surface));
+      if (met_ && turn < kColored) shade.push_back(shade_at(surface));
     }
     keep_means(shade, texels, i);
     texels.visible[i] = 1;
     Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], onlookers_, rays), {}};
     if (found.part.covered())
-      texels.visible[i] = 0;
+      find_unburied(texels, i, stream, kFewPoints, found, rays);
     else if (buried > 0 || !found.part.whole())
       find_unburied(texels, i, stream, kManyPoints, found, rays);
     else if (crowded)
@@ -63,9 +64,14 @@ class SiteFinder {
                      std::uint64_t& rays) const {
     std::vector<ShadePoint> shade;
     std::uint32_t tried = 0, total = 0;
+    bool in_sight = false;
     Onlookers::Nearest eyes;
-    // A handful of points that escaped the probes do not make a texel visible.
-    const auto enough = [&] { return total * 16 >= tried && !found.many[0].empty() && !found.many[1].empty(); };
+    // A handful of points that escaped the probes do not make a texel visible, nor do any under another body: somebody
+    // who sees one does.
+    const auto enough = [&] {
+      const bool many = total * 16 >= tried && !found.part.covered();
+      return (many || in_sight) && !found.many[0].empty() && !found.many[1].empty();
+    };
     for (; tried < points || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
@@ -74,12 +80,16 @@ class SiteFinder {
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
           !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, eyes, rays))
         continue;
-      shade.push_back(shade_at(surface));
+      const bool ask = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
+      const bool seen = ask && onlookers_.any() && sees(surface, eyes, rays);
+      if (found.part.covered() && !seen) continue;
+      in_sight = in_sight || seen;
+      if (met_) shade.push_back(shade_at(surface));
       found.many[half].push_back(site_of(surface));
       ++total;
     }
     texels.visible[i] = enough() ? static_cast<float>(total) / static_cast<float>(tried) : 0.0f;
-    if (total > 0) keep_means(shade, texels, i);
+    keep_means(shade, texels, i);
     if (!enough()) found.many = {};
     for (std::size_t k = 0; enough() && k < kSites; ++k) {
       const auto& many = found.many[k / kSitesPerHalf];
@@ -91,8 +101,12 @@ class SiteFinder {
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
     return texel_candidate(t_, atlas_, maps_, texels, i, half, k, seed_);
   }
+  bool sees(const SurfacePoint& s, Onlookers::Nearest& eyes, std::uint64_t& rays) const {
+    return onlookers_.in_sight(spawn_origin(s, s.geometric_normal), s.geometric_normal, eyes, rays);
+  }
   ShadePoint shade_at(const SurfacePoint& s) const { return shade_point(t_.accel.scene(), s.triangle, s.barycentric); }
   static void keep_means(std::span<const ShadePoint> points, Texels& texels, std::size_t i) {
+    if (points.empty()) return;
     Vec3 albedo(0);
     for (const ShadePoint& point : points) albedo += point.diffuse;
     texels.albedo[i] = albedo / static_cast<float>(points.size());
@@ -112,6 +126,7 @@ class SiteFinder {
   const Transport& t_;
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
+  bool met_;
   Onlookers onlookers_;
   std::uint64_t seed_;
 };
@@ -186,9 +201,9 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays, std::span<const Vec3> eyes) {
+                           Context& context, std::atomic<std::uint64_t>& rays, const TexelUse& use) {
   Texels texels;
-  texels.eyes.assign(eyes.begin(), eyes.end());
+  texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
     const TexelMapPage& map = texel_map[p];
     const std::size_t places = std::size_t{map.width} * map.height;
@@ -212,11 +227,11 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, texels.eyes, context.seed);
+  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met}, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
-  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes); };
+  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.met); };
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {

@@ -106,9 +106,13 @@ struct Texels {
   std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
 };
 
-// eyes: from which somebody looks; what none of them can see in a gap counts as hidden. None: nothing does.
+struct TexelUse {
+  std::span<const Vec3> eyes{};  // from which somebody looks; what none of them can see in a gap counts as hidden.
+                                 // None: nothing does
+  bool met = true;               // by rays; false: albedo and diffuse_share are not needed
+};
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays, std::span<const Vec3> eyes = {});
+                           Context& context, std::atomic<std::uint64_t>& rays, const TexelUse& use = {});
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

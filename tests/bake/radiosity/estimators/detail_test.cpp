@@ -41,7 +41,8 @@ CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal&
   light.at_seam = at_seam;
   light.pages.push_back(page);
   light.visible.emplace_back(shares.size(), 1.0f);
-  return choose_cells(floor.atlas, floor.map, light, shares, goal);
+  const std::vector<char> crowded(shares.size());
+  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {shares, crowded}, goal), goal);
 }
 
 std::size_t count(const CellLevels& levels, std::uint8_t level) {
@@ -72,8 +73,8 @@ TEST(DetailCells, AlongAnEdgeHaveAsManySteps) {
   const CellGoal goal{.error = 0.02, .floor = 1, .most_points = 1 << 20};
   const auto edge = lit(
       floor, [](float x, float y) { return x < 16                   ? 100.0f
-                                           : std::fmod(y, 8.0f) < 4 ? 119.0f
-                                                                    : 113.0f; }, 0);
+                                           : std::fmod(y, 8.0f) < 4 ? 132.0f
+                                                                    : 122.0f; }, 0);
   const CellLevels levels = chosen(floor, edge, goal);
   for (std::uint32_t y = 3; y < 27; ++y) EXPECT_EQ(levels[0][y * edge.width + 15], 2) << y;
 }

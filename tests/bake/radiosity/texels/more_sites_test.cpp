@@ -66,7 +66,7 @@ TEST(TexelPart, IsTheSideThatEyesSee) {
   const std::uint32_t floor = listed.floor.back();
   std::atomic<std::uint64_t> rays{0};
   const std::vector<Vec3> eyes = {{4, 1.6f, 0.5f}, {5, 1.6f, 1}};
-  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, rays, eyes);
+  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, rays, {eyes});
   ASSERT_GT(listed.texels.visible[floor], 0);
   ASSERT_GT(seen.visible[floor], 0);
   for (const TexelSite& site : listed.texels.site[floor]) EXPECT_LT(site.origin.x, 0.8f) << "most of it";

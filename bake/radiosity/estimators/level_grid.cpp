@@ -1,0 +1,131 @@
+#include "bake/radiosity/estimators/level_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kBothNoises = 0.5f;  // times
+
+}  // namespace
+
+LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& levels, std::uint8_t level,
+                     const PointLight& points, std::uint32_t page_number)
+    : side_(1u << level), width_((page.width + 2) * side_) {
+  for (std::uint32_t place = 0; place < levels.size(); ++place) {
+    if (levels[place] != level) continue;
+    for (std::uint32_t j = 0; j <= side_; ++j)
+      for (std::uint32_t i = 0; i <= side_; ++i)
+        place_.push_back(number(place % page.width, place / page.width, i, j));
+  }
+  std::sort(place_.begin(), place_.end());
+  place_.erase(std::unique(place_.begin(), place_.end()), place_.end());
+  change_.resize(place_.size()), noise_.resize(place_.size()), own_.resize(place_.size());
+  for (std::size_t k = 0; k < place_.size(); ++k) {
+    const std::uint32_t x = place_[k] % width_, y = place_[k] / width_;
+    const std::uint32_t point = points.texels.at(page_number, static_cast<int>(x), static_cast<int>(y));
+    if (point == kNoTexel || points.texels.visible[point] == 0) continue;
+    change_[k] = points.light[point] - between_texels(page, x, y);
+    noise_[k] = luminance(points.variance[point]);
+    own_[k] = 1;
+  }
+  known_ = own_;
+  leave_noise();
+  leave_dots();
+  for (std::uint32_t pass = 0; pass <= side_; ++pass) spread();
+}
+
+std::optional<double> LevelGrid::missed(std::uint32_t x, std::uint32_t y) const {
+  double squares = 0, count = 0;
+  for (std::uint32_t j = 0; j <= side_; ++j)
+    for (std::uint32_t i = 0; i <= side_; ++i) {
+      const std::size_t k = find(number(x, y, i, j));
+      if (k == place_.size() || !own_[k]) continue;
+      squares += std::pow(double{luminance(change_[k])}, 2), ++count;
+    }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(squares / count);
+}
+
+std::optional<LevelGrid::Missed> LevelGrid::missed_at(std::uint32_t x, std::uint32_t y, const Vec2& within) const {
+  const Vec2 at = within * static_cast<float>(side_);
+  const auto first = glm::min(UVec2(at), UVec2(side_ - 1));
+  const Vec2 f = at - Vec2(first);
+  Vec3 change(0);
+  Missed missed;
+  for (const std::uint32_t j : {0u, 1u})
+    for (const std::uint32_t i : {0u, 1u}) {
+      const std::size_t k = find(number(x, y, first.x + i, first.y + j));
+      if (k == place_.size()) return std::nullopt;
+      const float share = (i ? f.x : 1 - f.x) * (j ? f.y : 1 - f.y);
+      change += share * change_[k], missed.noise += double{share * noise_[k]};
+    }
+  missed.square = std::pow(double{luminance(change)}, 2);
+  return missed;
+}
+
+std::size_t LevelGrid::find(std::uint32_t place) const {
+  const auto found = std::lower_bound(place_.begin(), place_.end(), place);
+  return found != place_.end() && *found == place ? static_cast<std::size_t>(found - place_.begin()) : place_.size();
+}
+
+Vec3 LevelGrid::between_texels(const LightmapPage& page, std::uint32_t x, std::uint32_t y) const {
+  const Vec2 texel = Vec2(x, y) / static_cast<float>(side_) - 1.0f;
+  return irradiance_at(page, (texel + 0.5f) / Vec2(page.width, page.height));  // which has no cells yet
+}
+
+// Of each change the share that is no noise, as the changes around tell (Wiener): where points do not tell more than
+// texels, these are smoother.
+void LevelGrid::leave_noise() {
+  std::vector<float> share(place_.size());
+  for (std::size_t k = 0; k < place_.size(); ++k) {
+    float squares = 0, chance = 0;
+    for_each_around(k, [&](std::size_t other) {
+      const float change = luminance(change_[other]);
+      squares += change * change, chance += noise_[other];
+    });
+    share[k] = squares > 0 ? std::max(0.0f, 1 - kBothNoises * chance / squares) : 0;
+  }
+  for (std::size_t k = 0; k < place_.size(); ++k) change_[k] *= share[k], noise_[k] *= share[k] * share[k];
+}
+
+// A point alone that differs more than all around it is one lucky path: shadows are longer than a point.
+void LevelGrid::leave_dots() {
+  const std::vector<Vec3> before = change_;
+  for (std::size_t k = 0; k < place_.size(); ++k) {
+    Vec3 least(std::numeric_limits<float>::max()), most(-std::numeric_limits<float>::max());
+    for_each_around(k, [&](std::size_t other) {
+      if (other != k) least = glm::min(least, before[other]), most = glm::max(most, before[other]);
+    });
+    if (least.r <= most.r) change_[k] = glm::clamp(before[k], least, most);
+  }
+}
+
+// Points that are known, of the nine around one.
+template <class Body>
+void LevelGrid::for_each_around(std::size_t k, const Body& body) const {
+  for (const int dy : {-1, 0, 1})
+    for (const int dx : {-1, 0, 1}) {
+      const std::size_t other = find(place_[k] + static_cast<std::uint32_t>(dy * static_cast<int>(width_) + dx));
+      if (other < place_.size() && known_[other]) body(other);
+    }
+}
+
+// To points that are not known, from those beside them.
+void LevelGrid::spread() {
+  std::vector<std::pair<std::size_t, Vec3>> found;
+  for (std::size_t k = 0; k < place_.size(); ++k) {
+    if (known_[k]) continue;
+    Vec3 sum(0);
+    float count = 0;
+    for_each_around(k, [&](std::size_t other) { sum += change_[other], ++count; });
+    if (count > 0) found.emplace_back(k, sum / count);
+  }
+  for (const auto& [k, change] : found) change_[k] = change, known_[k] = 1;
+}
+
+}  // namespace oriel
