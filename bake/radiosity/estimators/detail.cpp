@@ -65,11 +65,7 @@ class DetailMaker {
     add_all_blocks(levels, light_.pages);
     report(levels);
     light_.report.detail.unresolved = unresolved(foretold, levels);
-    for (std::size_t g = 0; g < light_.groups.size(); ++g) {
-      for (auto& lit : points_)
-        if (lit) show_group(*lit, g);
-      add_all_blocks(levels, light_.groups[g]);
-    }
+    add_groups(levels);
     return {};
   }
 
@@ -79,13 +75,20 @@ class DetailMaker {
       add_blocks(task_.map[p], levels[p], p, {points_[0].get(), points_[1].get(), points_[2].get()}, pages[p]);
   }
 
-  // The points' light becomes that of one group of lamps, whose noise is taken to be that of as many paths.
-  static void show_group(PointLight& points, std::size_t group) {
-    for (std::size_t i = 0; i < points.light.size(); ++i) {
-      const Vec3 own = points.booked.of(i)[group];
-      const float all = luminance(points.light[i]);
-      points.variance[i] *= all > 0 ? luminance(glm::max(own, Vec3(0))) / all : 0;
-      points.light[i] = own;
+  // Of each group, from its light at the points; their noise is taken to be that of as many paths.
+  void add_groups(const CellLevels& levels) {
+    std::array<std::vector<Vec3>, kDetailLevels> light, variance;
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (points_[k]) light[k] = points_[k]->light, variance[k] = points_[k]->variance;
+    for (std::size_t g = 0; g < light_.groups.size(); ++g) {
+      for (std::size_t k = 0; k < points_.size(); ++k)
+        for (std::size_t i = 0; i < light[k].size(); ++i) {
+          const Vec3 own = points_[k]->booked.of(i)[g];
+          const float all = luminance(light[k][i]);
+          points_[k]->light[i] = own;
+          points_[k]->variance[i] = variance[k][i] * (all > 0 ? luminance(glm::max(own, Vec3(0))) / all : 0.0f);
+        }
+      add_all_blocks(levels, light_.groups[g]);
     }
   }
 
