@@ -7,10 +7,10 @@ namespace oriel {
 namespace {
 
 // Of the time of the first light: refinement, which may end soon, and detail, which looks for light on points as that
-// does; and of the time of light and refinement. Measured 0.4 to 2.9, 0.5 to 1.2 and 0.06 to 0.1 on rooms, houses and
+// does; and of the time of light and refinement. Measured 0.4 to 4.2, 0.5 to 2.2 and 0.07 to 0.16 on rooms, houses and
 // halls.
 // Rather long than short: what is told can hurry, but not rise.
-constexpr double kRefinement = 2, kDetail = 0.8, kVerification = 0.085;
+constexpr double kRefinement = 1.8, kDetail = 1.1, kVerification = 0.12;
 constexpr double kOverdue = 0.1;  // of what was foretold, where a part takes longer than that
 constexpr double kTrusted = 0.3;  // of a part, after which what it took tells the rest
 

@@ -9,7 +9,8 @@ namespace oriel {
 namespace {
 
 // Of the room's curved reflectors, seen from above and beside them.
-FoundCurvedReflectors placed(const test::MirrorRoom& room, std::vector<Vec3> eyes = {{3.5f, 2.8f, 4.5f}, {1, 2.9f, 1}}) {
+FoundCurvedReflectors placed(const test::MirrorRoom& room,
+                             std::vector<Vec3> eyes = {{3.5f, 2.8f, 4.5f}, {1, 2.9f, 1}}) {
   const auto accel = Accel::build(room.scene);
   if (!accel) return {};
   const auto flat = find_reflectors(*accel, room.materials(), room.reflector_options());

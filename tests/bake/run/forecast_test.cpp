@@ -20,7 +20,7 @@ TEST(ForecastTest, NobodyKnowsBeforeTheLightIsForetold) {
   forecast.at("views", 0.5, 3);
   ASSERT_TRUE(forecast.left(3));
   // As long again for the views; light, refinement, detail and verification by the light.
-  EXPECT_NEAR(*forecast.left(3), 2 + 10 + 20 + 8 + 0.085 * 30, 1e-9);
+  EXPECT_NEAR(*forecast.left(3), 2 + 10 + 18 + 11 + 0.12 * 28, 1e-9);
 }
 
 TEST(ForecastTest, WhatPartsTookTellsTheOthers) {
@@ -29,11 +29,11 @@ TEST(ForecastTest, WhatPartsTookTellsTheOthers) {
   forecast.at("first light", 0, 0);
   forecast.at("refinement", 0, 40);  // four times as long as foretold
   forecast.expect("radiance", 7);
-  EXPECT_NEAR(*forecast.left(40), 80 + 32 + 0.085 * 120 + 7, 1e-9);
+  EXPECT_NEAR(*forecast.left(40), 72 + 44 + 0.12 * 112 + 7, 1e-9);
   forecast.at("refinement", 0.5, 60);
-  EXPECT_NEAR(*forecast.left(60), 20 + 32 + 0.085 * 120 + 7, 1e-9) << "half of it took 20 s";
+  EXPECT_NEAR(*forecast.left(60), 20 + 44 + 0.12 * 112 + 7, 1e-9) << "half of it took 20 s";
   forecast.at("nobody's", 0.9, 70);
-  EXPECT_NEAR(*forecast.left(70), 10 + 32 + 0.085 * 120 + 7, 1e-9) << "it goes on by the clock";
+  EXPECT_NEAR(*forecast.left(70), 10 + 44 + 0.12 * 112 + 7, 1e-9) << "it goes on by the clock";
   forecast.at("writing", 1, 100);
   EXPECT_NEAR(*forecast.left(100), 0, 1e-9);
 }
