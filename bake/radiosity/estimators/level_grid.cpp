@@ -19,8 +19,7 @@ LevelGrid::LevelGrid(const LightmapPage& page, const std::vector<std::uint8_t>& 
   for (std::uint32_t place = 0; place < levels.size(); ++place) {
     if (levels[place] != level) continue;
     for (std::uint32_t j = 0; j <= side_; ++j)
-      for (std::uint32_t i = 0; i <= side_; ++i)
-        place_.push_back(number(place % page.width, place / page.width, i, j));
+      for (std::uint32_t i = 0; i <= side_; ++i) place_.push_back(number(place % page.width, place / page.width, i, j));
   }
   std::sort(place_.begin(), place_.end());
   place_.erase(std::unique(place_.begin(), place_.end()), place_.end());
