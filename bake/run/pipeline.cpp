@@ -55,16 +55,15 @@ Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections 
                                  Context& context, Pack& pack) {
   const double writing = budget.limited() ? TimeBudget::writing(bytes_of(pack, {})) : 0;
   const Interruptible until(context, [&] { return context.finish || budget.left() <= writing; });
-  auto made = bake_reflections(options, std::move(planned), baked, materials, mesh, context, pack);
+  auto made = bake_reflections(options, planned, baked, materials, mesh, context, pack);
   if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
   pack.emitters.clear();
-  ReflectionReport none;
-  if (context.finish)
-    none.omissions.emplace_back("radiance maps: left out, the user asked the bake to finish");
-  else
-    none.omissions.emplace_back("radiance maps: left out, --time was over; a longer one has them",
-                                WarningKind::kTimeOver);
-  return none;
+  const Warning why =
+      context.finish
+          ? Warning("left out, the user asked the bake to finish")
+          : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned.capture_s)),
+                    WarningKind::kTimeOver);
+  return mirror_geometry(std::move(planned), mesh, why, pack);
 }
 
 void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions) {

@@ -340,4 +340,26 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   return report;
 }
 
+ReflectionReport mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why,
+                                 Pack& pack) {
+  ReflectionReport report;
+  FoundReflections& all = planned.all;
+  const std::size_t curved = all.curved.reflectors.size();
+  report.omissions = std::move(all.omissions);
+  for (FoundReflector& r : all.found.reflectors) {
+    Reflector& drawn = r.reflector;
+    drawn.first_map = drawn.map_count = drawn.elements_x = drawn.elements_y = 0;
+    report.ways.push_back(why.text);
+  }
+  if (!planned.plan.maps.empty())
+    report.omissions.emplace_back(fmt::format("radiance maps: {}; mirrors are drawn as mirrored geometry", why.text),
+                                  why.kind);
+  if (curved > 0)
+    report.omissions.emplace_back(
+        fmt::format("surround maps of {} curved reflectors: {}; they show no reflections", curved, why.text), why.kind);
+  pack.walk_grids = all.region.grids;
+  keep(all.found.reflectors, mesh, pack.reflectors);
+  return report;
+}
+
 }  // namespace oriel

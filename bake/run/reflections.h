@@ -67,4 +67,8 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
                                           const BakedScene& baked, const MaterialMaps& materials,
                                           const AssembledMesh& mesh, Context& context, Pack& pack);
 
+// In place of that where there is no time for images: planar reflectors are drawn as mirrored geometry, which needs
+// none. Curved ones show their light as if their lobes were wide. why: for people.
+ReflectionReport mirror_geometry(PlannedReflections planned, const AssembledMesh& mesh, const Warning& why, Pack& pack);
+
 }  // namespace oriel

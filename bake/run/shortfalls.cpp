@@ -66,8 +66,8 @@ void judge_time(const BakeOptions& options, const TimeBudget& budget, const std:
 void judge_stages(const BakeResult& result, Context& context, std::vector<std::string>& shortfalls) {
   if (context.finish)
     fall_short(
-        "the bake ended early, as asked: the pack holds what was there, with the error that is stated; the same "
-        "command again goes on from the cache",
+        fmt::format("the bake ended early, as asked: the pack holds what was there, with the error that is stated{}",
+                    context.units ? "; the same command again goes on from the cache" : ""),
         context, shortfalls);
   for (const auto* all : {&result.omissions, &result.warnings})
     for (const Warning& one : *all)

@@ -170,8 +170,9 @@ Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel
   SetFinder finder(options, scene, onlookers, seconds, context);
   const StageInputs inputs(context, SurfacesOf{accel.scene()});
   const auto too_long = [&](const char* what) {
-    omissions.emplace_back(fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, seconds),
-                           WarningKind::kTimeOver);
+    omissions.emplace_back(
+        fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
+        WarningKind::kTimeOver);
   };
   if (why_not.empty()) {
     ORIEL_TRY(const bool done, finder.visible(visible.side, visible.seen, report.lines));

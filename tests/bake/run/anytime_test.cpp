@@ -173,6 +173,30 @@ TEST_F(Anytime, TimeEndsTheRefinementBeforeTheErrorAskedFor) {
   EXPECT_GT(hurried.relative_error, whole.relative_error);
 }
 
+TEST(MirrorGeometry, IsWhatMirrorsAreWithoutTimeForMaps) {
+  PlannedReflections planned;
+  FoundReflector& mirror = planned.all.found.reflectors.emplace_back();
+  mirror.reflector.name = "mirror";
+  mirror.triangles = {1};
+  mirror.reflector.elements_x = mirror.reflector.elements_y = 1;
+  mirror.reflector.map_count = 2;
+  planned.plan.maps.resize(2);
+  planned.all.curved.reflectors.resize(3);
+  AssembledMesh mesh;
+  mesh.first_index = {0, 3};
+  mesh.mesh.indices = {0, 1, 2, 2, 1, 3};
+  Pack pack;
+  const ReflectionReport report = mirror_geometry(std::move(planned), mesh, {"no time", WarningKind::kTimeOver}, pack);
+  ASSERT_EQ(pack.reflectors.size(), 1u);
+  EXPECT_EQ(pack.reflectors[0].map_count, 0u);
+  EXPECT_EQ(pack.reflectors[0].elements_x, 0u);
+  EXPECT_EQ(pack.reflectors[0].indices, (std::vector<std::uint32_t>{2, 1, 3}));
+  EXPECT_TRUE(pack.radiance_maps.empty() && pack.curved_reflectors.empty());
+  EXPECT_EQ(report.ways, std::vector<std::string>{"no time"});
+  ASSERT_EQ(report.omissions.size(), 2u) << "that maps are left out, and curved reflectors";
+  for (const Warning& omission : report.omissions) EXPECT_EQ(omission.kind, WarningKind::kTimeOver);
+}
+
 TEST(FittingMaps, AreHalvedUntilTheirCaptureFits) {
   PlannedReflections planned;
   planned.plan.maps.resize(2);
