@@ -68,6 +68,13 @@ Status unexpected_word(const Mounted& mounted) {
   const auto dashed = std::find_if(words.begin(), words.end(), [](const auto& word) { return word[0] == '-'; });
   const std::string word = dashed != words.end() ? *dashed : words[0];
   const std::string wanted = word.substr(0, word.find('='));
+  if (word[0] != '-') {
+    std::string commands;
+    for (const ToolCommand& child : mounted.command->commands) commands += (commands.empty() ? "" : ", ") + child.name;
+    return fail(ErrorCode::kUsage, "", "found '{}' after all that {} takes, expected options from there on{}", word,
+                mounted.app->get_name(),
+                commands.empty() ? "" : fmt::format("; or, as the first word, a command: {}", commands));
+  }
   return fail(ErrorCode::kUsage, "", "found '{}', expected an option that {} has: {}", word, mounted.app->get_name(),
               names_like(wanted, names));
 }
