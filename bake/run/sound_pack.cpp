@@ -37,11 +37,13 @@ void remove_reflectors(Pack& pack) {
   pack.map_meshes.clear();
   pack.emitters.clear();
   pack.reflected_sets = {};
+  for (LightGroup& group : pack.light_groups) group.reflectors.clear(), group.emitters.clear();
 }
 
 void remove_curved_reflectors(Pack& pack) {
   pack.curved_reflectors.clear();
   pack.surround_maps.clear();
+  for (LightGroup& group : pack.light_groups) group.surrounds.clear();
 }
 
 void remove_kernels(Pack& pack) {
@@ -52,6 +54,7 @@ void remove_kernels(Pack& pack) {
 void remove_movers(Pack& pack) {
   pack.movers.clear();
   pack.light_field = {};
+  for (LightGroup& group : pack.light_groups) group.probes.clear(), group.bright_lights.clear();
 }
 
 void remove_light_groups(Pack& pack) {
