@@ -329,10 +329,12 @@ class Bake {
   void describe() {
     tell_dropped(accel(), result_.findings);
     judge_stages(result_, context_, result_.shortfalls);
+    // With --time alone it goes on as long as that lasts: nobody asked for an error.
+    const double asked = budget_.limited() && !options_.error_named ? 0 : options_.radiosity.error;
     pack().plan = plan_json({scene(), prepared_.atlas, prepared_.sides, result_.radiosity, result_.ledger, pack(),
                              result_.omissions, lights_->power(), reflections_, movers_, visibility_,
-                             options_.radiosity.estimator == Estimator::kCached, options_.radiosity.error, start_,
-                             result_.findings, result_.warnings});
+                             options_.radiosity.estimator == Estimator::kCached, asked, start_, result_.findings,
+                             result_.warnings});
     pack().provenance = provenance_json(options_, context_.seed, prepared_.imported->inputs);
     judge_time(options_, budget_, result_.times, context_, result_.shortfalls);
     const std::size_t warned = result_.warnings.size();

@@ -283,9 +283,11 @@ void print_maps(const PackIndex& index, const Pack& pack) {
   for (std::size_t i = 0; i < pack.lightmaps.size(); ++i) {
     const auto& page = pack.lightmaps[i];
     const auto s = summarise(page);
-    fmt::print("lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise {:.2g} %{}\n", i,
-               page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
-               page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
+    fmt::print(
+        "lightmap {}: {} x {}, {} valid texels, {:.4g} to {:.4g} lux, mean {:.4g}, noise of texels, seen or not, "
+        "{:.2g} %{}\n",
+        i, page.width, page.height, s.states[3], s.min_lux, s.max_lux, s.mean_lux, 100 * s.error,
+        page.direction.empty() ? "" : fmt::format(", directional (mean |d| {:.3g})", s.mean_direction));
   }
   print_reflections(index, pack);
   print_material_maps(pack);
