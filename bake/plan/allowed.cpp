@@ -15,13 +15,6 @@ std::string trimmed(const std::string& text) {
   return text.substr(from, text.find_last_not_of(" \t\r") + 1 - from);
 }
 
-// * any text, ? any character.
-bool fits(const char* pattern, const char* text) {
-  if (*pattern == '*') return fits(pattern + 1, text) || (*text != '\0' && fits(pattern, text + 1));
-  if (*text == '\0') return *pattern == '\0';
-  return (*pattern == '?' || *pattern == *text) && fits(pattern + 1, text + 1);
-}
-
 bool is_kind(const std::string& name, FindingKind kind) {
   return lower_case(name) == name_of(kind) || lower_case(name) == fmt::format("d{}", static_cast<int>(kind));
 }
@@ -67,7 +60,7 @@ Result<std::vector<AllowedFinding>> parse_allowed(const std::string& text) {
 
 bool is_allowed(const Finding& finding, std::span<const AllowedFinding> allowed) {
   return std::any_of(allowed.begin(), allowed.end(), [&](const AllowedFinding& a) {
-    return is_kind(a.kind, finding.kind) && fits(a.object.c_str(), finding.object.c_str());
+    return is_kind(a.kind, finding.kind) && fits_pattern(a.object, finding.object);
   });
 }
 

@@ -18,10 +18,8 @@ constexpr float kBackdrop = 1e-3f;         // of the scene's diagonal: how far o
 
 }  // namespace
 
-bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t triangle) {
-  const auto listed = [&](std::uint32_t t) {
-    return std::binary_search(found.triangles.begin(), found.triangles.end(), t);
-  };
+bool is_among(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint32_t triangle) {
+  const auto listed = [&](std::uint32_t t) { return std::ranges::binary_search(triangles, t); };
   return listed(triangle) || (!scene.twin.empty() && listed(scene.twin[triangle]));
 }
 
@@ -59,7 +57,7 @@ class ReflectedSurroundings::Walk {
       ++sight_.rays;
       if (!hit) return leave();
       const Vec3 p = point_on(scene_, hit.triangle, hit.barycentric);
-      const bool own = hit.triangle == last_ || is_part_of(scene_, *left_, hit.triangle);
+      const bool own = hit.triangle == last_ || is_among(scene_, left_->triangles, hit.triangle);
       if (!own && meets(hit, p)) return sight_;
       last_ = hit.triangle;
       ray_.origin = p + ray_.direction * (kStep * (max_component(glm::abs(p)) + step_) + 1e-7f * hit.distance);

@@ -84,7 +84,7 @@ class ReflectedSurroundings {
   std::vector<std::uint32_t> reflector_of_;  // by triangle: 1 + index; 0: none
 };
 
-// Whether the triangle, or its twin, is among the reflector's.
-bool is_part_of(const Scene& scene, const FoundReflector& found, std::uint32_t triangle);
+// Whether the triangle, or its twin, is among these, which ascend.
+bool is_among(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint32_t triangle);
 
 }  // namespace oriel

@@ -81,12 +81,7 @@ class SurroundCapture {
     return sight;
   }
 
-  bool own(std::uint32_t triangle) const {
-    const auto listed = [&](std::uint32_t t) {
-      return std::binary_search(object_.triangles.begin(), object_.triangles.end(), t);
-    };
-    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
-  }
+  bool own(std::uint32_t triangle) const { return is_among(scene_, object_.triangles, triangle); }
 
   // The distance at which a ray from the centre leaves the object's bounds.
   float leaves_bounds(const Vec3& direction) const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bake/jobs/parallel.h"
+#include "bake/radiance/sight.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/path.h"
 #include "bake/trace/sampler.h"
@@ -130,10 +131,7 @@ class Viewpoint {
     return places;
   }
 
-  bool own(std::uint32_t triangle) const {
-    const auto listed = [&](std::uint32_t t) { return std::ranges::binary_search(object_.triangles, t); };
-    return listed(triangle) || (!scene_.twin.empty() && listed(scene_.twin[triangle]));
-  }
+  bool own(std::uint32_t triangle) const { return is_among(scene_, object_.triangles, triangle); }
 
   const Accel& accel_;
   const Scene& scene_;

@@ -60,17 +60,8 @@ std::vector<Lamp> find_lamps(const Scene& scene) {
   return lamps;
 }
 
-// * stands for any letters.
-bool matches(std::string_view pattern, std::string_view name) {
-  const auto star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == name;
-  if (name.substr(0, star) != pattern.substr(0, star) || name.size() < star) return false;
-  for (std::size_t at = star; at <= name.size(); ++at)
-    if (matches(pattern.substr(star + 1), name.substr(at))) return true;
-  return false;
-}
 bool matches(std::string_view pattern, const Lamp& lamp) {
-  return matches(pattern, lamp.name) || matches(pattern, lamp.path);
+  return fits_pattern(pattern, lamp.name) || fits_pattern(pattern, lamp.path);
 }
 
 class Groups {
@@ -164,7 +155,7 @@ class Groups {
     std::vector<std::string> names;
     for (const Lamp& lamp : lamps_) names.push_back(lamp.name);
     for (const Surface& surface : scene_.surfaces)
-      if (matches(pattern, surface.name) || matches(pattern, surface.node_path))
+      if (fits_pattern(pattern, surface.name) || fits_pattern(pattern, surface.node_path))
         return fail(ErrorCode::kUsage, file, "found \"{}\" in the group \"{}\", which does not shine; lamps are {}",
                     pattern, name, names_like(pattern, names));
     return fail(ErrorCode::kUsage, file, "found \"{}\" in the group \"{}\", expected lamps of the scene: {}", pattern,

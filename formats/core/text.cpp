@@ -47,6 +47,21 @@ Result<std::uint64_t> parse_bytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+bool fits_pattern(std::string_view pattern, std::string_view text) {
+  std::size_t p = 0, t = 0, star = std::string_view::npos, taken = 0;  // by the last *: text up to `taken`
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*')
+      star = p++, taken = t;
+    else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
+      ++p, ++t;
+    else if (star != std::string_view::npos)
+      p = star + 1, t = ++taken;
+    else
+      return false;
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
 std::string names_like(const std::string& wanted, const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 5;
   std::vector<std::pair<std::size_t, std::string>> sorted;

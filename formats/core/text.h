@@ -31,6 +31,9 @@ Result<double> parse_quantity(const std::string& text, std::span<const Unit> uni
 // "64MiB", "2GB", "500000B" as bytes. Error kUsage.
 Result<std::uint64_t> parse_bytes(const std::string& text);
 
+// Whether the text is like the pattern: * any text, ? any character. Time is at most the product of their lengths.
+bool fits_pattern(std::string_view pattern, std::string_view text);
+
 // For a message about a name that is none of `names`: the few that are nearest to it, in quotes.
 std::string names_like(const std::string& wanted, const std::vector<std::string>& names);
 

@@ -42,6 +42,7 @@ struct Session {
   bool panel = false, key_sheet = false;
   bool advanced = false;             // the panel shows what the method is made of
   bool presenting = false;           // the whole screen, and no words
+  std::string said;                  // by the panel, for the window to say
   std::vector<LightSetting> lights;  // by group: what frame.lights follow from
   std::vector<MoverMove> moves, moves_at_start;
   std::optional<Grip> grip;  // of a mover that is dragged

@@ -29,10 +29,11 @@ bool draw_setting(const std::string& name, LightSetting& setting) {
   return changed;
 }
 
-void keep(const Pack& pack, const Session& session) {
+void keep(const Pack& pack, Session& session) {
   const std::string json = lights_json(pack, session.lights) + "\n";
   const auto* bytes = reinterpret_cast<const std::byte*>(json.data());
-  (void)write_file_atomically(kFile, {bytes, json.size()});
+  const Status kept = write_file_atomically(kFile, {bytes, json.size()});
+  session.said = kept ? fmt::format("{}: what lamps are set to; --lights reads it", kFile) : kept.error().text();
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ void draw_lights(const Pack& pack, Session& session) {
     changed = true;
   }
   ImGui::SameLine();
-  if (ImGui::Button(kFile)) keep(pack, session);
+  if (ImGui::Button("keep")) keep(pack, session);
   for (std::size_t g = 0; g < lights.size(); ++g) {
     ImGui::PushID(static_cast<int>(g));
     changed |= draw_setting(pack.light_groups[g].name, lights[g]);

@@ -133,6 +133,7 @@ class Loop {
     const Camera before = session_.camera;
     move_on(input.move, floors_, dt_s, session_);
     stay_in_sight(before, scene_->pack(), session_);
+    if (const std::string line = std::exchange(session_.said, {}); !line.empty()) say(line);
     if (const auto walk = std::exchange(session_.recorded, std::nullopt)) keep(*walk);
     drag(input);
     meter_.gamepad = input.gamepad;

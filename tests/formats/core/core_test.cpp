@@ -321,5 +321,14 @@ TEST(Escaped, MarksUpNothing) {
   EXPECT_EQ(escaped(""), "");
 }
 
+TEST(Text, PatternsStandForTexts) {
+  for (const char* fitting : {"*", "desk *", "*lamp", "d*k*l*p", "desk ?amp", "desk lamp", "**desk lamp**"})
+    EXPECT_TRUE(fits_pattern(fitting, "desk lamp")) << fitting;
+  for (const char* other : {"", "desk", "lamp*", "desk lamp?", "*lamps", "Desk*"})
+    EXPECT_FALSE(fits_pattern(other, "desk lamp")) << other;
+  EXPECT_TRUE(fits_pattern("", "") && fits_pattern("*", "") && !fits_pattern("?", ""));
+  EXPECT_FALSE(fits_pattern(std::string(40, '*') + "*a*a*a*a*a*a*a*a*b", std::string(5000, 'a'))) << "in no time";
+}
+
 }  // namespace
 }  // namespace oriel
