@@ -29,6 +29,7 @@ Result<PictureDifference> difference(const FloatImage& reference, const FloatIma
     out.largest = std::max(out.largest, most);
   }
   out.picture = white > 0 ? flip_map(shown(reference, white), shown(frame, white)) : flip_map(reference, frame);
+  if (white > 0) out.visible = visible_error(reference, frame, white);
   for (const float v : out.picture.pixels) {
     out.flip += double{v};
     out.worst_flip = std::max(out.worst_flip, double{v});
@@ -38,13 +39,19 @@ Result<PictureDifference> difference(const FloatImage& reference, const FloatIma
 }
 
 std::string difference_text(const PictureDifference& d) {
-  return fmt::format("{}x{}: {} pixels changed, by {:.4g} at most; FLIP {:.4g}, at most {:.4g} in a pixel\n", d.width,
-                     d.height, d.changed, d.largest, d.flip, d.worst_flip);
+  std::string text =
+      fmt::format("{}x{}: {} pixels changed, by {:.4g} at most; FLIP {:.4g}, at most {:.4g} in a pixel\n", d.width,
+                  d.height, d.changed, d.largest, d.flip, d.worst_flip);
+  if (d.visible)
+    text += fmt::format("visible error {:.3g} (1: just noticeable), above 1 in {:.2g} % of the pixels\n",
+                        d.visible->rms, 100 * d.visible->share);
+  return text;
 }
 
 std::string difference_json(const PictureDifference& d, std::optional<double> max_flip) {
   nlohmann::ordered_json json{{"width", d.width},     {"height", d.height}, {"changed_pixels", d.changed},
                               {"largest", d.largest}, {"flip", d.flip},     {"worst_flip", d.worst_flip}};
+  if (d.visible) json["visible"] = d.visible->rms, json["visible_share"] = d.visible->share;
   if (max_flip) {
     json["max_flip"] = *max_flip;
     json["passed"] = d.flip <= *max_flip;

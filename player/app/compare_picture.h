@@ -6,6 +6,7 @@
 
 #include "formats/core/result.h"
 #include "formats/image/image.h"
+#include "formats/metrics/visible.h"
 
 namespace oriel {
 
@@ -14,7 +15,8 @@ struct PictureDifference {
   std::size_t changed = 0;          // pixels with a value that is not the same
   double largest = 0;               // difference of two values: cd/m² of linear pictures, [0, 1] of pictures as shown
   double flip = 0, worst_flip = 0;  // mean and largest over the pixels
-  FloatImage picture;               // FLIP by pixel, one channel
+  std::optional<VisibleError> visible;  // of linear pictures
+  FloatImage picture;                   // FLIP by pixel, one channel
 };
 
 // Pictures of one size, three channels: linear light, which is shown with `white` (cd/m²) as white, or, where white is

@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "formats/core/vec.h"
+#include "formats/metrics/contrast_sensitivity.h"
 #include "formats/metrics/display.h"
 #include "formats/metrics/filter.h"
 #include "formats/metrics/flip.h"
 #include "formats/metrics/relative_error.h"
 #include "formats/metrics/ssim.h"
+#include "formats/metrics/visible.h"
 
 namespace oriel {
 namespace {
@@ -189,6 +191,54 @@ TEST(Flip, FallsWithDistance) {
 TEST(Flip, OfOnePixel) {
   const FloatImage black{1, 1, 3, {0, 0, 0}}, white{1, 1, 3, {1, 1, 1}};
   EXPECT_NEAR(flip(black, white), 0.96739, 1e-4);
+}
+
+// A grating on a plain wall: its contrast over the threshold. Octaves overlap, so that one in the middle of one has a
+// part of its contrast in both beside it.
+TEST(Visible, OfAGratingIsItsContrastOverTheThreshold) {
+  constexpr std::uint32_t kWide = 256;
+  constexpr double kPixelsPerDegree = 32;
+  for (const int octave : {1, 2, 3}) {
+    const double cycles = std::sqrt(0.125) / std::exp2(octave);  // a pixel
+    const double threshold = 1 / contrast_sensitivity(cycles * kPixelsPerDegree);
+    const auto wall = picture([](auto, auto) { return Vec3(0.5f); }, kWide);
+    const auto striped = [&](double contrast) {
+      return picture(
+          [&](std::uint32_t x, auto) {
+            return Vec3(static_cast<float>(0.5 + 0.51 * contrast * std::sin(2 * kPiD * cycles * x)));
+          },
+          kWide);
+    };
+    const double once = visible_error(wall, striped(threshold), 1, kPixelsPerDegree).rms;
+    EXPECT_GT(once, 0.6) << octave;
+    EXPECT_LT(once, 1.2) << octave;
+    EXPECT_NEAR(visible_error(wall, striped(3 * threshold), 1, kPixelsPerDegree).rms, 3 * once, 0.01 * once);
+  }
+}
+
+TEST(Visible, IsNothingOfEqualFramesAndLessWhereTheReferenceIsRough) {
+  const FloatImage rough = waves();
+  EXPECT_EQ(visible_error(rough, rough, 1).rms, 0);
+  EXPECT_EQ(visible_error(rough, rough, 1).share, 0);
+  const auto with = [](FloatImage image, const FloatImage& grain) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.8f * image.pixels[i] + grain.pixels[i];
+    return image;
+  };
+  const auto grain = [](float of) {
+    return picture([=](std::uint32_t x, std::uint32_t y) { return Vec3((x * 7 + y * 13) % 5 < 2 ? of : 0.0f); });
+  };
+  const double on_rough = visible_error(with(rough, grain(0)), with(rough, grain(0.02f)), 1).rms;
+  const double on_plain =
+      visible_error(with(plain(Vec3(0.5f)), grain(0)), with(plain(Vec3(0.5f)), grain(0.02f)), 1).rms;
+  EXPECT_GT(on_plain, 1);
+  EXPECT_LT(on_rough, 0.5 * on_plain);
+}
+
+// What a display cannot show nobody sees, and a black frame divides by nothing.
+TEST(Visible, EndsAtWhiteAndAtBlack) {
+  EXPECT_EQ(visible_error(plain(Vec3(2)), plain(Vec3(3)), 1).rms, 0);
+  EXPECT_TRUE(std::isfinite(visible_error(plain(Vec3(0)), waves(), 1).rms));
+  EXPECT_EQ(visible_error(plain(Vec3(0)), plain(Vec3(0)), 1).rms, 0);
 }
 
 }  // namespace
