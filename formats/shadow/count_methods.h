@@ -1,5 +1,5 @@
-// Ways to find which texels each light sample does not reach. All give the same bits; Herf 1997, chapter 4, has the first
-// three.
+// Ways to find which texels each light sample does not reach. All give the same bits; Herf 1997, chapter 4, has the
+// first three.
 #pragma once
 
 #include <memory>

@@ -10,8 +10,8 @@ namespace oriel {
 // The rows whose centres an edge crosses, and where. Additions of integers are exact in any order: a step from row to
 // row, sixteen rows at once, or a product give the same texel.
 struct FixedEdge {
-  std::uint64_t x = 0, step = 0;         // texels · 2^32, of the first row and from row to row, modulo 2^64
-  std::int32_t first = 0, last = 0;      // rows first <= row < last
+  std::uint64_t x = 0, step = 0;     // texels · 2^32, of the first row and from row to row, modulo 2^64
+  std::int32_t first = 0, last = 0;  // rows first <= row < last
 
   // The first texel whose centre is not left of the edge (Herf 1997, section 4.3.1: left and right edges round up
   // alike). Any integer: edges may lie beside the receiver.

@@ -10,20 +10,51 @@
 namespace oriel {
 namespace {
 
-using F32x16 = float __attribute__((vector_size(64)));
-using I32x16 = std::int32_t __attribute__((vector_size(64)));
-using U32x16 = std::uint32_t __attribute__((vector_size(64)));
-
 constexpr int kBlock = 32;  // rows
 
-// x of eight texels and eight more, and the bits that say whether they count.
-constexpr F32x16 kCenter = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f, 8.5f, 9.5f, 10.5f, 11.5f, 12.5f, 13.5f, 14.5f, 15.5f};
-constexpr U32x16 kBit = {1,       1u << 1, 1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,
-                         1u << 8, 1u << 9, 1u << 10, 1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15};
-
-struct Strip {
-  F32x16 low, high;  // texels 0 to 15, and 16 to 31
+// Lanes of one register: wider vectors than there are would be taken apart number by number.
+template <int N>
+struct Registers;
+template <>
+struct Registers<4> {
+  using F = float __attribute__((vector_size(16)));
+  using U = std::uint32_t __attribute__((vector_size(16)));
 };
+template <>
+struct Registers<8> {
+  using F = float __attribute__((vector_size(32)));
+  using U = std::uint32_t __attribute__((vector_size(32)));
+};
+template <>
+struct Registers<16> {
+  using F = float __attribute__((vector_size(64)));
+  using U = std::uint32_t __attribute__((vector_size(64)));
+};
+
+template <int N>
+struct Lanes : Registers<N> {
+  using F = typename Registers<N>::F;
+  static constexpr int kParts = kStrip / N;
+
+  [[gnu::always_inline]] static F load(const float* from) {
+    F f;
+    std::memcpy(&f, from, sizeof(f));
+    return f;
+  }
+};
+
+using Strip = std::array<float, kStrip>;
+
+constexpr std::array<float, kStrip> kCenter = [] {
+  std::array<float, kStrip> center{};
+  for (int i = 0; i < kStrip; ++i) center[i] = static_cast<float>(i) + 0.5f;
+  return center;
+}();
+constexpr std::array<std::uint32_t, kStrip> kBit = [] {
+  std::array<std::uint32_t, kStrip> bit{};
+  for (int i = 0; i < kStrip; ++i) bit[i] = 1u << i;
+  return bit;
+}();
 
 // Samples as a row sees them. Of one more than there are the weight is 0: they are summed in pairs.
 struct Terms {
@@ -32,7 +63,7 @@ struct Terms {
 };
 
 struct Square {
-  std::array<float, kMostNodes> nodes{};                 // -1 to 1
+  std::array<float, kMostNodes> nodes{};                  // -1 to 1
   std::array<std::array<float, kMostNodes>, 32> basis{};  // of the texels' centres
 };
 
@@ -43,45 +74,52 @@ struct Scratch {
   Square square;
 };
 
-[[gnu::always_inline]] inline F32x16 where_set(std::uint32_t bits, const U32x16& bit, float value) {
-  return ((U32x16{} + bits) & bit) != 0 ? F32x16{} + value : F32x16{};
+template <int N>
+[[gnu::always_inline]] inline typename Lanes<N>::F where_set(std::uint32_t bits, const typename Lanes<N>::U& bit,
+                                                             float value) {
+  using L = Lanes<N>;
+  return ((typename L::U{} + bits) & bit) != 0 ? typename L::F{} + value : typename L::F{};
 }
 
 // Two samples share a division: a / r⁴ + b / s⁴ = (a s⁴ + b r⁴) / (r⁴ s⁴).
-[[gnu::always_inline]] inline F32x16 pair(const F32x16& x, const Terms& t, int i, const U32x16& bit) {
-  const F32x16 dx = x - t.along[i], dy = x - t.along[i + 1];
-  const F32x16 r2 = dx * dx + t.distance2[i], s2 = dy * dy + t.distance2[i + 1];
-  const F32x16 r4 = r2 * r2, s4 = s2 * s2;
-  const F32x16 a = where_set(t.bits[i], bit, t.weight[i]), b = where_set(t.bits[i + 1], bit, t.weight[i + 1]);
+template <int N>
+[[gnu::always_inline]] inline typename Lanes<N>::F pair(const typename Lanes<N>::F& x, const Terms& t, int i,
+                                                        const typename Lanes<N>::U& bit) {
+  using F = typename Lanes<N>::F;
+  const F dx = x - t.along[i], dy = x - t.along[i + 1];
+  const F r2 = dx * dx + t.distance2[i], s2 = dy * dy + t.distance2[i + 1];
+  const F r4 = r2 * r2, s4 = s2 * s2;
+  const F a = where_set<N>(t.bits[i], bit, t.weight[i]), b = where_set<N>(t.bits[i + 1], bit, t.weight[i + 1]);
   return (a * s4 + b * r4) / (r4 * s4);
 }
 
 // Σ weight / r⁴ over the samples whose bits are set.
+template <int N>
 [[gnu::always_inline]] inline Strip sum_where_set(const Terms& t, int count, float first, float step) {
-  const F32x16 low = (first + kCenter) * step, high = (first + 16 + kCenter) * step;
-  Strip sum{};
-  for (int i = 0; i < count; i += 2) sum.low += pair(low, t, i, kBit), sum.high += pair(high, t, i, kBit << 16);
-  return sum;
+  using L = Lanes<N>;
+  typename L::F x[L::kParts], sum[L::kParts];
+  typename L::U bit[L::kParts];
+  for (int k = 0; k < L::kParts; ++k) {
+    x[k] = (first + L::load(&kCenter[static_cast<std::size_t>(k) * N])) * step, sum[k] = typename L::F{};
+    std::memcpy(&bit[k], &kBit[static_cast<std::size_t>(k) * N], sizeof(bit[k]));
+  }
+  for (int i = 0; i < count; i += 2)
+    for (int k = 0; k < L::kParts; ++k) sum[k] += pair<N>(x[k], t, i, bit[k]);
+  Strip out;
+  std::memcpy(&out, sum, sizeof(out));
+  return out;
 }
 
 // The same of all samples at one point of a row.
 [[gnu::always_inline]] inline float sum_at(const Terms& t, int count, float x) {
-  F32x16 sums{};
-  int i = 0;
-  for (; i + 16 <= count; i += 16) {
-    F32x16 along, distance2, weight;
-    std::memcpy(&along, t.along + i, sizeof(along));
-    std::memcpy(&distance2, t.distance2 + i, sizeof(distance2));
-    std::memcpy(&weight, t.weight + i, sizeof(weight));
-    const F32x16 dx = x - along, r2 = dx * dx + distance2;
-    sums += weight / (r2 * r2);
-  }
+  std::array<float, 16> sums{};
+  for (int i = 0; i < count; i += 16)
+    for (int k = 0; k < std::min(16, count - i); ++k) {
+      const float dx = x - t.along[i + k], r2 = dx * dx + t.distance2[i + k];
+      sums[k] += t.weight[i + k] / (r2 * r2);
+    }
   float sum = 0;
-  for (int k = 0; k < 16; ++k) sum += sums[k];
-  for (; i < count; ++i) {
-    const float dx = x - t.along[i], r2 = dx * dx + t.distance2[i];
-    sum += t.weight[i] / (r2 * r2);
-  }
+  for (const float s : sums) sum += s;
   return sum;
 }
 
@@ -112,13 +150,9 @@ struct Scratch {
   }
   for (int r = 0; r < kBlock; ++r) {
     Strip sum{};
-    for (int j = 0; j < n; ++j) {
-      F32x16 low, high;
-      std::memcpy(&low, lines[j].data(), sizeof(low));
-      std::memcpy(&high, lines[j].data() + 16, sizeof(high));
-      sum.low += scratch.square.basis[r][j] * low, sum.high += scratch.square.basis[r][j] * high;
-    }
-    std::memcpy(&scratch.open[static_cast<std::size_t>(r) * kStrip], &sum, sizeof(sum));
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < kStrip; ++i) sum[i] += scratch.square.basis[r][j] * lines[j][i];
+    std::ranges::copy(sum, scratch.open.begin() + static_cast<std::ptrdiff_t>(r) * kStrip);
   }
 }
 
@@ -153,6 +187,7 @@ struct Found {
 }
 
 // 32 texels of a row. `open` is made where it is needed first.
+template <int N>
 [[gnu::always_inline]] inline Strip sum_strip(const StripTask& task, const Terms& terms, int column, int row,
                                               Scratch& scratch, bool& has_open) {
   const int count = task.rows.samples();
@@ -174,22 +209,23 @@ struct Found {
   const float first = static_cast<float>(32 * column);
   Strip sum{};
   if (!from_open && found.open == count) {
-    sum = sum_where_set(terms, count + count % 2, first, task.steps.along);
+    sum = sum_where_set<N>(terms, count + count % 2, first, task.steps.along);
   } else {
-    sum = sum_where_set(picked, pick(terms, count, picked), first, task.steps.along);
+    sum = sum_where_set<N>(picked, pick(terms, count, picked), first, task.steps.along);
   }
-  return from_open ? Strip{open.low - sum.low, open.high - sum.high} : sum;
+  if (from_open)
+    for (int i = 0; i < kStrip; ++i) sum[i] = open[i] - sum[i];
+  return sum;
 }
 
 // Times the cosine at the light.
 [[gnu::always_inline]] inline void put(const StripTask& task, Strip sum, int column, int row) {
   const auto& s = task.steps;
   const float base = s.emission + (static_cast<float>(row) + 0.5f) * s.emission_y, x = static_cast<float>(32 * column);
-  const F32x16 low = base + (x + kCenter) * s.emission_x, high = base + (x + 16 + kCenter) * s.emission_x;
-  const F32x16 zero{};
-  const F32x16 back_low = s.double_sided ? -low : zero, back_high = s.double_sided ? -high : zero;
-  sum.low = (sum.low > 0 ? sum.low : zero) * (low > 0 ? low : back_low);
-  sum.high = (sum.high > 0 ? sum.high : zero) * (high > 0 ? high : back_high);
+  for (int i = 0; i < kStrip; ++i) {
+    const float cosine = base + (x + kCenter[i]) * s.emission_x;
+    sum[i] = std::max(sum[i], 0.0f) * (s.double_sided ? std::abs(cosine) : std::max(cosine, 0.0f));
+  }
   const int width = task.rows.width(), texels = std::min(kStrip, width - 32 * column);
   float* out = task.out.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + 32 * column;
   if (texels == kStrip) {
@@ -199,6 +235,7 @@ struct Found {
   }
 }
 
+template <int N>
 [[gnu::always_inline]] inline void sum_all(const StripTask& task, Scratch& scratch) {
   const std::size_t stride = scratch.weight.size();
   for (int top = 0; top < task.rows.height(); top += kBlock) {
@@ -211,19 +248,19 @@ struct Found {
     for (int column = 0; column < task.rows.words(); ++column) {
       bool has_open = false;
       for (int row = top; row < end; ++row)
-        put(task, sum_strip(task, terms_of(row), column, row, scratch, has_open), column, row);
+        put(task, sum_strip<N>(task, terms_of(row), column, row, scratch, has_open), column, row);
     }
   }
 }
 
 void sum_baseline(const StripTask& task, Scratch& scratch) {
-  sum_all(task, scratch);
+  sum_all<4>(task, scratch);
 }
 [[gnu::target("avx2")]] void sum_avx2(const StripTask& task, Scratch& scratch) {
-  sum_all(task, scratch);
+  sum_all<8>(task, scratch);
 }
 [[gnu::target("avx2,avx512f,avx512dq,avx512bw,avx512vl")]] void sum_avx512(const StripTask& task, Scratch& scratch) {
-  sum_all(task, scratch);
+  sum_all<16>(task, scratch);
 }
 
 // Chebyshev points of the first kind, and what each weighs at the centres of 32 texels (barycentric form: Berrut and

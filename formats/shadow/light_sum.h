@@ -29,8 +29,8 @@ class LightSum {
     std::vector<float> along, across, height2, weight;
   };
   struct Steps {
-    float along = 0, across = 0, skew = 0;                  // a texel along its row; a row across and along
-    float emission = 0, emission_x = 0, emission_y = 0;     // light's normal · (sample - texel), an affine function
+    float along = 0, across = 0, skew = 0;               // a texel along its row; a row across and along
+    float emission = 0, emission_x = 0, emission_y = 0;  // light's normal · (sample - texel), an affine function
     bool double_sided = false;
     int nodes = 0;  // Chebyshev points along a side of a square; 0: the sum is done in full
   };
@@ -41,8 +41,8 @@ class LightSum {
 };
 
 // The same without shadows, as the paper has it: radiance · π times the polygon's form factor in closed form (Lambert
-// 1760) at every `every`-th texel, bilinear between (Herf 1997, section 4.3.4). corners: of the light, counter-clockwise
-// seen from its front.
+// 1760) at every `every`-th texel, bilinear between (Herf 1997, section 4.3.4). corners: of the light,
+// counter-clockwise seen from its front.
 std::vector<float> form_factor_light(const ShadowReceiver& receiver, std::span<const DVec3> corners, int every);
 
 }  // namespace oriel

@@ -43,8 +43,7 @@ class View {
       light_.lower = min(light_.lower, apex), light_.upper = max(light_.upper, apex);
     }
     if (out_.apexes.empty() || in_.nodes.empty()) return std::move(out_);
-    one_side_.resize(in_.parts.size());
-    for (std::size_t p = 0; p < in_.parts.size(); ++p) one_side_[p] = casts_by_one_side(in_.parts[p]);
+    one_side_.resize(in_.parts.size(), -1);
     std::vector<std::uint32_t> open{0};
     while (!open.empty()) {
       const OccluderNode& node = in_.nodes[open.back()];
@@ -69,16 +68,19 @@ class View {
 
   bool may_shadow(const Box& box) {
     ++out_.tested;
-    return box.upper.z > touching_ && box.lower.z < light_.upper.z &&
-           may_be_seen(box, light_, 0, receiver_.width) && may_be_seen(box, light_, 1, receiver_.height);
+    return box.upper.z > touching_ && box.lower.z < light_.upper.z && may_be_seen(box, light_, 0, receiver_.width) &&
+           may_be_seen(box, light_, 1, receiver_.height);
   }
 
   // Rays from the receiver to the light meet as many fronts as backs where neither is inside.
-  bool casts_by_one_side(const OccluderPart& part) const {
-    if (!part.closed) return false;
+  bool casts_by_one_side(std::uint32_t p) {
+    if (one_side_[p] >= 0) return one_side_[p] == 1;
+    const OccluderPart& part = in_.parts[p];
     const Box box = box_of(part.lower, part.upper);
-    const bool apart = glm::any(glm::lessThan(box.upper, light_.lower)) || glm::any(glm::lessThan(light_.upper, box.lower));
-    return box.lower.z > touching_ && apart;
+    const bool apart =
+        glm::any(glm::lessThan(box.upper, light_.lower)) || glm::any(glm::lessThan(light_.upper, box.lower));
+    one_side_[p] = part.closed && box.lower.z > touching_ && apart;
+    return one_side_[p] == 1;
   }
 
   std::uint32_t add_point(const DVec3& p) {
@@ -132,7 +134,7 @@ class View {
       out_.beside_light.push_back(at);
       return;
     }
-    ViewFace face{.points = p, .edges = {}, .part = part, .one_side = one_side_[part]};
+    ViewFace face{.points = p, .edges = {}, .part = part, .one_side = casts_by_one_side(part)};
     for (int k = 0; k < 3; ++k) face.edges[k] = edge(p[k], p[(k + 1) % 3]);
     out_.faces.push_back(face);
   }
@@ -155,7 +157,7 @@ class View {
   ReceiverSpace space_;
   double touching_;
   Box light_{};
-  std::vector<bool> one_side_;  // by part
+  std::vector<std::int8_t> one_side_;  // by part; -1: not yet asked
   std::unordered_map<std::uint32_t, std::uint32_t> point_of_;
   std::unordered_map<std::uint64_t, std::uint32_t> cut_of_, edge_of_;
   OccluderView out_;

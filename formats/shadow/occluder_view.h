@@ -10,7 +10,7 @@ namespace oriel {
 inline constexpr std::uint32_t kNoFace = ~0u;
 
 struct ViewEdge {
-  std::uint32_t a = 0, b = 0;                    // points, a < b
+  std::uint32_t a = 0, b = 0;  // points, a < b
   std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};
 };
 
@@ -23,13 +23,13 @@ struct ViewFace {
 // What of the occluders can cast a shadow. Faces that reach behind the receiver are cut at its plane. Of more than two
 // faces on one edge each further pair has an edge of its own at the same place.
 struct OccluderView {
-  std::vector<DVec3> apexes;             // the light samples in front of the receiver,
-  std::vector<std::uint32_t> apex_of;    // as numbered in the light
+  std::vector<DVec3> apexes;           // the light samples in front of the receiver,
+  std::vector<std::uint32_t> apex_of;  // as numbered in the light
   std::vector<DVec3> points;
   std::vector<ViewEdge> edges;
-  std::vector<ViewFace> faces;                    // nearer to the receiver than every sample
+  std::vector<ViewFace> faces;                     // nearer to the receiver than every sample
   std::vector<std::array<DVec3, 3>> beside_light;  // reach as far from the receiver as some sample: cut for each sample
-  std::size_t tested = 0;                         // boxes and faces that were looked at
+  std::size_t tested = 0;                          // boxes and faces that were looked at
 };
 
 // touching: what is not further from the plane than this lies in it and casts nothing, metres.

@@ -52,7 +52,8 @@ void Occluders::find_parts() {
     f.part = part_of.try_emplace(find(f.points[0]), static_cast<std::uint32_t>(parts.size())).first->second;
     if (f.part == parts.size()) parts.push_back({true, points[f.points[0]], points[f.points[0]]});
     OccluderPart& part = parts[f.part];
-    for (const std::uint32_t p : f.points) part.lower = min(part.lower, points[p]), part.upper = max(part.upper, points[p]);
+    for (const std::uint32_t p : f.points)
+      part.lower = min(part.lower, points[p]), part.upper = max(part.upper, points[p]);
   }
   // Closed: every directed edge once, and its reverse once.
   std::vector<std::array<std::uint32_t, 3>> edges;  // from, to, part
@@ -81,9 +82,8 @@ void Occluders::split(std::uint32_t index) {
   const DVec3 size = most - least;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const auto begin = faces.begin() + first;
-  std::nth_element(begin, begin + count / 2, begin + count, [&](const OccluderFace& a, const OccluderFace& b) {
-    return middle(a)[axis] < middle(b)[axis];
-  });
+  std::nth_element(begin, begin + count / 2, begin + count,
+                   [&](const OccluderFace& a, const OccluderFace& b) { return middle(a)[axis] < middle(b)[axis]; });
   nodes[index].left = static_cast<std::uint32_t>(nodes.size());
   nodes.push_back({.first = first, .count = count / 2});
   nodes.push_back({.first = first + count / 2, .count = count - count / 2});

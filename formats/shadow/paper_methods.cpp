@@ -14,8 +14,7 @@ template <class Visit>
 void visit_spans(const FaceEdges& face, int width, const Visit& visit) {
   int first = face[0].first, last = face[0].last;
   for (const FixedEdge& e : face)
-    if (e.first < e.last)
-      first = first < last ? std::min(first, e.first) : e.first, last = std::max(last, e.last);
+    if (e.first < e.last) first = first < last ? std::min(first, e.first) : e.first, last = std::max(last, e.last);
   for (int row = first; row < last; ++row) {
     int from = width, to = 0;
     for (const FixedEdge& e : face) {
@@ -32,7 +31,8 @@ void visit_faces(const SampleBatch& batch, int lane, const Visit& visit) {
   const auto& edges = batch.projected.edges;
   for (std::size_t f = 0; f < batch.view.faces.size(); ++f) {
     const auto& e = batch.view.faces[f].edges;
-    if (batch.projected.sides[f][lane] != 0) visit(FaceEdges{edges[e[0]].of(lane), edges[e[1]].of(lane), edges[e[2]].of(lane)});
+    if (batch.projected.sides[f][lane] != 0)
+      visit(FaceEdges{edges[e[0]].of(lane), edges[e[1]].of(lane), edges[e[2]].of(lane)});
   }
   for (const FaceEdges& face : batch.beside_light[lane]) visit(face);
 }
@@ -101,8 +101,8 @@ int direction_of(const SampleBatch& batch, const ViewEdge& edge, int lane) {
   for (const std::uint32_t f : edge.faces) {
     if (f == kNoFace) continue;
     const auto& corners = batch.view.faces[f].points;
-    const bool along = (corners[0] == edge.a && corners[1] == edge.b) || (corners[1] == edge.a && corners[2] == edge.b) ||
-                       (corners[2] == edge.a && corners[0] == edge.b);
+    const bool along = (corners[0] == edge.a && corners[1] == edge.b) ||
+                       (corners[1] == edge.a && corners[2] == edge.b) || (corners[2] == edge.a && corners[0] == edge.b);
     sum += p.sides[f][lane] * (along == up ? -1 : 1);
   }
   return sum;

@@ -70,7 +70,8 @@ std::vector<FaceEdges> edges_beside_light(const OccluderView& view, const DVec3&
   std::vector<FaceEdges> out;
   for (const auto& triangle : view.beside_light)
     for (const auto& t : cut_at_light(apex, triangle))
-      out.push_back({fixed_edge(t[0].x, t[0].y, t[1].x, t[1].y, height), fixed_edge(t[1].x, t[1].y, t[2].x, t[2].y, height),
+      out.push_back({fixed_edge(t[0].x, t[0].y, t[1].x, t[1].y, height),
+                     fixed_edge(t[1].x, t[1].y, t[2].x, t[2].y, height),
                      fixed_edge(t[2].x, t[2].y, t[0].x, t[0].y, height)});
   return out;
 }

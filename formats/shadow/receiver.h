@@ -1,4 +1,5 @@
-// The planar receiver of a shadow texture: a parallelogram cut into texels, and the space in which light samples see it.
+// The planar receiver of a shadow texture: a parallelogram cut into texels, and the space in which light samples see
+// it.
 #pragma once
 
 #include "formats/core/vec.h"

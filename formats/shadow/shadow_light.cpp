@@ -51,9 +51,8 @@ std::vector<DVec2> jittered_pattern(int count) {
 }
 
 bool ShadowLight::one_color() const {
-  return std::ranges::all_of(samples, [&](const ShadowLightSample& s) {
-    return glm::cross(s.power, samples.front().power) == Vec3(0);
-  });
+  return std::ranges::all_of(
+      samples, [&](const ShadowLightSample& s) { return glm::cross(s.power, samples.front().power) == Vec3(0); });
 }
 
 ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& radiance, int samples) {
@@ -62,7 +61,8 @@ ShadowLight sample_parallelogram(const LightParallelogram& light, const Vec3& ra
   ORIEL_CHECK(area > 0);
   ShadowLight out{.samples = {}, .normal = normal / area, .double_sided = light.double_sided};
   for (const DVec2& u : jittered_pattern(samples))
-    out.samples.push_back({light.corner + u.x * light.x + u.y * light.y, radiance * static_cast<float>(area / samples)});
+    out.samples.push_back(
+        {light.corner + u.x * light.x + u.y * light.y, radiance * static_cast<float>(area / samples)});
   return out;
 }
 

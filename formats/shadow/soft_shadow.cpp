@@ -35,10 +35,18 @@ const BlockedRows& SoftShadows::block(const OccluderView& view, const ShadowRece
         beside_light[i] = edges_beside_light(view, view.apexes[static_cast<std::size_t>(first + i)], receiver.height);
     const SampleBatch batch{view, projected_, beside_light, first, count};
     switch (options_.method) {
-      case CountMethod::kImages: fill_images(batch, rows_); break;
-      case CountMethod::kSpanBuffers: fill_span_buffers(batch, rows_); break;
-      case CountMethod::kEdgeFlags: fill_edge_flags(batch, rows_); break;
-      case CountMethod::kBitRows: fill_bit_rows(batch, options_.simd, rows_); break;
+      case CountMethod::kImages:
+        fill_images(batch, rows_);
+        break;
+      case CountMethod::kSpanBuffers:
+        fill_span_buffers(batch, rows_);
+        break;
+      case CountMethod::kEdgeFlags:
+        fill_edge_flags(batch, rows_);
+        break;
+      case CountMethod::kBitRows:
+        fill_bit_rows(batch, options_.simd, rows_);
+        break;
     }
   }
   return rows_;

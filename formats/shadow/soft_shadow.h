@@ -11,15 +11,17 @@ namespace oriel {
 
 struct SoftShadowOptions {
   CountMethod method = CountMethod::kBitRows;
-  double touching = 0;  // occluders no further from the receiver's plane cast nothing, metres; what rounding moves is added
+  double touching =
+      0;  // occluders no further from the receiver's plane cast nothing, metres; what rounding moves is added
   Simd simd = best_simd();
 };
 
 struct SoftShadow {
   int width = 0, height = 0;
-  std::array<std::vector<float>, 3> light;  // irradiance by channel, lux for powers in candela; one channel where one_color
+  std::array<std::vector<float>, 3>
+      light;  // irradiance by channel, lux for powers in candela; one channel where one_color
   bool one_color = false;
-  Vec3 color{1};  // of that channel
+  Vec3 color{1};          // of that channel
   std::size_t faces = 0;  // that were left after culling
 };
 

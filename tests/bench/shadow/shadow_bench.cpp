@@ -81,7 +81,8 @@ double rays_ms(const Floating& f, std::size_t& differ) {
   std::vector<UVec3> triangles;
   for (const DVec3& p : f.points) positions.emplace_back(p);
   for (const auto& t : f.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  parts.mesh("floating", parts.diffuse(Vec3(0.5f)), positions, std::vector<Vec3>(positions.size(), Vec3(0, 0, 1)), triangles);
+  parts.mesh("floating", parts.diffuse(Vec3(0.5f)), positions, std::vector<Vec3>(positions.size(), Vec3(0, 0, 1)),
+             triangles);
   const Scene scene = parts.finish();
   const Accel accel = Accel::build(scene).value();
   const auto texels = static_cast<std::size_t>(f.receiver.width * f.receiver.height);
@@ -101,8 +102,8 @@ double rays_ms(const Floating& f, std::size_t& differ) {
     accel.transmittance(rays, passed);
     ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t i = 0; i < texels; ++i)
-      differ += rows.blocked(static_cast<int>(s), static_cast<int>(i) % f.receiver.width, static_cast<int>(i) / f.receiver.width) !=
-                (passed[i].x == 0);
+      differ += rows.blocked(static_cast<int>(s), static_cast<int>(i) % f.receiver.width,
+                             static_cast<int>(i) / f.receiver.width) != (passed[i].x == 0);
   }
   return ms;
 }
@@ -125,8 +126,8 @@ void print_methods() {
 
 void print_scaling() {
   std::printf("\nBit rows beside shadow rays (Embree, packets of 16, no weights)\n");
-  std::printf("%9s %8s %7s %9s %9s %9s %7s %13s\n", "triangles", "samples", "texels", "ms", "rays ms", "textures/s", "times",
-              "rays differ");
+  std::printf("%9s %8s %7s %9s %9s %9s %7s %13s\n", "triangles", "samples", "texels", "ms", "rays ms", "textures/s",
+              "times", "rays differ");
   for (const auto& s : {Setting{}, Setting{.occluders = 30}, Setting{.occluders = 3000}, Setting{.samples = 16},
                         Setting{.samples = 256}, Setting{.texels = 128}, Setting{.texels = 512}}) {
     const Floating f(s);
@@ -139,7 +140,8 @@ void print_scaling() {
 
 // Herf 1997, section 5.2: a receiver among n polygons that fill a hall of their own density.
 void print_culling() {
-  std::printf("\nCulling: a hall with one triangle a square metre\n%9s %12s %12s %10s\n", "triangles", "looked at", "left", "ms");
+  std::printf("\nCulling: a hall with one triangle a square metre\n%9s %12s %12s %10s\n", "triangles", "looked at",
+              "left", "ms");
   for (const int n : {100, 1000, 10000, 100000}) {
     const Floating f({.occluders = n}, std::sqrt(n));
     const Occluders occluders = f.occluders();
@@ -153,7 +155,8 @@ void print_culling() {
 // The paper's equal weights beside exact ones, 300 triangles, 64 samples.
 void print_weights() {
   std::printf("\nThe paper's equal weights, of the light without shadows\n%-28s %10s %10s\n", "", "RMS", "most");
-  for (const auto& s : {Setting{.light = 0.2, .height = 1}, Setting{}, Setting{.light = 2}, Setting{.light = 1, .height = 0.6}}) {
+  for (const auto& s :
+       {Setting{.light = 0.2, .height = 1}, Setting{}, Setting{.light = 2}, Setting{.light = 1, .height = 0.6}}) {
     const Floating f(s);
     SoftShadows shadows;
     SoftShadow exact;
@@ -168,7 +171,8 @@ void print_weights() {
       most = std::max(most, std::abs(difference) / open[i]);
     }
     std::printf("lamp %.1f m wide, %.1f m high   %9.2f%% %9.1f%%\n", s.light, s.height,
-                100 * std::sqrt(square / static_cast<double>(open.size())) / (light / static_cast<double>(open.size())), 100 * most);
+                100 * std::sqrt(square / static_cast<double>(open.size())) / (light / static_cast<double>(open.size())),
+                100 * most);
   }
 }
 

@@ -20,8 +20,8 @@ inline int volume(const Half& a, const Half& b, const Half& c, const Half& d) {
   std::array<Half, 3> e{};
   for (int k = 0; k < 3; ++k) e[0][k] = b[k] - a[k], e[1][k] = c[k] - a[k], e[2][k] = d[k] - a[k];
   const std::int64_t v = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-                     e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-                     e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+                         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
   return (v > 0) - (v < 0);
 }
 
@@ -52,8 +52,8 @@ struct ShadowScene {
   }
   void add_box(const DVec3& lo, const DVec3& hi) {
     const auto at = [&](int i) { return DVec3(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z); };
-    for (const auto& q : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4}, std::array{2, 6, 7, 3},
-                          std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    for (const auto& q : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+                          std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
       add(at(q[0]), at(q[1]), at(q[2]));
       add(at(q[0]), at(q[2]), at(q[3]));
     }
@@ -80,10 +80,11 @@ inline Compared compare_with_rays(const ShadowScene& scene, const BlockedRows& r
     for (int y = 0; y < rows.height(); ++y)
       for (int x = 0; x < rows.width(); ++x) {
         Ray ray = Ray::kFree;
-        for (const auto& t : triangles) ray = std::max(ray, cast({2 * x + 1, 2 * y + 1, 0}, to, t), [](Ray a, Ray b) {
-          const auto rank = [](Ray r) { return r == Ray::kBlocked ? 2 : r == Ray::kTouched ? 1 : 0; };
-          return rank(a) < rank(b);
-        });
+        for (const auto& t : triangles)
+          ray = std::max(ray, cast({2 * x + 1, 2 * y + 1, 0}, to, t), [](Ray a, Ray b) {
+            const auto rank = [](Ray r) { return r == Ray::kBlocked ? 2 : r == Ray::kTouched ? 1 : 0; };
+            return rank(a) < rank(b);
+          });
         const bool bit = rows.blocked(static_cast<int>(s), x, y);
         ++out.rays, out.blocked += bit, out.touched += ray == Ray::kTouched;
         out.wrong += ray != Ray::kTouched && bit != (ray == Ray::kBlocked);

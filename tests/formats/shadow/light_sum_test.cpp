@@ -32,8 +32,8 @@ double error_of(const ShadowReceiver& receiver, const ShadowLight& light, const 
         if (!rows.blocked(static_cast<int>(s), x, y)) sum += part;
       }
       for (int c = 0; c < 3; ++c) {
-        const double found = out.one_color ? out.light[0][y * receiver.width + x] * out.color[c]
-                                           : out.light[c][y * receiver.width + x];
+        const double found =
+            out.one_color ? out.light[0][y * receiver.width + x] * out.color[c] : out.light[c][y * receiver.width + x];
         worst = std::max(worst, std::abs(found - sum[c])), most = std::max(most, open[c]);
       }
     }
@@ -59,8 +59,9 @@ TEST_P(LightSums, AreThoseOfEverySample) {
     // A skewed receiver away from the origin and a tilted light over it.
     const ShadowReceiver receiver = make_shadow_receiver(scale * DVec3(-0.1, 0.05, 0.0), scale * DVec3(1.0, 0.1, 0.02),
                                                          scale * DVec3(0.2, 0.9, -0.01), {100, 70}, DVec3(0, 0, 1));
-    ShadowLight light = sample_parallelogram({scale * DVec3(0.4, 0.3, 1.0), scale * DVec3(0.1, 0.3, 0.1), scale * DVec3(0.3, -0.1, 0.05)},
-                                             Vec3(3, 2, 1), samples);
+    ShadowLight light = sample_parallelogram(
+        {scale * DVec3(0.4, 0.3, 1.0), scale * DVec3(0.1, 0.3, 0.1), scale * DVec3(0.3, -0.1, 0.05)}, Vec3(3, 2, 1),
+        samples);
     const Occluders boxes = some_boxes(scale);
     for (const Simd simd : {Simd::kBaseline, Simd::kAvx2, Simd::kAvx512}) {
       if (simd > best_simd()) continue;
@@ -75,13 +76,15 @@ TEST_P(LightSums, AreThoseOfEverySample) {
 INSTANTIATE_TEST_SUITE_P(Scales, LightSums, testing::Values(1e-4, 1.0, 1e6));
 
 TEST(LightSum, OfALowLightIsSummedInFull) {
-  const ShadowReceiver receiver = make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {64, 64}, DVec3(0, 0, 1));
+  const ShadowReceiver receiver =
+      make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {64, 64}, DVec3(0, 0, 1));
   const ShadowLight light = sample_parallelogram({{1, 1, 0.02}, {0, 1, 0}, {1, 0, 0.3}}, Vec3(1), 16);
   EXPECT_LT(error_of(receiver, light, {}, best_simd()), 4e-6);
 }
 
 TEST(LightSum, IsTheSameOnEveryInstructionSet) {
-  const ShadowReceiver receiver = make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {70, 50}, DVec3(0, 0, 1));
+  const ShadowReceiver receiver =
+      make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {70, 50}, DVec3(0, 0, 1));
   const ShadowLight light = sample_parallelogram({{1, 1, 3}, {0, 1, 0}, {1, 0, 0.3}, true}, Vec3(1), 40);
   const Occluders boxes = some_boxes(3);
   SoftShadow first, now;
@@ -95,7 +98,8 @@ TEST(LightSum, IsTheSameOnEveryInstructionSet) {
 
 // Lambert's form of the whole light is what samples converge to.
 TEST(LightSum, ConvergesToTheClosedForm) {
-  const ShadowReceiver receiver = make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {64, 64}, DVec3(0, 0, 1));
+  const ShadowReceiver receiver =
+      make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {64, 64}, DVec3(0, 0, 1));
   const std::array<DVec3, 4> corners{DVec3(1, 1, 2), {1, 3, 2}, {3, 3, 2}, {3, 1, 2}};  // shines down
   const std::vector<float> exact = form_factor_light(receiver, corners, 1);
   std::array<double, 2> error{};
@@ -108,15 +112,18 @@ TEST(LightSum, ConvergesToTheClosedForm) {
   }
   EXPECT_LT(error[0], 0.1);
   EXPECT_LT(error[1], 3e-3);
-  // A corner of the cube that a unit square over a point makes: 0.1385 · π (form factor of two parallel squares' corner).
+  // A corner of the cube that a unit square over a point makes: 0.1385 · π (form factor of two parallel squares'
+  // corner).
   const std::array<DVec3, 4> unit{DVec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
-  const ShadowReceiver point = make_shadow_receiver(DVec3(-0.5, -0.5, 0), DVec3(1, 0, 0), DVec3(0, 1, 0), {1, 1}, DVec3(0, 0, 1));
+  const ShadowReceiver point =
+      make_shadow_receiver(DVec3(-0.5, -0.5, 0), DVec3(1, 0, 0), DVec3(0, 1, 0), {1, 1}, DVec3(0, 0, 1));
   EXPECT_NEAR(form_factor_light(point, unit, 1)[0], std::atan(1 / std::sqrt(2.0)) / std::sqrt(2.0), 1e-6);
 }
 
 // Halves of the distance between its points take the error of a bilinear surface to a quarter.
 TEST(LightSum, FormFactorsBetweenTexelsAreOfSecondOrder) {
-  const ShadowReceiver receiver = make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {67, 64}, DVec3(0, 0, 1));
+  const ShadowReceiver receiver =
+      make_shadow_receiver(DVec3(0), DVec3(4, 0, 0), DVec3(0, 4, 0), {67, 64}, DVec3(0, 0, 1));
   const std::array<DVec3, 4> corners{DVec3(1, 1, 2), {1, 3, 2}, {3, 3, 2}, {3, 1, 2}};
   const std::vector<float> exact = form_factor_light(receiver, corners, 1);
   const auto error = [&](int every) {
@@ -164,7 +171,8 @@ TEST(LightPattern, CellsHoldOnePointEach) {
 }
 
 TEST(LightPattern, TrianglesShareTheAreaOfTheLight) {
-  const ShadowLight light = sample_triangles({{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}}, {{0, 0, 1}, {2, 2, 1}, {0, 2, 1}}}, Vec3(5), 33);
+  const ShadowLight light =
+      sample_triangles({{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}}, {{0, 0, 1}, {2, 2, 1}, {0, 2, 1}}}, Vec3(5), 33);
   EXPECT_EQ(light.samples.size(), 33u);
   Vec3 sum(0);
   for (const ShadowLightSample& s : light.samples) sum += s.power;

@@ -6,7 +6,8 @@
 namespace oriel {
 namespace {
 
-constexpr std::array kMethods{CountMethod::kImages, CountMethod::kSpanBuffers, CountMethod::kEdgeFlags, CountMethod::kBitRows};
+constexpr std::array kMethods{CountMethod::kImages, CountMethod::kSpanBuffers, CountMethod::kEdgeFlags,
+                              CountMethod::kBitRows};
 
 // All methods alike and, for each instruction set that there is, as rays have it. Texels that an edge touches count as
 // neither.
@@ -54,7 +55,8 @@ TEST(ShadowRays, RandomTriangles) {
     scene.light_over({10, 5, 60}, {30, 25, 0}, 9);
     for (int k = 0; k < 24; ++k) {
       const DVec3 middle = place(random, {-10, -10, 3}, {80, 50, 50});
-      scene.add(middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)), middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)),
+      scene.add(middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)),
+                middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)),
                 middle + place(random, DVec3(-9, -9, -3), DVec3(9, 9, 3)));
     }
     EXPECT_GT(check(scene).blocked, 300u);
@@ -68,7 +70,8 @@ TEST(ShadowRays, AcrossTheLightsPlaneAndBehindTheReceiver) {
     ShadowScene scene;
     scene.light_over({20, 15, 30}, {20, 20, 0}, 8);
     for (int k = 0; k < 12; ++k)
-      scene.add(place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)), place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)),
+      scene.add(place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)),
+                place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)),
                 place(random, DVec3(-20, -20, -40), DVec3(80, 60, 70)));
     check(scene);
   }
@@ -124,13 +127,13 @@ TEST(ShadowRays, OpenMeshesAndMoreThanTwoFacesOnAnEdge) {
 TEST(ShadowRays, TouchingCoplanarAndDoubledOccluders) {
   ShadowScene scene;
   scene.light_over({20, 15, 40}, {10, 20, 0}, 10);
-  scene.add_box({10, 10, 0}, {20, 20, 10});                           // stands on the receiver
-  scene.add_box({30, 10, -5}, {40, 20, 10});                          // through it
-  scene.add({0, 0, 0}, {50, 0, 0}, {0, 40, 0});                       // in its plane
-  scene.add({0, 0, -3}, {50, 0, -3}, {0, 40, -3});                    // behind it
-  scene.add_box({20, 10, 0}, {25, 20, 10});                           // shares a face with the first
+  scene.add_box({10, 10, 0}, {20, 20, 10});         // stands on the receiver
+  scene.add_box({30, 10, -5}, {40, 20, 10});        // through it
+  scene.add({0, 0, 0}, {50, 0, 0}, {0, 40, 0});     // in its plane
+  scene.add({0, 0, -3}, {50, 0, -3}, {0, 40, -3});  // behind it
+  scene.add_box({20, 10, 0}, {25, 20, 10});         // shares a face with the first
   scene.add_box({10, 30, 8}, {20, 40, 12}), scene.add_box({10, 30, 8}, {20, 40, 12});
-  scene.add({5, 5, 10}, {5, 5, 10}, {9, 9, 10});                      // no area
+  scene.add({5, 5, 10}, {5, 5, 10}, {9, 9, 10});  // no area
   EXPECT_GT(check(scene).blocked, 1000u);
 }
 
