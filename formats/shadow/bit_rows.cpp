@@ -74,11 +74,11 @@ struct Sides {
   const int first_word = lowest / 32, last_word = (highest - 1) / 32;
   U64x8 x = s.all.x + kLane * s.all.step, lower = s.lower.x + kLane * s.lower.step;
   U64x8 upper = s.upper.x + kLane * s.upper.step;
-  const I32x8 width = I32x8{} + target.width;
+  const I32x8 zero{}, width = zero + target.width;
   for (int r = 0; r < rows; r += kLanes) {
     const I32x8 row = kLane32 + r;
     const I32x8 other = row < s.middle - top ? texels(lower) : texels(upper);
-    const I32x8 p = least(texels(x), width), q = least(other, width);
+    const I32x8 p = most(least(texels(x), width), zero), q = most(least(other, width), zero);
     const U32x8 inside = reinterpret_cast<const U32x8&>(static_cast<const I32x8&>(row < rows));
     std::uint32_t* word = target.bits + static_cast<std::size_t>(first_word) * target.column + top + r;
     for (int w = first_word; w <= last_word; ++w, word += target.column) {
