@@ -31,6 +31,7 @@ int report(const oriel::Error& error) {
 }
 
 oriel::Result<oriel::sample::SampleScene> make_scene(const Arguments& arguments) {
+  if (arguments.scene == "colonnade") return oriel::sample::make_colonnade();
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
   if (arguments.scene == "panels") return oriel::sample::make_panels();
@@ -124,10 +125,11 @@ int main(int argc, char** argv) {
       "oriel-scenes"};
   Arguments arguments;
   app.add_option("scene", arguments.scene,
-                 "Which scene: the Cornell box, a room in a landscape under a sky dome, a museum of three rooms, a "
+                 "Which scene: a hall of 200 columns, the Cornell box, a room in a landscape under a sky dome, a "
+                 "museum of three rooms, a "
                  "two-storey house, a wall of panels and other things that stand little proud, a closed room without "
                  "a camera, a room with curved metal")
-      ->check(CLI::IsMember({"cornell", "dome", "gallery", "house", "panels", "room", "studio"}));
+      ->check(CLI::IsMember({"colonnade", "cornell", "dome", "gallery", "house", "panels", "room", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
   app.add_option("--unit", arguments.unit, "Of the file's numbers, which glTF says are metres: m, cm, mm, km")
       ->check(CLI::IsMember(kUnits_per_m))

@@ -27,6 +27,7 @@ const Arrows kRestsOn = {
     {"formats/metrics", {"formats/image"}},
     {"formats/assets", {"formats/core"}},
     {"formats/query", {"formats/assets"}},
+    {"formats/shadow", {"formats/core"}},  // shared by bake and player: no scene, no OpenGL
     {"formats/pack", {"formats/query"}},
     {"formats/analysis", {"formats/pack", "formats/metrics"}},
     {"formats/export", {"formats/analysis"}},
