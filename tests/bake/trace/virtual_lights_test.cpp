@@ -51,7 +51,8 @@ class Meter {
     DVec3 sum(0);
     for (std::uint32_t k = 0; k < samples; ++k) {
       Sampler sampler(1, 0, k);
-      sum += DVec3(sample_irradiance({accel_, lights_, {}}, s, sampler, rays).direct);
+      const IrradianceSample e = sample_irradiance({accel_, lights_, {}}, s, sampler, rays);
+      sum += DVec3(e.direct) + DVec3(e.indirect);
     }
     return Vec3(sum / double(samples));
   }
@@ -112,6 +113,21 @@ TEST(VirtualLights, APointInAMirrorIsALampBehindIt) {
   EXPECT_NEAR(meter.at(p, {0, -1, 0}).g, straight + image, 1e-3 * image);
   const double beside = 100 / (0.36 + 1 + 0.04) / std::sqrt(1.4);
   EXPECT_NEAR(meter.at({0.6f, 0, 0.2f}, {0, 1, 0}).g, beside, 1e-3 * beside) << "beside the mirror on the floor";
+}
+
+// A lamp that paths meet by chance in the mirror, in place of the point.
+TEST(VirtualLights, ASmallLampByPathsIsTheSame) {
+  SceneParts parts = floor_mirror();
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1000)), {-0.15f, 1, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f});  // down
+  const Vec3 p(0.6f, 1.5f, 0.2f);  // it sees the lamp in the mirror alone
+  const double paths = Meter(parts.finish()).at(p, {0, -1, 0}, 1 << 20).g;
+  SceneParts point = floor_mirror();
+  point.quad("shade", point.diffuse(Vec3(0)), {-0.15f, 1.001f, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f});
+  point.scene().lights = {point_at({0, 1, 0}, 90)};
+  const double cosine = 2.5 / std::sqrt(2.5 * 2.5 + 0.4);
+  const double image = Meter(point.finish()).at(p, {0, -1, 0}).g * cosine;  // as a flat lamp shines
+  EXPECT_NEAR(paths / image, 1, 0.05) << "800 paths of a million, 3.5 %";
+  EXPECT_GT(image, 5);
 }
 
 TEST(VirtualLights, ASpotsConeIsMirrored) {
