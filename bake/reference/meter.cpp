@@ -101,6 +101,20 @@ Vec3 Meter::sample_punctual(const Place& place, std::uint64_t stream, std::uint3
   return sum;
 }
 
+// Of the same lights by way of mirrors.
+Vec3 Meter::sample_mirrored(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
+  const VirtualLights& mirrored = t_.lights.mirrored();
+  Vec3 sum(0);
+  for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
+    if (mirrored[i].order > t_.options.max_bounces) continue;
+    Sampler sampler(context_.seed + 0x3177 + i, stream, k);
+    const MirroredSample s = mirrored.sample(i, t_.lights, place.receiver.position, sampler.next2());
+    const Vec3 value = s.endless * s.share * incidence(place.receiver, s.direction);
+    if (max_component(value) > 0) sum += value * t_.accel.transmittance_of_all(s.rays(), rays);
+  }
+  return sum;
+}
+
 // The sky's image, combined with cosine-distributed rays by the balance heuristic.
 Vec3 Meter::sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
   Sampler sampler(context_.seed + 0x5c1, stream, k);
@@ -116,7 +130,7 @@ Vec3 Meter::sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k
 // All but the polygons' direct light.
 IrradianceSample Meter::sample(const Place& place, std::uint64_t stream, std::uint32_t k, std::uint64_t& rays) const {
   IrradianceSample e;
-  e.direct = sample_punctual(place, stream, k, rays);
+  e.direct = sample_punctual(place, stream, k, rays) + sample_mirrored(place, stream, k, rays);
   if (t_.lights.samples_sky()) e.direct += sample_sky(place, stream, k, rays);
   Sampler sampler(context_.seed, stream, k);
   const Vec3 local = square_to_cosine_hemisphere(sampler.next2());

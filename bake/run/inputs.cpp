@@ -52,7 +52,7 @@ void fields(Archive& archive, const LightsOf& of) {
     for (const Surface& surface : s.surfaces) archive(surface.light_group);
     for (const Light& light : s.lights) archive(light.light_group);
   }
-  archive(s.sky_image.width, s.sky_image.height, s.sky_image.texels, s.sky_image.rotation_rad, s.sky);
+  archive(s.sky_image.width, s.sky_image.height, s.sky_image.texels, s.sky_image.rotation_rad, s.sky, s.light_mirrors);
 }
 
 void fields(Archive& archive, const LayoutOf& of) {

@@ -4,6 +4,7 @@
 
 #include "bake/jobs/memory.h"
 #include "bake/run/option_values.h"
+#include "bake/trace/virtual_lights.h"
 #include "formats/core/text.h"
 
 namespace oriel {
@@ -225,6 +226,11 @@ std::vector<Option> light_options(ImportOptions& import) {
        "How large directional lights appear, degrees across: 0.53 gives the sun's soft shadows. Otherwise as the file "
        "says (extras.oriel.angular_diameter_deg), which is a point",
        number(import.sun_angle_deg, 0, 180), Use::kEveryday, "sun_angle_deg"},
+      {"--light-mirrors", kLight,
+       "Follow point, spot and directional lights by so many mirrors or panes one after the other; 0: not at all, as "
+       "bakers by paths do. What is too faint is left out by itself",
+       number(import.light_mirrors, 0, VirtualLight::kMostMirrors), Use::kRare, "light_mirrors",
+       "radiosity.md#lights-in-mirrors"},
       {"--ies", kLight,
        "A measured luminaire (IES LM-63, type C) for the point or spot light of a node: it replaces intensity and "
        "cone, the colour stays. Nadir is the node's -Z, horizontal 0 its +X. May be repeated",

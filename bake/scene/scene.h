@@ -168,6 +168,7 @@ struct Scene {
   // Every lamp has one of them; empty: nobody asks whose light it is.
   std::vector<SceneLightGroup> light_groups;
   std::uint32_t sky_group = 0;  // into light_groups
+  int light_mirrors = 8;  // that point, spot and directional lights are followed by, at most (an option of the bake)
 
   std::uint32_t light_group(std::uint32_t triangle) const { return surfaces[triangle_surface[triangle]].light_group; }
   float radius() const { return 0.5f * glm::length(upper - lower); }

@@ -227,6 +227,12 @@ Vec3 Accel::transmittance(const Ray& ray) const {
   return impl_->any_transmitting ? impl_->through_layers(ray) : Vec3(1);
 }
 
+Vec3 Accel::transmittance_of_all(std::span<const Ray> legs, std::uint64_t& rays) const {
+  Vec3 passed(1);
+  for (std::size_t i = 0; i < legs.size() && max_component(passed) > 0; ++i, ++rays) passed *= transmittance(legs[i]);
+  return passed;
+}
+
 Vec3 Accel::Impl::through_layers(Ray ray) const {
   Vec3 passed(1);
   for (int layer = 0; layer < kMaxLayers; ++layer) {

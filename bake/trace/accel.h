@@ -50,6 +50,9 @@ class Accel {
   // of what alpha-masked and transmissive surfaces let through.
   Vec3 transmittance(const Ray& ray) const;
 
+  // The product for rays that light must pass one after the other; `rays` counts those that were traced.
+  Vec3 transmittance_of_all(std::span<const Ray> legs, std::uint64_t& rays) const;
+
   // The same for many rays; several times faster where neighbours in the span start and point alike. Sizes are equal.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> passed) const;

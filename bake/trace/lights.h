@@ -6,6 +6,7 @@
 #include "bake/trace/light_tree.h"
 #include "bake/trace/punctual.h"
 #include "bake/trace/sky_sampler.h"
+#include "bake/trace/virtual_lights.h"
 
 namespace oriel {
 
@@ -27,6 +28,8 @@ struct LightSample {
 //
 // A directional light with an angular radius is sampled over its disk, uniformly. It counts as a delta light all the
 // same (pdf 0): no ray can meet it, so light sampling alone answers for it, in full.
+//
+// What delta lights send by way of mirrors is no part of sample(): it is asked of mirrored().
 class LightSet {
  public:
   explicit LightSet(const Scene& scene);
@@ -52,6 +55,8 @@ class LightSet {
   bool samples_sky() const { return !sky_.empty(); }
   LightSample sample_sky(const Vec2& v) const;
   float sky_pdf(const Vec3& direction) const { return sky_.pdf(direction); }
+  // Point, spot and directional lights in planar mirrors, which no ray meets either.
+  const VirtualLights& mirrored() const { return mirrored_; }
 
  private:
   enum class Kind : std::uint8_t { kNear, kDirectional, kSky };
@@ -78,6 +83,7 @@ class LightSet {
   std::vector<std::uint32_t> directional_;    // into Scene::lights
   std::vector<double> directional_cdf_;       // cumulative illuminance
   SkySampler sky_;
+  VirtualLights mirrored_;
   DVec3 power_{0};
 };
 

@@ -43,6 +43,28 @@ FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampl
   return {value * t.accel.transmittance({origin, light.direction, light.distance}), light.near, light.group};
 }
 
+// The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
+// light).
+template <class Reflect, class Add>
+void sample_mirrored(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
+                     int most_mirrors, const Reflect& reflect, const Add& add) {
+  const VirtualLights& mirrored = t.lights.mirrored();
+  if (mirrored.empty()) return;
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  const float u = sampler.next1();
+  const Vec2 v = sampler.next2();
+  mirrored.choose(u, [&](std::size_t i, float weight) {
+    if (mirrored[i].order > most_mirrors) return;
+    const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
+    if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
+    Vec3 value = weight * light.endless * light.share * reflect(light.direction);
+    if (!is_usable(value)) t.accel.dropped().add(surface.triangle);
+    if (!is_usable(value) || max_component(value) <= 0) return;
+    value *= t.accel.transmittance_of_all(light.rays(), rays);
+    if (max_component(value) > 0) add(light.direction, light.group, value);
+  });
+}
+
 FromEmitter sample_lights_bsdf(const Transport& t, const SurfacePoint& surface, const Shading& shading,
                                Sampler& sampler, std::uint64_t& rays) {
   return sample_lights(
@@ -114,7 +136,7 @@ class PathTracer {
         break;
       }
       if (bounce >= t_.options.max_bounces) break;
-      const Step step = scatter(surface, ray, hit.distance, light);
+      const Step step = scatter(surface, ray, hit.distance, bounce, light);
       if (step == Step::kEnd) break;
       if (step == Step::kPassed) {
         ++passes;
@@ -165,7 +187,7 @@ class PathTracer {
   }
 
   // Light sampling at the surface, then the next ray.
-  Step scatter(SurfacePoint& surface, Ray& ray, float distance, PathLight& light) {
+  Step scatter(SurfacePoint& surface, Ray& ray, float distance, int bounce, PathLight& light) {
     const bool mirrored = mirrored_;
     if (on_diffuse_ && !tell_diffuse(surface, -ray.direction, distance)) return Step::kEnd;
     const Shading shading(surface, -ray.direction);
@@ -175,6 +197,7 @@ class PathTracer {
       t_.book->add(mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group,
                    throughput_ * from.light);
     if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
+    add_mirrored(surface, shading, bounce, light);
     const float u = sampler_.next1();
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
@@ -191,6 +214,17 @@ class PathTracer {
     from_ = ray.origin;
     pdf_ = sample->delta ? 0 : shading.pdf(direction);
     return Step::kBounced;
+  }
+
+  void add_mirrored(const SurfacePoint& surface, const Shading& shading, int bounce, PathLight& light) {
+    sample_mirrored(
+        t_, surface, sampler_, rays_, t_.options.max_bounces - bounce - 1,
+        [&](const Vec3& wi) { return shading.eval(wi); },
+        [&](const Vec3&, std::uint32_t group, const Vec3& from) {
+          light.scattered += throughput_ * from;
+          if (t_.book) t_.book->add(LightBook::kScattered, group, throughput_ * from);
+          if (t_.listener) t_.listener->add("mirrored lamps", throughput_ * from);
+        });
   }
 
   bool survive() {
@@ -210,23 +244,6 @@ class PathTracer {
   float pdf_ = 0;  // with this density
 };
 
-// The normal n, or, where a map has turned it away from wo, n bent back until wo grazes the surface: lobes are defined
-// on the side of wo only, and a switch to another normal there would show as an edge.
-Vec3 facing(const Vec3& n, const Vec3& wo) {
-  constexpr float kGrazing = 1e-3f;
-  const float missing = kGrazing - glm::dot(n, wo);
-  return missing > 0 ? glm::normalize(n + missing * wo) : n;
-}
-
-// The unit direction in the surface along which an anisotropic lobe is wide; 0 where texture coordinates give none.
-Vec3 wide_direction(const Scene& scene, const Hit& hit, const SceneMaterial& material, const Vec3& normal,
-                    const Vec2& in_tangent_frame) {
-  const Vec4 tangent = tangent_at(scene, hit.triangle, hit.barycentric, normal, material.anisotropy_texture);
-  const Vec3 across = Vec3(tangent) - glm::dot(Vec3(tangent), normal) * normal;
-  const Vec3 t = normalize_or(across, Vec3(0));
-  return in_tangent_frame.x * t + in_tangent_frame.y * tangent.w * glm::cross(normal, t);
-}
-
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
 PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                         std::uint64_t& rays, const OnDiffuse* on_diffuse) {
@@ -237,6 +254,13 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
   if (t.book) t.book->add(from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
+  sample_mirrored(
+      t, surface, sampler, rays, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },
+      [&](const Vec3&, std::uint32_t group, const Vec3& mirrored) {
+        light.scattered += mirrored;
+        if (t.book) t.book->add(LightBook::kScattered, group, mirrored);
+        if (t.listener) t.listener->add("mirrored lamps", mirrored);
+      });
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
   if (!sample || sample->lobe == Lobe::kTransmission) return light;
@@ -250,47 +274,6 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
 }
 
 }  // namespace
-
-SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& direction) {
-  SurfacePoint s;
-  s.triangle = hit.triangle;
-  s.barycentric = hit.barycentric;
-  s.position = point_on(scene, hit.triangle, hit.barycentric);
-  const UVec3& t = scene.triangles[hit.triangle];
-  for (int i = 0; i < 3; ++i) s.magnitude = std::max(s.magnitude, max_component(glm::abs(scene.positions[t[i]])));
-  const float side = hit.front ? 1.0f : -1.0f;
-  s.geometric_normal = side * geometric_normal(scene, hit.triangle);
-  const Vec2& b = hit.barycentric;
-  s.normal =
-      normalize_or(side * ((1 - b.x - b.y) * scene.normals[t.x] + b.x * scene.normals[t.y] + b.y * scene.normals[t.z]),
-                   s.geometric_normal);
-  // Seen from below its shading normal, a surface is shaded with its geometric one.
-  if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
-  s.front = hit.front;
-  s.reflects = hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
-  return s;
-}
-
-SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction, float width_m) {
-  const Footprint footprint = width_m > 0 ? cone_footprint(scene, hit.triangle, direction, width_m) : Footprint();
-  SurfacePoint s = geometry_at(scene, hit, direction);
-  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
-  if (material.normal_texture.image >= 0) {
-    const float side = hit.front ? 1.0f : -1.0f;
-    s.normal =
-        facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal, footprint), -direction);
-  }
-  s.shade = shade_point(scene, hit.triangle, hit.barycentric, footprint);
-  if (s.shade.anisotropy > 0)
-    s.tangent = wide_direction(scene, hit, material, (hit.front ? 1.0f : -1.0f) * s.normal, s.shade.wide_direction);
-  s.emits = s.reflects && max_component(s.shade.emission) > 0;
-  return s;
-}
-
-SurfacePoint point_on_side(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, bool front) {
-  const Vec3 normal = geometric_normal(scene, triangle);
-  return geometry_at(scene, {triangle, 0, barycentric, front}, front ? -normal : normal);
-}
 
 PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler& sampler, std::uint64_t& rays) {
   return PathTracer(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
@@ -339,6 +322,13 @@ IrradianceSample sample_irradiance(const Transport& t, const SurfacePoint& surfa
                  .light;
   if (t.listener) t.listener->add("lamps", s.direct);
   if (directional && light_cosine > 0) add_moments(s.direct / light_cosine, towards);
+  sample_mirrored(
+      t, surface, sampler, rays, t.options.max_bounces, [&](const Vec3& wi) { return Vec3(shading.cosine(wi)); },
+      [&](const Vec3& from, std::uint32_t, const Vec3& mirrored) {
+        s.direct += mirrored;
+        if (t.listener) t.listener->add("mirrored lamps", mirrored);
+        if (directional) add_moments(mirrored / shading.cosine(from), from);
+      });
   const Vec2 u = sampler.next2();
   const Vec3 direction = shading.above(directional ? square_to_linear_hemisphere(u) : square_to_cosine_hemisphere(u));
   const Ray ray{spawn_origin(surface, direction), direction};

@@ -64,7 +64,7 @@ class PathListener {
   virtual void meet(const SurfacePoint& surface, const Vec3& throughput) = 0;
   // What follows counts so many times.
   virtual void weigh(float weight) = 0;
-  // Light comes to it: from "lamps", "emission" or "sky", throughput in it.
+  // Light comes to it: from "lamps", "mirrored lamps", "emission" or "sky", throughput in it.
   virtual void add(const char* from, const Vec3& light) = 0;
 };
 
@@ -137,7 +137,7 @@ PathLight specular_light(const Transport& transport, const SurfacePoint& surface
 
 // One estimate of the irradiance at a point, lux: light sampling and a cosine-distributed ray, combined by MIS.
 struct IrradianceSample {
-  Vec3 direct{0};    // straight from emitters
+  Vec3 direct{0};    // straight from emitters, or of point, spot and directional lights by way of mirrors
   Vec3 indirect{0};  // after one reflection or more
   bool back_face = false;
   // Only where directional: the first moments of the incident luminance L, ∫ L dω / 4π and ∫ L ω dω / 4π.

@@ -45,6 +45,12 @@ class DirectGroup {
       aim_at_punctual(l);
       finish_light(Vec3(1), scene().lights[l].light_group);
     }
+    const VirtualLights& mirrored = d_.t_.lights.mirrored();
+    for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
+      if (mirrored[i].order > d_.t_.options.max_bounces) continue;
+      aim_at_mirrored(i);
+      finish_light(Vec3(1), scene().lights[mirrored[i].light].light_group);
+    }
     const auto any = [&](const Point& p, Sampler& sampler) {
       const float u = sampler.next1();
       return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
@@ -81,6 +87,8 @@ class DirectGroup {
     Vec3 weight{0};
     Vec3 direction{0};
     std::uint32_t group = kNoGroup;  // of a lamp that was found by chance: those done one by one are booked as a whole
+    int legs = 1;                    // rays, all of which must pass
+    Vec3 share{1};                   // of the weight that comes along them
   };
   // By texel. Of the light at hand, by half: Σ unoccluded irradiance, Σ weights, Σ weights * transmittance.
   struct Tally {
@@ -150,6 +158,23 @@ class DirectGroup {
     }
   }
 
+  // A mirror's edge is taken for one of a shadow: what is beside it weighs as if the mirror were endless.
+  void aim_at_mirrored(std::uint32_t i) {
+    const VirtualLights& mirrored = d_.t_.lights.mirrored();
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      Sampler sampler(d_.seed_ + seeds::kMirroredLight + i, stream_of(list_[point.texel], point.half), point.k);
+      const MirroredSample s = mirrored.sample(i, d_.t_.lights, point.site.origin, sampler.next2());
+      const Vec3 value = s.endless * incidence(point.site.receiver(), s.direction);
+      if (!(max_component(value) > 0) || !is_usable(point, value)) continue;
+      tallies_[point.texel].open[point.half] += value;
+      tallies_[point.texel].weight[point.half] += value;
+      if (s.legs == 0) continue;
+      rays_to_trace_.insert(rays_to_trace_.end(), s.rays().begin(), s.rays().end());
+      shots_.push_back({p, value, s.direction, kNoGroup, s.legs, s.share});
+    }
+  }
+
   void shoot(std::uint32_t point, const Ray& ray, const Vec3& weight, std::uint32_t group = kNoGroup) {
     const Point& p = points_[point];
     tallies_[p.texel].weight[p.half] += weight;
@@ -164,7 +189,7 @@ class DirectGroup {
   void receive(const Shot& shot, const Vec3& passed) {
     const Point& p = points_[shot.point];
     Tally& tally = tallies_[p.texel];
-    const Vec3 light = shot.weight * passed;
+    const Vec3 light = shot.weight * shot.share * passed;
     tally.passed[p.half] += light;
     if (shot.group < booked_.groups) booked_passed_[p.half].of(p.texel)[shot.group] += light;
     const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
@@ -175,7 +200,12 @@ class DirectGroup {
     passed_.resize(rays_to_trace_.size());
     d_.t_.accel.transmittance(rays_to_trace_, passed_);
     rays_ += rays_to_trace_.size();
-    for (std::size_t i = 0; i < shots_.size(); ++i) receive(shots_[i], passed_[i]);
+    auto leg = passed_.begin();
+    for (const Shot& shot : shots_) {
+      Vec3 passed(1);
+      for (int k = 0; k < shot.legs; ++k) passed *= *leg++;
+      receive(shot, passed);
+    }
     shots_.clear();
     rays_to_trace_.clear();
   }

@@ -1,0 +1,174 @@
+#include "bake/trace/planar_mirrors.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/trace/albedo.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kMirrorRoughness = 0.01f;  // squared: kMirrorAlpha
+constexpr double kFlat = 1e-6;             // 1 - the cosine between normals that are taken for one
+constexpr double kPlaneCells = 1e-5;       // of normals and, times the scene's size, offsets that are taken for one
+constexpr double kEdge = 1e-6;             // of barycentric coordinates, outwards: no gap between two triangles
+constexpr int kMostCells = 64;             // along a side
+
+bool may_mirror(const SceneMaterial& m) {
+  if (m.unlit || m.normal_texture.image >= 0) return false;
+  const bool coat = m.coat > 0 && m.coat_roughness < kMirrorRoughness;
+  const bool black = m.metal == Metal::kNone && m.metallic <= 0 && (m.specular <= 0 || m.ior == 1);
+  return coat || (m.roughness < kMirrorRoughness && !black);
+}
+
+bool is_flat(const Scene& scene, std::uint32_t triangle, const Vec3& normal) {
+  for (int k = 0; k < 3; ++k)
+    if (glm::dot(scene.normals[scene.triangles[triangle][k]], normal) < 1 - kFlat) return false;
+  return true;
+}
+
+// Andrew's monotone chain, counter-clockwise.
+std::vector<DVec2> convex_hull(std::vector<DVec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<DVec2> hull;
+  const auto add = [&](const DVec2& p, std::size_t least) {
+    const auto turns_left = [&] {
+      const DVec2 a = hull[hull.size() - 2], b = hull.back();
+      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0;
+    };
+    while (hull.size() >= least + 2 && !turns_left()) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const DVec2& p : points) add(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
+  hull.pop_back();
+  return hull;
+}
+
+struct Axes {
+  DVec3 u, v;
+};
+Axes axes_of(const DVec3& normal) {
+  const DVec3 other = std::abs(normal.x) < 0.6 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
+  const DVec3 u = glm::normalize(glm::cross(other, normal));
+  return {u, glm::cross(normal, u)};
+}
+
+// Area, hull and shade of the triangles that are in it.
+void complete(const Scene& scene, PlanarMirror& mirror) {
+  const Axes axes = axes_of(mirror.normal);
+  std::vector<DVec2> corners;
+  double largest = 0;
+  for (const std::uint32_t t : mirror.triangles) {
+    const double area = triangle_area(scene, t);
+    mirror.area_m2 += area;
+    if (area > largest) mirror.shade = shade_point(scene, t, Vec2(1.0f / 3)), largest = area;
+    for (int k = 0; k < 3; ++k) {
+      const DVec3 p(scene.positions[scene.triangles[t][k]]);
+      corners.push_back({glm::dot(p, axes.u), glm::dot(p, axes.v)});
+    }
+  }
+  for (const DVec2& c : convex_hull(std::move(corners)))
+    mirror.hull.push_back(c.x * axes.u + c.y * axes.v + mirror.offset * mirror.normal);
+}
+
+using PlaneKey = std::array<std::int64_t, 4>;
+
+}  // namespace
+
+Vec3 mirror_reflectance(const ShadePoint& point, float cos_theta) {
+  const float coat = coat_reflectance(point, cos_theta);
+  Vec3 f(0);
+  if (point.alpha < kMirrorAlpha && (point.f90 > 0 || max_component(point.f0) > 0))
+    f += (1 - coat) * specular_fresnel(specular_lobe(point), cos_theta);
+  if (point.coat > 0 && point.coat_alpha < kMirrorAlpha)
+    f += point.coat * specular_fresnel(specular_layers(point).coat_lobe(), cos_theta);
+  return point.coverage * f;
+}
+
+PlanarMirrors::PlanarMirrors(const Scene& scene) {
+  std::vector<char> mirrors(scene.materials.size());
+  for (std::size_t m = 0; m < mirrors.size(); ++m) mirrors[m] = may_mirror(scene.materials[m]);
+  if (std::ranges::find(mirrors, 1) == mirrors.end()) return;
+  const double size = std::max(1e-30, double{scene.radius()});
+  std::map<PlaneKey, PlanarMirror> planes;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const Surface& surface = scene.surfaces[scene.triangle_surface[t]];
+    if (!mirrors[surface.material] || surface.mover >= 0) continue;
+    const Vec3 front = geometric_normal(scene, t);
+    if (!is_flat(scene, t, front)) continue;
+    for (const double side : {1.0, -1.0}) {
+      if (side < 0 && !scene.materials[surface.material].double_sided) continue;
+      const DVec3 normal = side * DVec3(front);
+      const double offset = glm::dot(normal, DVec3(scene.positions[scene.triangles[t].x]));
+      PlaneKey key;
+      for (int k = 0; k < 3; ++k) key[k] = std::llround(normal[k] / kPlaneCells);
+      key[3] = std::llround(offset / (kPlaneCells * size));
+      PlanarMirror& plane = planes[key];
+      if (plane.triangles.empty()) plane.normal = glm::normalize(normal), plane.offset = offset;
+      plane.triangles.push_back(t);
+    }
+  }
+  for (auto& [key, plane] : planes) {
+    complete(scene, plane);
+    mirrors_.push_back(std::move(plane));
+  }
+  std::stable_sort(mirrors_.begin(), mirrors_.end(),
+                   [](const PlanarMirror& a, const PlanarMirror& b) { return a.area_m2 > b.area_m2; });
+  mirrors_.resize(std::min(mirrors_.size(), kMost));
+  for (const PlanarMirror& mirror : mirrors_) grids_.push_back(grid_of(scene, mirror));
+}
+
+PlanarMirrors::Grid PlanarMirrors::grid_of(const Scene& scene, const PlanarMirror& mirror) {
+  Grid grid;
+  const Axes axes = axes_of(mirror.normal);
+  grid.u = axes.u, grid.v = axes.v;
+  const auto flat = [&](const DVec3& p) { return DVec2(glm::dot(p, axes.u), glm::dot(p, axes.v)); };
+  DVec2 upper(-1e300);
+  grid.lower = DVec2(1e300);
+  for (const DVec3& p : mirror.hull) grid.lower = glm::min(grid.lower, flat(p)), upper = glm::max(upper, flat(p));
+  const int cells = std::clamp(static_cast<int>(std::sqrt(double(mirror.triangles.size()))), 1, kMostCells);
+  grid.columns = grid.rows = cells;
+  grid.per_cell = double(cells) / glm::max(upper - grid.lower, DVec2(1e-30));
+  std::vector<std::vector<std::uint32_t>> held(static_cast<std::size_t>(cells) * cells);
+  for (const std::uint32_t t : mirror.triangles) {
+    DVec2 low(1e300), high(-1e300);
+    for (int k = 0; k < 3; ++k) {
+      const DVec2 at = (flat(DVec3(scene.positions[scene.triangles[t][k]])) - grid.lower) * grid.per_cell;
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+    const auto cell = [&](double x) { return std::clamp(static_cast<int>(std::floor(x)), 0, cells - 1); };
+    for (int y = cell(low.y - kEdge); y <= cell(high.y + kEdge); ++y)
+      for (int x = cell(low.x - kEdge); x <= cell(high.x + kEdge); ++x)
+        held[static_cast<std::size_t>(y) * cells + x].push_back(t);
+  }
+  for (const auto& triangles : held) {
+    grid.first.push_back(static_cast<std::uint32_t>(grid.triangle.size()));
+    grid.triangle.insert(grid.triangle.end(), triangles.begin(), triangles.end());
+  }
+  grid.first.push_back(static_cast<std::uint32_t>(grid.triangle.size()));
+  return grid;
+}
+
+std::optional<PlanarMirrors::On> PlanarMirrors::on(const Scene& scene, std::size_t mirror, const DVec3& p) const {
+  const Grid& grid = grids_[mirror];
+  const DVec2 at = (DVec2(glm::dot(p, grid.u), glm::dot(p, grid.v)) - grid.lower) * grid.per_cell;
+  if (!(at.x > -kEdge && at.y > -kEdge && at.x < grid.columns + kEdge && at.y < grid.rows + kEdge)) return std::nullopt;
+  const int x = std::clamp(static_cast<int>(at.x), 0, grid.columns - 1);
+  const int y = std::clamp(static_cast<int>(at.y), 0, grid.rows - 1);
+  const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) + x;
+  for (std::uint32_t i = grid.first[cell]; i < grid.first[cell + 1]; ++i) {
+    const UVec3& t = scene.triangles[grid.triangle[i]];
+    const DVec3 a(scene.positions[t.x]), ab = DVec3(scene.positions[t.y]) - a, ac = DVec3(scene.positions[t.z]) - a;
+    const DVec3 n = glm::cross(ab, ac), ap = p - a;
+    const double size = glm::dot(n, n);
+    const double b = glm::dot(glm::cross(ap, ac), n) / size, c = glm::dot(glm::cross(ab, ap), n) / size;
+    if (b >= -kEdge && c >= -kEdge && b + c <= 1 + kEdge)
+      return On{grid.triangle[i], Vec2(glm::clamp(DVec2(b, c), 0.0, 1.0))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace oriel

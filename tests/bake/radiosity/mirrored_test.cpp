@@ -1,0 +1,129 @@
+// Lights in mirrors on texels: the light, its edges, and that nothing is found twice.
+#include <gtest/gtest.h>
+
+#include "bake/radiosity/ledger.h"
+#include "formats/core/color.h"
+#include "tests/bake/radiosity/baked.h"
+
+namespace oriel {
+namespace {
+
+using test::Baked;
+using test::SceneParts;
+
+SceneMaterial mirror(float reflectance) {
+  SceneMaterial m;
+  m.base_color = Vec3(reflectance);
+  m.metallic = 1, m.roughness = 0;
+  return m;
+}
+
+// The sun over a floor mirror of 1 m² under a ceiling at 2 m.
+Scene sunny(float albedo = 0) {
+  SceneParts parts;
+  parts.quad("mirror", parts.add(mirror(0.9f)), {-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1});
+  parts.quad("ceiling", parts.diffuse(Vec3(albedo)), {0, 2, -1}, {2.5f, 0, 0}, {0, 0, 2});
+  Light sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = {0.5f, -std::sqrt(0.75f), 0};
+  sun.intensity = Vec3(1000);
+  parts.scene().lights = {sun};
+  return parts.finish();
+}
+
+struct Patch {
+  double inside = 0, outside = 0, power = 0;  // largest error of a texel inside; largest light outside; lm
+};
+
+Patch measure(const Baked& b, double expected, float texel) {
+  Patch patch;
+  const float shift = 2 / std::sqrt(3.0f);
+  b.each_texel([&](const LightmapPage& page, std::uint32_t texel_index, std::uint32_t triangle) {
+    if (b.scene.surfaces[b.scene.triangle_surface[triangle]].name != "ceiling") return;
+    patch.power += page.irradiance[texel_index].g;
+    (void)texel;
+  });
+  for (std::size_t p = 0; p < b.texel_map.size(); ++p)
+    for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
+      const TexelPoint at = sample_texel(b.atlas, b.texel_map[p], i, Vec3(0.5f));
+      if (b.scene.surfaces[b.scene.triangle_surface[at.triangle]].name != "ceiling") continue;
+      const Vec3 on = point_on(b.scene, at.triangle, at.barycentric);
+      const double e = b.radiosity.pages[p].irradiance[b.texel_map[p].texel[i]].g;
+      const float beyond = std::max(std::abs(on.x - shift), std::abs(on.z)) - 0.5f;
+      if (beyond < -texel) patch.inside = std::max(patch.inside, std::abs(e / expected - 1));
+      if (beyond > texel) patch.outside = std::max(patch.outside, e);
+    }
+  return patch;
+}
+
+TEST(Mirrored, TheSunsPatchOnTheCeilingIsTheClosedForm) {
+  constexpr float kTexel = 0.1f;
+  const double sine = std::sqrt(0.75), reflectance = 0.9 + 0.1 * std::pow(1 - sine, 5);
+  RadiosityOptions options;
+  options.error = 0.02;
+  const Patch patch = measure(test::bake(sunny(), kTexel, options), 1000 * sine * reflectance, kTexel);
+  RecordProperty("inside", std::to_string(patch.inside));
+  EXPECT_LT(patch.inside, 0.005);
+  EXPECT_LT(patch.outside, 0.5) << "of 780 lux";
+}
+
+// A closed room with a lamp and a mirror: what texels keep is what particles bring.
+Scene room(std::uint32_t lights, bool pane) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(0), Vec3(2), true);
+  SceneMaterial glass;
+  glass.base_color = {0.9f, 0.6f, 0.3f};
+  glass.metallic = 0, glass.roughness = 0, glass.transmission = 1, glass.double_sided = true;
+  if (pane)
+    parts.quad("pane", parts.add(glass), {1, 0.2f, 0.2f}, {0, 1.6f, 0}, {0, 0, 1.6f});
+  else
+    parts.quad("mirror", parts.add(mirror(0.9f)), {0.01f, 0.2f, 1.8f}, {0, 0, -1.6f}, {0, 1.6f, 0});
+  Light point;
+  point.position = {0.6f, 1.2f, 0.9f}, point.intensity = Vec3(10);
+  Light spot = point;
+  spot.type = LightType::kSpot, spot.direction = glm::normalize(Vec3(-1, -0.5f, 0.2f)), spot.intensity = Vec3(30);
+  parts.scene().lights = {point, spot};
+  parts.scene().lights.resize(lights);
+  return parts.finish();
+}
+
+class MirroredRooms : public testing::TestWithParam<bool> {};
+
+TEST_P(MirroredRooms, KeepWhatParticlesBring) {
+  RadiosityOptions options;
+  options.samples = 64;
+  const Baked b = test::bake(room(2, GetParam()), 0.1f, options);
+  const Accel accel = *Accel::build(b.scene);
+  const LightSet lights(b.scene);
+  ASSERT_FALSE(lights.mirrored().empty());
+  Context context;
+  const Ledger ledger = *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, 400'000, context);
+  EXPECT_LE(ledger.closure(), 4 * ledger.closure_error() + 1e-6);
+  EXPECT_LE(ledger.disagreement(), 0.005 + 3 * ledger.disagreement_error());
+  EXPECT_LE(ledger.disagreement_error(), 0.005);
+  // Without lights in mirrors the ledger says that light is missing.
+  Scene without = b.scene;
+  without.light_mirrors = 0;
+  const Baked dark = test::bake(std::move(without), 0.1f, options);
+  const Ledger open = *keep_ledger({accel, lights, {}}, dark.atlas, dark.texel_map, dark.radiosity, 400'000, context);
+  EXPECT_GT(open.disagreement(), 0.005 + 3 * open.disagreement_error());
+}
+INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, testing::Bool());
+
+// By paths and by the cached estimator alike.
+TEST(Mirrored, BothEstimatorsFindTheSame) {
+  RadiosityOptions cached, reference;
+  cached.samples = 128;
+  reference.samples = 256, reference.estimator = Estimator::kReference;
+  double sums[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const Baked b = test::bake(room(2, false), 0.2f, k == 0 ? cached : reference);
+    b.each_texel([&](const LightmapPage& page, std::uint32_t texel, std::uint32_t) {
+      sums[k] += luminance(page.irradiance[texel]);
+    });
+  }
+  EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
+}
+
+}  // namespace
+}  // namespace oriel
