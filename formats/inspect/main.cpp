@@ -139,7 +139,8 @@ void add_web(CLI::App& app, Arguments& a) {
   auto* command = add_command(app, "web", "Write a folder for any web server: a walkthrough in a browser", a,
                               [&a] { return web(a.pack, a.web); });
   command->add_option("PACK", a.pack, "The .oriel file")->required();
-  command->add_option("-o,--output", a.web.folder, "The folder to write to; it is made where it is missing")->required();
+  command->add_option("-o,--output", a.web.folder, "The folder to write to; it is made where it is missing")
+      ->required();
   command->add_option("--title", a.web.title, "What the page is called; unless told the pack's file name");
   command->add_option("--picture", a.web.picture,
                       "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run");

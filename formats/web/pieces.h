@@ -1,10 +1,11 @@
-// A pack in pieces for a browser, in the order in which they are wanted. Each is a file of the pack's own format with some
-// of its sections (docs/web.md), so that one specification and one reader serve both.
+// A pack in pieces for a browser, in the order in which they are wanted. Each is a file of the pack's own format with
+// some of its sections (docs/web.md), so that one specification and one reader serve both.
 #pragma once
 
 #include <functional>
 #include <string>
 
+#include "formats/core/result.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {

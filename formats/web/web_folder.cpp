@@ -80,7 +80,7 @@ Status make_folder(const std::filesystem::path& folder) {
 // The pieces, and the manifest that names them.
 Result<std::string> put_pieces(FolderWriter& writer, const Pack& pack, const WebOptions& options) {
   nlohmann::ordered_json pieces = nlohmann::ordered_json::array();
-  ORIEL_TRY_VOID(make_pieces(pack, [&](Piece piece) -> Status {
+  const auto put = [&](Piece piece) -> Status {
     const std::string name = fmt::format("pieces/{}-{}.oriel", piece.kind, short_hash(piece.bytes));
     pieces.push_back({{"kind", piece.kind},
                       {"index", piece.index},
@@ -90,8 +90,10 @@ Result<std::string> put_pieces(FolderWriter& writer, const Pack& pack, const Web
     ORIEL_TRY_VOID(writer.put(name, piece.bytes));
     if (piece.kind == "scene") writer.out.first_bytes = writer.out.all_bytes;
     return {};
-  }));
-  return nlohmann::ordered_json({{"version", kWebVersion}, {"title", options.title}, {"pieces", pieces}}).dump(1) + "\n";
+  };
+  ORIEL_TRY_VOID(make_pieces(pack, put));
+  return nlohmann::ordered_json({{"version", kWebVersion}, {"title", options.title}, {"pieces", pieces}}).dump(1) +
+         "\n";
 }
 
 }  // namespace
@@ -116,15 +118,15 @@ Result<WebFolder> write_web_folder(const std::filesystem::path& folder, const Pa
   }
   ORIEL_TRY_VOID(writer.put("icon.svg", viewer_file("icon.svg")));
   ORIEL_TRY_VOID(writer.put("offline.js", filled(std::string(viewer_file("offline.js")), {{"number", number}})));
-  const std::string page = filled(std::string(viewer_file("index.html")),
-                                  {{"picture", picture},
-                                   {"script", script_name},
-                                   {"script-integrity", integrity_of(script)},
-                                   {"style", style_name},
-                                   {"style-integrity", integrity_of(style)},
-                                   {"pieces", manifest_name},
-                                   {"pieces-integrity", integrity_of(bytes_of_text(manifest))},
-                                   {"title", escaped(options.title)}});
+  const std::string page =
+      filled(std::string(viewer_file("index.html")), {{"picture", picture},
+                                                      {"script", script_name},
+                                                      {"script-integrity", integrity_of(script)},
+                                                      {"style", style_name},
+                                                      {"style-integrity", integrity_of(style)},
+                                                      {"pieces", manifest_name},
+                                                      {"pieces-integrity", integrity_of(bytes_of_text(manifest))},
+                                                      {"title", escaped(options.title)}});
   ORIEL_TRY_VOID(writer.put("index.html", page));
   writer.out.first_bytes += writer.out.all_bytes - before - options.picture.size();
   return writer.out;

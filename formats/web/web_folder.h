@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/core/result.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
@@ -29,8 +30,8 @@ struct WebFolder {
   std::uint64_t all_bytes = 0;
 };
 
-// Writes into the folder, which is made where it is missing. Names of pieces follow from their bytes, and the page comes
-// last: who loads while it is written sees the old walkthrough or the new one. Errors: kIo, kRuntime.
+// Writes into the folder, which is made where it is missing. Names of pieces follow from their bytes, and the page
+// comes last: who loads while it is written sees the old walkthrough or the new one. Errors: kIo, kRuntime.
 Result<WebFolder> write_web_folder(const std::filesystem::path& folder, const Pack& pack, const WebOptions& options);
 
 }  // namespace oriel

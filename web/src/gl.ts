@@ -33,7 +33,8 @@ export class Program {
       const info = gl.getActiveUniform(program, i)!, place = gl.getUniformLocation(program, info.name)!;
       out.at.set(info.name, { place, type: info.type });
       const unit = units[info.name];
-      if (unit !== undefined) gl.uniform1i(place, unit);
+      const sampler = info.type === gl.SAMPLER_2D || info.type === gl.UNSIGNED_INT_SAMPLER_2D;  // u_cells is a size elsewhere
+      if (sampler && unit !== undefined) gl.uniform1i(place, unit);
     }
     return out;
   }
