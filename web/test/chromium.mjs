@@ -86,8 +86,8 @@ export class Browser {
   async picture() { return Buffer.from((await this.send('Page.captureScreenshot', { format: 'png' })).data, 'base64'); }
   /** The whole frame is there, with all pieces. */
   async rest() {
-    await this.until(`document.body.dataset.state === 'whole'`);
-    await this.until(`document.body.dataset.rest`);
+    await this.until(`document.body?.dataset.state === "whole"`);
+    await this.until(`document.body?.dataset.rest`);
   }
   async key(code, key, ms = 0) {
     await this.send('Input.dispatchKeyEvent', { type: 'keyDown', code, key, text: key.length === 1 ? key : undefined });
