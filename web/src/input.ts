@@ -4,6 +4,7 @@ export interface Wish { right: number; ahead: number; yaw: number; pitch: number
 export interface InputEvents { key: (key: string) => void; go: (x: number, y: number) => void; hover: (x: number, y: number) => void; }
 
 const kTap = 12;         // pixels that a tap may move
+const kTapTime = 800;    // ms that it may take: slow devices tell late of both its ends
 const kStick = 60;       // pixels of a thumb's way that are full speed
 const kDeadZone = 0.15;
 
@@ -69,7 +70,7 @@ export class Input {
   private end(e: PointerEvent): void {
     const finger = this.fingers.get(e.pointerId);
     this.fingers.delete(e.pointerId);
-    if (!finger || finger.far || e.timeStamp - finger.begin > 400) return;
+    if (!finger || finger.far || e.timeStamp - finger.begin > kTapTime) return;
     if (e.pointerType !== 'mouse' || e.detail >= 2 || this.doubled(e)) this.events.go(...this.place(e));
   }
 

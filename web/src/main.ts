@@ -96,7 +96,7 @@ async function run(): Promise<void> {
   });
   const tick = (now: number): void => {
     requestAnimationFrame(tick);
-    const dt = Math.min((now - last) / 1000, 0.1);
+    const dt = Math.min((now - last) / 1000, 0.25);
     last = now;
     if (!lost) walkthrough.show?.frame(input, dt, now);
   };

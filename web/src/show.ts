@@ -6,7 +6,7 @@ import type { Input } from './input';
 import type { Panel } from './panel';
 import type { Walk } from './walk';
 
-const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.3;
+const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25;
 
 export class Show {
   private count = 0;        // samples that are shown
@@ -46,7 +46,7 @@ export class Show {
       this.count = 0;
     }
     if (moved) {
-      if (now - this.movedAt < 200) this.adapt(dt * 1000);
+      if (now - this.movedAt < 500) this.adapt(dt * 1000);
       this.movedAt = now;
       this.count = 0;
       delete document.body.dataset['rest'];
@@ -60,7 +60,7 @@ export class Show {
   }
 
   private adapt(ms: number): void {
-    if (ms > kSlow) this.scale = Math.max(this.scale * 0.85, kLeastScale);
+    if (ms > kSlow) this.scale = Math.max(this.scale * Math.max(Math.sqrt(kSlow / ms), 0.5), kLeastScale);
     else if (ms < kQuick) this.scale = Math.min(this.scale * 1.05, 1);
   }
 
