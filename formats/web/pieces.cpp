@@ -86,7 +86,7 @@ Result<Bytes> scene_piece(const Pack& pack) {
 
 template <class T>
 Status each(const char* name, std::uint32_t kind, const std::vector<T>& elements,
-            const std::function<Status(Piece)>& take) {
+            const std::function<Status(WebPiece)>& take) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     PieceWriter out;
     out.one(kind, elements[i]);
@@ -132,7 +132,7 @@ std::vector<std::string> left_out_of_pieces(const Pack& pack) {
   return lines;
 }
 
-Status make_pieces(const Pack& pack, const std::function<Status(Piece)>& take) {
+Status make_pieces(const Pack& pack, const std::function<Status(WebPiece)>& take) {
   ORIEL_TRY(Bytes scene, scene_piece(pack));
   ORIEL_TRY_VOID(take({"scene", 0, std::move(scene)}));
   std::vector<LightmapPage> pages;

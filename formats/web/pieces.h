@@ -10,7 +10,7 @@
 
 namespace oriel {
 
-struct Piece {
+struct WebPiece {
   std::string kind;       // "scene", "light", "texture" or "normal"
   std::size_t index = 0;  // of the pack's pages or textures; 0 for the scene
   Bytes bytes;
@@ -24,6 +24,6 @@ LightmapPage coarse_page(const LightmapPage& page);
 
 // take is called for each piece; the first is the scene: all but images, with light at a quarter of its texels a side.
 // Reflectors are written as ones without maps: the viewer draws the mirrored scene. Errors: those of take; kRuntime.
-Status make_pieces(const Pack& pack, const std::function<Status(Piece)>& take);
+Status make_pieces(const Pack& pack, const std::function<Status(WebPiece)>& take);
 
 }  // namespace oriel

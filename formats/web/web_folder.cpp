@@ -80,7 +80,7 @@ Status make_folder(const std::filesystem::path& folder) {
 // The pieces, and the manifest that names them.
 Result<std::string> put_pieces(FolderWriter& writer, const Pack& pack, const WebOptions& options) {
   nlohmann::ordered_json pieces = nlohmann::ordered_json::array();
-  const auto put = [&](Piece piece) -> Status {
+  const auto put = [&](WebPiece piece) -> Status {
     const std::string name = fmt::format("pieces/{}-{}.oriel", piece.kind, short_hash(piece.bytes));
     pieces.push_back({{"kind", piece.kind},
                       {"index", piece.index},

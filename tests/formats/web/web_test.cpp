@@ -26,15 +26,14 @@ TEST(Sha256, GivesThePublishedDigests) {
 }
 
 TEST(Pieces, ArePacksOfTheirOwn) {
-  const Pack pack = tiny_pack();
-  std::vector<Piece> pieces;
-  const Status made = make_pieces(pack, [&](Piece piece) -> Status {
+  const Pack pack = testing::tiny_pack();
+  std::vector<WebPiece> pieces;
+  const Status made = make_pieces(pack, [&](WebPiece piece) -> Status {
     pieces.push_back(std::move(piece));
     return {};
   });
   ASSERT_TRUE(made);
-  ASSERT_EQ(pieces.size(),
-            1 + pack.lightmaps.size() + pack.textures.size() + pack.normal_textures.size());
+  ASSERT_EQ(pieces.size(), 1 + pack.lightmaps.size() + pack.textures.size() + pack.normal_textures.size());
   const auto scene = decode_pack(pieces[0].bytes);
   ASSERT_TRUE(scene) << scene.error().text();
   EXPECT_EQ(pieces[0].kind, "scene");
@@ -61,7 +60,7 @@ TEST(CoarsePage, IsTheMeanOfWhatIsLit) {
 
 TEST(WebFolder, NamesItsFilesByTheirHashes) {
   const testing::TemporaryFolder folder;
-  const auto written = write_web_folder(folder.path() / "a" / "b", tiny_pack(), {"<Our> \"house\"", {}});
+  const auto written = write_web_folder(folder.path() / "a" / "b", testing::tiny_pack(), {"<Our> \"house\"", {}});
   ASSERT_TRUE(written) << written.error().text();
   std::string page, manifest;
   for (const WebFile& file : written->files) {
