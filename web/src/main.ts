@@ -21,6 +21,8 @@ function sayNo(text: string): void {
   state('refused');
 }
 
+let begun = false;  // a scene is there to be shown
+
 const canvas = element('view') as HTMLCanvasElement;
 const panel = new Panel();
 
@@ -80,6 +82,7 @@ async function run(): Promise<void> {
   const walk = new Walk(scene);
   const walkthrough = new Walkthrough(gl, scene, walk);
   walkthrough.begin();
+  begun = true;
   panel.begin(walk, () => walkthrough.show);
   const input = new Input(canvas, {
     key: (key) => panel.key(key), go: (x, y) => walkthrough.show?.go(x, y), hover: (x, y) => walkthrough.show?.hover(x, y),
@@ -98,10 +101,14 @@ async function run(): Promise<void> {
     requestAnimationFrame(tick);
     const dt = Math.min((now - last) / 1000, 0.25);
     last = now;
-    if (!lost) walkthrough.show?.frame(input, dt, now);
+    if (lost) return;
+    walkthrough.show?.frame(input, dt, now);
+    if (walkthrough.show?.frames && document.body.dataset['state'] === 'loading') {
+      gl.finish();
+      state('first');
+    }
   };
   requestAnimationFrame(tick);
-  state('first');
   panel.progress(done / all);
   for (const piece of manifest.pieces) {
     if (piece === first) continue;
@@ -120,7 +127,7 @@ function checkPage(sections: Sections, piece: Piece): void {
 }
 
 run().catch((error: unknown) => {
-  if (document.body.dataset['state'] === 'loading') sayNo(`This walkthrough cannot be shown: ${(error as Error).message}`);
+  if (!begun) sayNo(`This walkthrough cannot be shown: ${(error as Error).message}`);
   else panel.say(`A part is missing: ${(error as Error).message}`, true);
   if (!(error instanceof PieceError)) console.error(error);
 });
