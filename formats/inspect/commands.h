@@ -70,6 +70,14 @@ struct ExportOptions {
 // of cubes and the split-sum table (formats/export).
 int export_pack(const std::filesystem::path& path, const std::filesystem::path& output, const ExportOptions& options);
 
+struct WebRequest {
+  std::filesystem::path folder, picture;
+  std::string title;  // empty: the pack's file name
+};
+
+// The pack as a folder of static files, a walkthrough for browsers (formats/web).
+int web(const std::filesystem::path& path, const WebRequest& request);
+
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.
 int report(const Error& error);
 

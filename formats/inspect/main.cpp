@@ -32,6 +32,8 @@ Examples:
                                                maps, surfaces, errors and sizes as one page
   oriel-inspect export house.oriel -o house.glb
                                                the lit scene for any glTF viewer
+  oriel-inspect web house.oriel -o house
+                                               a walkthrough in a browser: a folder for any web server
 
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
 
@@ -43,6 +45,7 @@ struct Arguments {
   ExtractOptions extract;
   DiffOptions diff;
   ExportOptions exported;
+  WebRequest web;
   std::function<int()> run;  // the command that was named
 };
 
@@ -132,6 +135,17 @@ void add_writers(CLI::App& app, Arguments& a) {
       ->capture_default_str();
 }
 
+void add_web(CLI::App& app, Arguments& a) {
+  auto* command = add_command(app, "web", "Write a folder for any web server: a walkthrough in a browser", a,
+                              [&a] { return web(a.pack, a.web); });
+  command->add_option("PACK", a.pack, "The .oriel file")->required();
+  command->add_option("-o,--output", a.web.folder, "The folder to write to; it is made where it is missing")
+      ->required();
+  command->add_option("--title", a.web.title, "What the page is called; unless told the pack's file name");
+  command->add_option("--picture", a.web.picture,
+                      "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("oriel-inspect: tells what an .oriel pack holds and whether it can be trusted.", "oriel-inspect");
   app.set_version_flag("--version", std::string("oriel-inspect ") + kVersion);
@@ -142,6 +156,7 @@ int run(int argc, char** argv) {
   add_why(app, arguments);
   add_diff(app, arguments);
   add_writers(app, arguments);
+  add_web(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

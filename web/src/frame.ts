@@ -1,0 +1,263 @@
+// The frame: the passes of player/passes in their order, with the mirrored scene in planar reflectors.
+import * as v from './vec';
+import { Program, apply, bind, makeTarget, makeTexture } from './gl';
+import { Reflections } from './reflections';
+import { cutoffOf } from './scene';
+import { makeView } from './view';
+import type { Device, GpuScene, Range } from './scene';
+import type { RasterState } from './gl';
+import type { Camera } from './sections';
+import type { View } from './view';
+
+export const reflectorBits = 0x7f, seeThroughBit = 0x80;
+
+interface Frame { width: number; height: number; light: WebGLTexture; depth: WebGLTexture; target: WebGLFramebuffer; }
+interface Sum { texture: WebGLTexture; target: WebGLFramebuffer; }
+
+export interface FrameOptions { orders: number; taps: number; largeOnly: boolean; }
+export const wholeFrame: FrameOptions = { orders: 2, taps: 48, largeOnly: false };
+export const movingFrame: FrameOptions = { orders: 1, taps: 12, largeOnly: true };
+
+/** Where the samples of a pixel lie, as most devices have four. */
+const pattern: [number, number][] = [[-0.125, -0.375], [0.375, -0.125], [-0.375, 0.125], [0.125, 0.375]];
+
+const kBlock = 16;
+
+export class Renderer {
+  private frame?: Frame;
+  private sums?: [Sum, Sum];
+  private blocks?: { width: number; height: number; texture: WebGLTexture; target: WebGLFramebuffer };
+  private readonly depth: Program;
+  private readonly plainDepth: Program;
+  private readonly opaque: Program;
+  private readonly plain: Program;
+  private readonly reflected: Program;
+  private readonly transparent: Program;
+  private readonly luminance: Program;
+  private readonly average: Program;
+  private readonly reflections: Reflections;
+  private readonly none: WebGLVertexArrayObject;
+
+  constructor(readonly device: Device) {
+    const gl = device.gl, make = (name: string, define = ''): Program => Program.make(gl, name, define);
+    this.depth = make('depth'), this.plainDepth = make('depth', 'PLAIN');
+    this.opaque = make('scene'), this.plain = make('scene', 'PLAIN'), this.reflected = make('scene', 'REFLECTED');
+    this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.average = make('screen_average');
+    this.none = gl.createVertexArray()!;
+    this.reflections = new Reflections(device, this, this.none);
+  }
+
+  drawScreen(): void {
+    const { gl } = this.device;
+    gl.bindVertexArray(this.none);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  private ensure(width: number, height: number): Frame {
+    if (this.frame?.width === width && this.frame.height === height) return this.frame;
+    const { gl, color } = this.device;
+    for (const old of [this.frame?.light, this.frame?.depth, ...(this.sums ?? []).map((s) => s.texture)]) if (old) gl.deleteTexture(old);
+    for (const old of [this.frame?.target, ...(this.sums ?? []).map((s) => s.target)]) if (old) gl.deleteFramebuffer(old);
+    const light = makeTexture(gl, { width, height, format: color }), depth = makeTexture(gl, { width, height, format: gl.DEPTH24_STENCIL8 });
+    const sum = (): Sum => {
+      const texture = makeTexture(gl, { width, height, format: gl.RGBA16F });
+      return { texture, target: makeTarget(gl, texture) };
+    };
+    this.sums = [sum(), sum()];
+    this.frame = { width, height, light, depth, target: makeTarget(gl, light, depth) };
+    return this.frame;
+  }
+
+  /** Sample `sample` of a picture into the frame. */
+  draw(scene: GpuScene, camera: Camera, width: number, height: number, sample: number | undefined, options: FrameOptions): void {
+    const { gl } = this.device, frame = this.ensure(width, height);
+    const view = makeView(camera, width, height, scene.bounds, sample === undefined ? [0, 0] : pattern[sample % 4]);
+    const begin = (): void => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, frame.target);
+      gl.viewport(0, 0, width, height);
+    };
+    begin();
+    this.clear([...scene.data.sky.map((s) => s * scene.unit), 1]);
+    const shown = scene.opaque.filter((r) => v.mayBeVisible(view.clipFromPack, r.bounds));
+    this.drawDepth(scene, view, shown);
+    const target = { view, begin, inFrame: true, mirrors: 0, reflectance: 1, share: 1, texture: frame.light };
+    const marked = this.reflections.drawMasks(scene, target, options);
+    for (const m of marked) if (m.value > 0) this.reflections.draw(scene, target, m, options);
+    begin();
+    this.drawOpaque(scene, view, shown, new Set(marked.filter((m) => m.value > 0).map((m) => m.reflector.material)));
+    this.drawTransparent(scene, view);
+    for (const m of marked) if (m.value === 0) this.reflections.draw(scene, target, m, options);
+  }
+
+  clear(color: number[]): void {
+    const { gl } = this.device;
+    apply(gl, { depthWrite: true, stencilWrite: 0xff });
+    gl.clearColor(color[0]!, color[1]!, color[2]!, color[3]!);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+  }
+
+  drawDepth(scene: GpuScene, view: View, shown: Range[]): void {
+    scene.bindGeometry();
+    for (const range of shown) {
+      const m = scene.data.materials[range.material]!, program = cutoffOf(m) < 0 ? this.plainDepth : this.depth;
+      apply(this.device.gl, { depthTest: true, depthWrite: true, color: false, cull: !m.doubleSided, mirrored: view.mirrored });
+      program.use();
+      program.set('u_clip_from_pack', view.clipFromPack);
+      program.set('u_alpha', m.alpha);
+      program.set('u_alpha_cutoff', cutoffOf(m));
+      scene.bindBase(m.texture);
+      scene.draw(range);
+    }
+  }
+
+  private setFrame(program: Program, scene: GpuScene, view: View, distance: boolean): void {
+    program.use();
+    program.set('u_clip_from_pack', view.clipFromPack);
+    program.set('u_eye', view.eye);
+    program.set('u_change_scale', [0, 0]);
+    program.set('u_alpha_kind', distance ? (view.ortho ? 2 : 1) : 0);
+    const m = view.viewFromPack;
+    program.set('u_depth_row', [-m[2]!, -m[6]!, -m[10]!, -m[14]!]);
+    program.set('u_closest', this.device.closest);
+    program.set('u_unlit_scale', 1);
+    scene.bindGeometry();
+  }
+
+  private drawRanges(scene: GpuScene, view: View, shown: Range[], plain: Program, reflective: Set<number>, state: RasterState,
+                     distance: boolean): void {
+    const { gl } = this.device;
+    for (const program of [plain, this.opaque]) this.setFrame(program, scene, view, distance);
+    for (const range of shown) {
+      const m = scene.data.materials[range.material]!, twice = reflective.has(range.material);
+      const program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? plain : this.opaque;
+      program.use();
+      scene.setSurface(program, range);
+      program.set('u_weights', [1, 1, 1]);
+      apply(gl, { ...state, cull: !m.doubleSided, stencilRead: reflectorBits, stencilFunc: twice ? gl.EQUAL : undefined });
+      scene.draw(range);
+      if (!twice) continue;
+      program.set('u_weights', [1, 0, 1]);
+      apply(gl, { ...state, cull: !m.doubleSided, stencilRead: reflectorBits, stencilFunc: gl.NOTEQUAL, blend: distance ? undefined : 'add' });
+      scene.draw(range);
+    }
+  }
+
+  private drawOpaque(scene: GpuScene, view: View, shown: Range[], reflective: Set<number>): void {
+    this.drawRanges(scene, view, shown, this.plain, reflective, { depthTest: true }, false);
+  }
+
+  /** The opaque scene as a mirror shows it: alpha tells 1 / distance. dark: emitters that shine in closed form. */
+  drawReflected(scene: GpuScene, view: View, shown: Range[], dark: Range[], reflective: Set<number>): void {
+    const state = { depthTest: true, depthWrite: true, mirrored: view.mirrored };
+    this.drawRanges(scene, view, shown, this.reflected, reflective, state, true);
+    for (const range of dark) {
+      const m = scene.data.materials[range.material]!, program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? this.reflected : this.opaque;
+      program.use();
+      scene.setSurface(program, range);
+      program.set('u_weights', [1, 1, 0]);
+      apply(this.device.gl, { ...state, cull: !m.doubleSided });
+      scene.draw(range);
+    }
+  }
+
+  drawTransparent(scene: GpuScene, view: View): void {
+    const { gl } = this.device, m = view.viewFromPack;
+    const depth = (r: Range): number => {
+      const c = v.centre(r.bounds);
+      return m[2]! * c[0] + m[6]! * c[1] + m[10]! * c[2];
+    };
+    const sorted = scene.transparent.filter((r) => v.mayBeVisible(view.clipFromPack, r.bounds)).sort((a, b) => depth(a) - depth(b));
+    if (sorted.length === 0) return;
+    this.setFrame(this.transparent, scene, view, false);
+    this.transparent.set('u_unlit_scale', this.white * scene.unit);
+    for (const range of sorted) {
+      scene.setSurface(this.transparent, range);
+      const state: RasterState = { depthTest: true, alpha: false, mirrored: view.mirrored, stencilRead: seeThroughBit, cull: !scene.data.materials[range.material]!.doubleSided };
+      const draw = (more: RasterState, dimming: boolean, undirected: number): void => {
+        apply(gl, { ...state, ...more });
+        this.transparent.set('u_dimming', dimming);
+        this.transparent.set('u_weights', [1, undirected, 1]);
+        scene.draw(range);
+      };
+      draw({ blend: 'multiply' }, true, 0);
+      draw({ blend: 'add', stencilFunc: view.mirrored ? undefined : gl.EQUAL }, false, 1);
+      if (!view.mirrored) draw({ blend: 'add', stencilFunc: gl.NOTEQUAL }, false, 0);
+    }
+  }
+
+  white = 1.2;  // cd/m2 shown as white
+
+  /** Adds the frame, tone-mapped, to `count` that were drawn before; shows their mean. */
+  show(scene: GpuScene, count: number, width: number, height: number): void {
+    const scaled = this.frame!.width !== width || this.frame!.height !== height;
+    const { gl } = this.device, frame = this.frame!, [a, b] = this.sums!;
+    apply(gl, {});
+    this.average.use();
+    this.average.set('u_exposure', 1 / (this.white * scene.unit));
+    this.average.set('u_count', count + 1);
+    bind(gl, 'u_frame', frame.light);
+    bind(gl, 'u_before', a.texture);
+    this.average.set('u_before_weight', count);
+    this.average.set('u_encode', false);
+    this.average.set('u_scale', [1, 1]);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, b.target);
+    gl.viewport(0, 0, frame.width, frame.height);
+    this.drawScreen();
+    this.sums = [b, a];
+    bind(gl, 'u_before', b.texture);
+    this.average.set('u_scale', scaled ? [frame.width / width, frame.height / height] : [1, 1]);
+    this.average.set('u_before_weight', 1);
+    this.average.set('u_encode', true);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    this.drawScreen();
+  }
+
+  /** Log2 luminance that the frame's look asks for (player/passes/display_pass.cpp); nothing where all is black. */
+  meter(scene: GpuScene): number | undefined {
+    const { gl } = this.device, frame = this.frame!, width = Math.ceil(frame.width / kBlock), height = Math.ceil(frame.height / kBlock);
+    if (this.blocks?.width !== width || this.blocks.height !== height) {
+      const texture = makeTexture(gl, { width, height, format: this.device.color });
+      this.blocks = { width, height, texture, target: makeTarget(gl, texture) };
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.blocks.target);
+    gl.viewport(0, 0, width, height);
+    apply(gl, {});
+    this.luminance.use();
+    bind(gl, 'u_frame', frame.light);
+    this.luminance.set('u_frame_size', [frame.width, frame.height]);
+    this.luminance.set('u_block', kBlock);
+    this.drawScreen();
+    const sums = new Float32Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, sums);
+    const log = logLuminance(sums, width, height);
+    return log === undefined ? undefined : log - Math.log2(scene.unit);
+  }
+}
+
+/** The twin of log_luminance_of() in player/passes/display_pass.cpp. */
+export function logLuminance(sums: Float32Array, width: number, height: number): number | undefined {
+  const blocks: { log: number; weight: number }[] = [];
+  let all = 0;
+  for (let i = 0; i < width * height; ++i) {
+    const sum = sums[4 * i]!, count = sums[4 * i + 1]!;
+    if (!(count > 0) || !Number.isFinite(sum)) continue;
+    const x = (2 * (i % width) + 1) / width - 1, y = (2 * Math.floor(i / width) + 1) / height - 1;
+    const weight = count * (0.1 + Math.exp((-0.5 * (x * x + y * y)) / 0.25));
+    blocks.push({ log: sum / count, weight });
+    all += weight;
+  }
+  if (blocks.length === 0) return undefined;
+  blocks.sort((a, b) => a.log - b.log);
+  let run = 0, bright = blocks[blocks.length - 1]!.log;
+  for (const b of blocks) {
+    run += b.weight;
+    if (run >= 0.9 * all) {
+      bright = b.log;
+      break;
+    }
+  }
+  let sum = 0, weight = 0;
+  for (const b of blocks) if (b.log >= bright - 7) sum += b.log * b.weight, weight += b.weight;
+  return sum / weight;
+}

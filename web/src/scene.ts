@@ -1,0 +1,247 @@
+// A pack's pieces on the device.
+import * as v from './vec';
+import { Program, bind, makeTexture } from './gl';
+import { trianglesOf, uploadEmitters } from './emitters';
+import { halfToFloat } from './bytes';
+import { lobeRows, lobeTexels, makeTaps } from './kernel';
+import type { ReflectorEmitters } from './emitters';
+import type { Material, Page, Sections, Texture } from './sections';
+import type { Bounds, Mat4, Vec3 } from './vec';
+
+export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
+export interface GpuReflector {
+  index: number; material: number; first: number; count: number; packFromReflector: Mat4; reflectorFromPack: Mat4;
+  corners: Vec3[]; size: number; flatness: number; emitters?: ReflectorEmitters; dark: Range[];
+  query?: WebGLQuery; asked: boolean; visible: boolean;
+}
+export interface GpuKernel { taps: WebGLTexture; count: number; rows: number; median: number; lobes?: WebGLTexture; }
+interface Light { light: WebGLTexture; scale: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
+
+export interface Device {
+  gl: WebGL2RenderingContext;
+  color: number;     // the format of light
+  linear: number;    // the filter of images of it
+  closest: number;   // 1 / distance is never smaller where something is seen
+}
+
+/** What the device can do; throws where it cannot draw light. */
+export function makeDevice(gl: WebGL2RenderingContext): Device {
+  const full = gl.getExtension('EXT_color_buffer_float') && gl.getExtension('EXT_float_blend') && gl.getExtension('OES_texture_float_linear');
+  if (!full && !gl.getExtension('EXT_color_buffer_float') && !gl.getExtension('EXT_color_buffer_half_float'))
+    throw new Error('This device cannot draw light of more than eight bits.');
+  return { gl, color: full ? gl.RGBA32F : gl.RGBA16F, linear: gl.LINEAR, closest: full ? 1e-15 : 1e-7 };
+}
+
+export class GpuScene {
+  readonly bounds: Bounds = v.emptyBounds();
+  readonly opaque: Range[] = [];
+  readonly transparent: Range[] = [];
+  readonly reflectors: GpuReflector[] = [];
+  readonly unit: number;  // what light is multiplied by, so that it fits the device's numbers
+  bytes = 0;              // of textures and vertices
+  private readonly array: WebGLVertexArrayObject;
+  private readonly textures: (WebGLTexture | undefined)[] = [];
+  private readonly normals: (WebGLTexture | undefined)[] = [];
+  private readonly pages: Light[] = [];
+  private readonly white: WebGLTexture;
+  private readonly flat: WebGLTexture;
+  private readonly zero: WebGLTexture;
+  private readonly reflectance: WebGLTexture;
+  private readonly kernels = new Map<string, GpuKernel>();
+
+  constructor(readonly device: Device, readonly data: Sections) {
+    const gl = device.gl, mesh = data.mesh!, brightest = Math.max(1, ...data.materials.flatMap((m) => m.emission), ...data.sky);
+    this.unit = device.color === gl.RGBA32F ? 1 : Math.min(1, 8192 / brightest);
+    const indices = this.sortRanges();
+    data.reflectors.forEach((_, i) => this.addReflector(i, indices));
+    this.array = gl.createVertexArray()!;
+    gl.bindVertexArray(this.array);
+    const attribute = (at: number, values: ArrayBufferView | undefined, size: number, type: number = gl.FLOAT): void => {
+      if (!values) return;
+      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, size, type, type === gl.UNSIGNED_BYTE, 0, 0);
+      this.bytes += values.byteLength;
+    };
+    attribute(0, mesh.positions, 3);
+    attribute(1, mesh.normals, 3);
+    attribute(2, mesh.uvs, 2);
+    attribute(3, mesh.lightmapUvs, 2);
+    attribute(4, mesh.colors, 4, gl.UNSIGNED_BYTE);
+    attribute(5, mesh.normalUvs, 2);
+    attribute(6, mesh.tangents, 4);
+    gl.vertexAttrib4f(4, 1, 1, 1, 1);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(indices), gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
+    this.bytes += 4 * indices.length;
+    const one = (format: number, texel: ArrayBufferView): WebGLTexture => makeTexture(gl, { width: 1, height: 1, format }, texel);
+    this.white = one(gl.SRGB8_ALPHA8, new Uint8Array([255, 255, 255, 255]));
+    this.flat = one(gl.RGBA8, new Uint8Array([128, 128, 255, 255]));
+    this.zero = one(gl.R32UI, new Uint32Array([0]));
+    this.reflectance = this.uploadReflectance();
+    data.pages.forEach((page, i) => this.setPage(i, page));
+    bind(gl, 'u_surfaces', this.zero);
+    bind(gl, 'u_cells', this.zero);
+    bind(gl, 'u_seen', this.zero);
+  }
+
+  isTransparent(material: number): boolean {
+    const m = this.data.materials[material]!;
+    return m.alphaMode === 2 || m.transmission > 0;
+  }
+
+  private rangeOf(indices: number[], from: ArrayLike<number>, material: number, page: number): Range {
+    const range: Range = { first: indices.length, count: from.length, material, page, bounds: v.emptyBounds() }, p = this.data.mesh!.positions;
+    for (let i = 0; i < from.length; ++i) {
+      const k = from[i]!;
+      indices.push(k);
+      v.extend(range.bounds, p[3 * k]!, p[3 * k + 1]!, p[3 * k + 2]!);
+    }
+    return range;
+  }
+
+  private sortRanges(): number[] {
+    const mesh = this.data.mesh!, indices: number[] = [];
+    const parts = mesh.parts.filter((p) => p.count > 0).sort((a, b) => a.material - b.material || a.page - b.page);
+    for (const part of parts) {
+      const range = this.rangeOf(indices, mesh.indices.subarray(part.first, part.first + part.count), part.material, part.page);
+      (this.isTransparent(part.material) ? this.transparent : this.opaque).push(range);
+      v.extend(this.bounds, ...range.bounds.lower);
+      v.extend(this.bounds, ...range.bounds.upper);
+    }
+    return indices;
+  }
+
+  private addReflector(index: number, indices: number[]): void {
+    const { gl } = this.device, r = this.data.reflectors[index]!, m = r.packFromReflector, inverse = v.inverseRigid(m);
+    const size = Math.hypot(r.upper[0]! - r.lower[0]!, r.upper[1]! - r.lower[1]!);
+    const xs = [r.lower[0]!, r.upper[0]!, r.upper[0]!, r.lower[0]!], ys = [r.lower[1]!, r.lower[1]!, r.upper[1]!, r.upper[1]!];
+    const range = this.rangeOf(indices, r.indices, r.material, -1), dark: Range[] = [];
+    for (const e of r.emitters)
+      for (const found of trianglesOf(this.data.emitters[e]!, this.data.mesh!, this.data.materials))
+        if (!this.isTransparent(found.part.material)) dark.push(this.rangeOf(indices, found.indices, found.part.material, found.part.page));
+    this.reflectors.push({
+      index, material: r.material, first: range.first, count: range.count, packFromReflector: m, reflectorFromPack: inverse,
+      corners: xs.map((x, i) => v.point(m, [x, ys[i]!, 0])), size, flatness: r.flatness, dark,
+      emitters: uploadEmitters(gl, r, this.data.emitters, inverse, size, this.unit), asked: false, visible: true,
+    });
+  }
+
+  private uploadReflectance(): WebGLTexture {
+    const maps = this.data.fresnels, width = Math.max(1, ...maps.map((f) => f.table.length / 3)), height = Math.max(maps.length, 1);
+    const texels = new Float32Array(4 * width * height);
+    maps.forEach((map, row) => {
+      for (let i = 0; i < map.table.length / 3; ++i) texels.set(map.table.subarray(3 * i, 3 * i + 3), 4 * (row * width + i));
+    });
+    return makeTexture(this.device.gl, { width, height, format: this.device.gl.RGBA32F }, texels);
+  }
+
+  /** A finer page in place of the one that was there. */
+  setPage(index: number, page: Page): void {
+    const { gl } = this.device, old = this.pages[index];
+    for (const texture of [old?.light, old?.direction, old?.cells, old?.detail]) if (texture) gl.deleteTexture(texture);
+    const halves = (texels: Uint16Array, width: number, height: number): WebGLTexture => {
+      this.bytes += texels.byteLength;
+      return makeTexture(gl, { width, height, format: gl.RGB16F, min: gl.LINEAR, mag: gl.LINEAR }, texels);
+    };
+    const light: Light = { light: halves(page.light, page.width, page.height), scale: page.scale };
+    if (page.direction) light.direction = halves(page.direction, page.width, page.height);
+    if (page.detail && page.cells) {
+      light.cells = makeTexture(gl, { width: page.width, height: page.height, format: gl.R32UI }, page.cells);
+      light.detail = halves(page.detail, page.detailWidth, page.detailHeight);
+      this.bytes += page.cells.byteLength;
+    }
+    this.pages[index] = light;
+    this.data.pages[index] = page;
+  }
+
+  setTexture(index: number, texture: Texture, normal: boolean): void {
+    const { gl } = this.device, wraps = [gl.REPEAT, gl.CLAMP_TO_EDGE, gl.MIRRORED_REPEAT];
+    const levels = Math.floor(Math.log2(Math.max(texture.width, texture.height))) + 1;
+    const out = makeTexture(gl, {
+      width: texture.width, height: texture.height, levels, format: normal ? gl.RGBA8 : gl.SRGB8_ALPHA8, min: gl.LINEAR_MIPMAP_LINEAR,
+      mag: texture.nearest ? gl.NEAREST : gl.LINEAR, wrapS: wraps[texture.wrapS], wrapT: wraps[texture.wrapT],
+    }, texture.texels);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    const anisotropic = gl.getExtension('EXT_texture_filter_anisotropic');
+    if (anisotropic && !texture.nearest)
+      gl.texParameterf(gl.TEXTURE_2D, anisotropic.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(8, gl.getParameter(anisotropic.MAX_TEXTURE_MAX_ANISOTROPY_EXT) as number));
+    (normal ? this.normals : this.textures)[index] = out;
+    this.bytes += (texture.texels.byteLength * 4) / 3;
+  }
+
+  kernel(material: number, taps: number): GpuKernel {
+    const m = this.data.materials[material]!, name = `${m.kernel} ${m.fresnel} ${taps}`, known = this.kernels.get(name);
+    if (known) return known;
+    const { gl } = this.device, kernel = this.data.kernels[m.kernel], fresnel = this.data.fresnels[m.fresnel], made = makeTaps(kernel, taps, fresnel);
+    const out: GpuKernel = {
+      taps: makeTexture(gl, { width: made.count, height: made.rows, format: gl.RGBA32F }, made.texels),
+      count: made.count, rows: made.rows, median: made.median,
+    };
+    if (kernel && kernel.fits.length > 0)
+      out.lobes = makeTexture(gl, { width: lobeRows, height: 2, format: gl.RGBA32F }, lobeTexels(kernel, fresnel, made.means));
+    this.kernels.set(name, out);
+    return out;
+  }
+
+  /** R at 60 degrees, the largest channel. */
+  reflectanceOf(material: number): number {
+    const table = this.data.fresnels[this.data.materials[material]!.fresnel]?.table;
+    if (!table) return 0;
+    const i = 3 * (table.length / 6 | 0);
+    return Math.max(table[i]!, table[i + 1]!, table[i + 2]!);
+  }
+
+  bindGeometry(): void {
+    this.device.gl.bindVertexArray(this.array);
+    bind(this.device.gl, 'u_reflectance', this.reflectance);
+  }
+  draw(range: { first: number; count: number }): void {
+    const { gl } = this.device;
+    gl.drawElements(gl.TRIANGLES, range.count, gl.UNSIGNED_INT, 4 * range.first);
+  }
+  bindBase(index: number): void { bind(this.device.gl, 'u_base_texture', this.textures[index] ?? this.white); }
+
+  setReflectance(program: Program, material: number): void {
+    const row = this.data.materials[material]!.fresnel;
+    program.set('u_reflectance_row', row);
+    program.set('u_reflectance_count', row < 0 ? 1 : this.data.fresnels[row]!.table.length / 3);
+  }
+
+  /** Albedo, reflectance, emission, normal map and light of a range. */
+  setSurface(program: Program, range: Range): void {
+    const { gl } = this.device, m = this.data.materials[range.material]!, light = this.pages[range.page];
+    program.set('u_base_color', [...m.baseColor.map((c) => Math.min(Math.max(c, 0), 1)), m.alpha]);
+    program.set('u_alpha_cutoff', cutoffOf(m));
+    program.set('u_covers', m.alphaMode === 2);
+    program.set('u_diffuse_share', (1 - m.metallic) * (1 - m.transmission));
+    program.set('u_transmission', m.transmission);
+    program.set('u_emission', m.emission.map((e) => e * this.unit));
+    program.set('u_unlit', m.unlit);
+    this.setReflectance(program, range.material);
+    this.bindBase(m.texture);
+    const normal = m.normalTexture >= 0 && this.data.mesh!.normalUvs ? this.normals[m.normalTexture] : undefined;
+    program.set('u_normal_mapped', !!normal);
+    program.set('u_normal_scale', m.normalScale);
+    bind(gl, 'u_normal_texture', normal ?? this.flat);
+    bind(gl, 'u_lightmap', light?.light ?? this.white);
+    program.set('u_lightmap_scale', light ? light.scale * this.unit : 0);
+    program.set('u_directional', !!light?.direction);
+    bind(gl, 'u_direction', light?.direction ?? light?.light ?? this.white);
+    program.set('u_detailed', !!light?.detail);
+    bind(gl, 'u_cells', light?.cells ?? this.zero);
+    bind(gl, 'u_detail', light?.detail ?? this.white);
+  }
+
+  /** Irradiance at a vertex-interpolated place of a page, lux. */
+  luxAt(page: number, s: number, t: number): number {
+    const p = this.data.pages[page];
+    if (!p) return 0;
+    const x = Math.min(Math.floor(s * p.width), p.width - 1), y = Math.min(Math.floor(t * p.height), p.height - 1), at = 3 * (y * p.width + x);
+    return p.scale * (0.2126 * halfToFloat(p.light[at]!) + 0.7152 * halfToFloat(p.light[at + 1]!) + 0.0722 * halfToFloat(p.light[at + 2]!));
+  }
+}
+
+export const cutoffOf = (m: Material): number => (m.alphaMode === 1 ? Math.max(m.cutoff, 0) : -1);

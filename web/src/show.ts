@@ -1,0 +1,118 @@
+// Which frame is drawn, how large, and how bright: moving ones keep up, and once nothing moves the whole frame is drawn.
+import { Renderer, movingFrame, wholeFrame } from './frame';
+import { pick, rayThrough } from './pick';
+import type { GpuScene } from './scene';
+import type { Input } from './input';
+import type { Panel } from './panel';
+import type { Walk } from './walk';
+
+const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25;
+
+export class Show {
+  private count = 0;        // samples that are shown
+  private movedAt = -1e9;
+  private scale = 1;
+  private began = false;
+  private meteredAt = -1e9;
+  private byHand?: number;  // stops over what the meter finds
+  private luxShown = false;
+  private pointer: [number, number] = [0.5, 0.5];
+  frames = 0;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly renderer: Renderer, readonly scene: GpuScene,
+              private readonly walk: Walk, private readonly panel: Panel) {}
+
+  /** Something else is to be seen. */
+  changed(): void { this.count = 0; }
+
+  brighter(stops: number): void {
+    this.byHand = (this.byHand ?? 0) - stops / 3;
+    this.meteredAt = -1e9;
+    this.changed();
+  }
+  automatic(): void {
+    this.byHand = undefined;
+    this.meteredAt = -1e9;
+    this.changed();
+  }
+
+  frame(input: Input, dt: number, now: number): void {
+    const moved = this.walk.step(input.take(dt), dt);
+    this.panel.stick(input.stick);
+    const width = Math.max(1, Math.round(this.canvas.clientWidth * Math.min(devicePixelRatio, 2)));
+    const height = Math.max(1, Math.round(this.canvas.clientHeight * Math.min(devicePixelRatio, 2)));
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      this.canvas.width = width, this.canvas.height = height;
+      this.count = 0;
+    }
+    if (moved) {
+      if (now - this.movedAt < 500) this.adapt(dt * 1000);
+      this.movedAt = now;
+      this.count = 0;
+      delete document.body.dataset['rest'];
+    }
+    const moving = this.began && now - this.movedAt < kRest;
+    if (!moving && this.count >= kSamples) return;
+    if (moving && !moved) return;
+    this.draw(moving, width, height, now);
+    this.began = true;
+    ++this.frames;
+  }
+
+  private adapt(ms: number): void {
+    if (ms > kSlow) this.scale = Math.max(this.scale * Math.max(Math.sqrt(kSlow / ms), 0.5), kLeastScale);
+    else if (ms < kQuick) this.scale = Math.min(this.scale * 1.05, 1);
+  }
+
+  private draw(moving: boolean, width: number, height: number, now: number): void {
+    const scale = moving ? this.scale : 1, w = Math.max(1, Math.round(width * scale)), h = Math.max(1, Math.round(height * scale));
+    this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving ? movingFrame : wholeFrame);
+    if (moving ? now - this.meteredAt > 200 : this.count === 0) this.meter(moving, now);
+    this.renderer.show(this.scene, moving ? 0 : this.count, width, height);
+    this.count = moving ? 0 : this.count + 1;
+    if (this.count === kSamples) {
+      document.body.dataset['rest'] = String(this.frames);
+      this.panel.lux(this.luxShown ? this.luxThere() : undefined);
+    }
+  }
+
+  private meter(moving: boolean, now: number): void {
+    const log = this.renderer.meter(this.scene);
+    this.meteredAt = now;
+    if (log === undefined) return;
+    const ev = Math.min(Math.max(log - Math.log2(1.2 * 0.18), -4), 17) + (this.byHand ?? 0);
+    const before = Math.log2(this.renderer.white / 1.2), share = moving ? 0.45 : 1;
+    this.renderer.white = 1.2 * 2 ** (before + (ev - before) * share);
+  }
+
+  private get aspect(): number { return this.canvas.width / this.canvas.height; }
+
+  private hitAt(x: number, y: number): ReturnType<typeof pick> {
+    const ray = rayThrough(this.walk.camera, x, y, this.aspect);
+    return pick(this.scene, ray.from, ray.way);
+  }
+
+  /** Walks to what is there, or to the floor before it. */
+  go(x: number, y: number): void {
+    const hit = this.hitAt(x, y);
+    if (!hit) return;
+    const back = hit.normal[1] > 0.7 ? 0 : 0.5;
+    const at: [number, number, number] = [hit.at[0] + hit.normal[0] * back, hit.at[1], hit.at[2] + hit.normal[2] * back];
+    if (back > 0) at[1] = this.walk.floors.nearest(this.walk.camera.eye, 1e9)?.eye[1] ?? at[1];
+    if (!this.walk.goTo(at, matchMedia('(prefers-reduced-motion: reduce)').matches)) this.panel.say('Nobody can walk there.');
+    this.changed();
+  }
+
+  hover(x: number, y: number): void {
+    this.pointer = [x, y];
+    if (this.luxShown) this.panel.lux(this.luxThere());
+  }
+  private luxThere(): string {
+    const hit = this.hitAt(...this.pointer);
+    return hit ? `${hit.lux < 10 ? hit.lux.toFixed(1) : Math.round(hit.lux)} lux` : 'no surface';
+  }
+  toggleLux(): void {
+    this.luxShown = !this.luxShown;
+    this.panel.lux(this.luxShown ? this.luxThere() : undefined);
+  }
+}
