@@ -50,68 +50,6 @@ float corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
   return std::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
 }
 
-// A triangle of a polygon as seen from a receiver.
-struct SeenTriangle {
-  std::array<Vec3, 3> to;         // from the receiver to its corners
-  std::array<Vec3, 3> direction;  // the same, unit; only where solid_angle > 0
-  std::array<float, 3> cosine;    // incidence() there, with a floor that keeps every direction possible
-  float area = 0;                 // m²
-  float solid_angle = 0;          // 0 where the receiver touches a corner
-
-  // Nearly its irradiance over its radiance.
-  float weight() const { return solid_angle * (cosine[0] + cosine[1] + cosine[2]); }
-};
-
-SeenTriangle see(const std::array<Vec3, 3>& corners, float area, const Receiver& r) {
-  SeenTriangle t;
-  t.area = area;
-  float length[3], largest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    t.to[i] = corners[i] - r.position;
-    length[i] = std::sqrt(length2(t.to[i]));
-    if (!(length[i] > 0)) return t;
-    t.direction[i] = t.to[i] / length[i];
-    t.cosine[i] = incidence(r, t.direction[i]);
-    largest = std::max(largest, t.cosine[i]);
-  }
-  for (float& c : t.cosine) c = std::max(c, std::max(0.1f * largest, 0.01f));
-  const auto& [a, b, c] = t.direction;
-  const float triple = std::abs(glm::dot(a, glm::cross(b, c)));  // Van Oosterom & Strackee 1983
-  t.solid_angle = 2 * std::atan2(triple, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
-  return t;
-}
-
-// One triangle, few of them by what they contribute, many by area; u.x is stretched to be used again.
-SeenTriangle choose_triangle(const PolygonLight& light, const Receiver& r, Vec2& u, float& probability) {
-  constexpr std::size_t kFew = 8;
-  const auto& cumulative = light.cumulative_area;
-  const auto area = [&](std::size_t k) { return static_cast<float>(cumulative[k] - (k > 0 ? cumulative[k - 1] : 0)); };
-  const std::size_t count = light.corners.size();
-  if (count == 1) return see(light.corners[0], area(0), r);
-  std::size_t chosen = 0;
-  float before = 0;
-  if (count <= kFew) {
-    std::array<SeenTriangle, kFew> seen;
-    float sum = 0;
-    for (std::size_t k = 0; k < count; ++k) sum += (seen[k] = see(light.corners[k], area(k), r)).weight();
-    if (sum > 0) {
-      const float target = u.x * sum;
-      while (chosen + 1 < count && target >= before + seen[chosen].weight()) before += seen[chosen++].weight();
-      const float weight = std::max(seen[chosen].weight(), 1e-30f);
-      u.x = std::clamp((target - before) / weight, 0.0f, 0x1.fffffep-1f);
-      probability = weight / sum;
-      return seen[chosen];
-    }
-  }
-  const double target = double{u.x} * light.area_m2();
-  chosen = std::min<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin(),
-                                 count - 1);
-  u.x = std::clamp(static_cast<float>((target - (chosen > 0 ? cumulative[chosen - 1] : 0)) / area(chosen)), 0.0f,
-                   0x1.fffffep-1f);
-  probability = static_cast<float>(area(chosen) / light.area_m2());
-  return see(light.corners[chosen], area(chosen), r);
-}
-
 // u in [0,1) with a density that is linear from a to b; returns the density.
 float warp_linear(float a, float b, float& u) {
   const float root = std::sqrt(a * a + (b * b - a * a) * u);
@@ -125,25 +63,6 @@ float warp_by_cosines(const std::array<float, 3>& cosine, Vec2& u) {
   const float pdf_y = warp_linear(cosine[1], 0.5f * (cosine[0] + cosine[2]), u.y);
   const float left = cosine[1] + (cosine[0] - cosine[1]) * u.y, right = cosine[1] + (cosine[2] - cosine[1]) * u.y;
   return pdf_y * warp_linear(left, right, u.x);
-}
-
-// Arvo 1995, "Stratified Sampling of Spherical Triangles".
-Vec3 sample_spherical_triangle(const SeenTriangle& triangle, const Vec2& u) {
-  const auto& [a, b, c] = triangle.direction;
-  const float alpha = corner_angle(a, b, c);
-  const float phi = triangle.solid_angle * u.x - alpha;
-  const float s = std::sin(phi), t = std::cos(phi);
-  const float cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
-  const float cos_c = glm::dot(a, b);
-  const float k1 = t - cos_alpha, k2 = s + sin_alpha * cos_c;
-  const float numerator = (k2 * t - k1 * s) * cos_alpha - k2;
-  const float denominator = (k2 * s + k1 * t) * sin_alpha;
-  const float q = std::clamp(denominator != 0 ? numerator / denominator : 1.0f, -1.0f, 1.0f);
-  const Vec3 towards_c = normalize_or(c - glm::dot(c, a) * a, a);
-  const Vec3 on_edge = q * a + std::sqrt(1 - q * q) * towards_c;
-  const float z = 1 - u.y * (1 - glm::dot(on_edge, b));
-  const Vec3 from_b = normalize_or(on_edge - glm::dot(on_edge, b) * b, b);
-  return glm::normalize(z * b + std::sqrt(std::max(0.0f, 1 - z * z)) * from_b);
 }
 
 // Edges as ordered pairs of positions; triangles of one polygon that share an edge run along it in opposite directions.
@@ -255,19 +174,92 @@ float polygon_irradiance(const PolygonLight& light, const Receiver& r) {
   return std::clamp(height > 0 ? sum : -sum, 0.0f, kPi);
 }
 
-std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Receiver& receiver, const Vec2& u) {
-  const float height = glm::dot(light.normal, receiver.position - light.center);
-  if (light.double_sided ? height == 0 : height <= 0) return std::nullopt;
+PolygonView::PolygonView(const PolygonLight& light, const Receiver& receiver)
+    : light_(light), receiver_(receiver), height_(glm::dot(light.normal, receiver.position - light.center)) {
+  if (light.corners.size() > kFew || (light.double_sided ? height_ == 0 : height_ <= 0)) return;
+  for (std::size_t k = 0; k < light.corners.size(); ++k) sum_ += (seen_[k] = see(k)).weight();
+}
+
+float PolygonView::area_of(std::size_t k) const {
+  const auto& cumulative = light_.cumulative_area;
+  return static_cast<float>(cumulative[k] - (k > 0 ? cumulative[k - 1] : 0));
+}
+
+PolygonView::Triangle PolygonView::see(std::size_t k) const {
+  Triangle t;
+  t.area = area_of(k);
+  float length[3], largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.to[i] = light_.corners[k][i] - receiver_.position;
+    length[i] = std::sqrt(length2(t.to[i]));
+    if (!(length[i] > 0)) return t;
+    t.direction[i] = t.to[i] / length[i];
+    t.cosine[i] = incidence(receiver_, t.direction[i]);
+    largest = std::max(largest, t.cosine[i]);
+  }
+  for (float& c : t.cosine) c = std::max(c, std::max(0.1f * largest, 0.01f));
+  const auto& [a, b, c] = t.direction;
+  const float triple = std::abs(glm::dot(a, glm::cross(b, c)));  // Van Oosterom & Strackee 1983
+  t.solid_angle = 2 * std::atan2(triple, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+  if (t.solid_angle > kSmallSolidAngle) t.alpha = corner_angle(a, b, c);
+  return t;
+}
+
+// One triangle, few of them by what they contribute, many by area; u.x is stretched to be used again.
+PolygonView::Triangle PolygonView::choose(Vec2& u, float& probability) const {
+  const std::size_t count = light_.corners.size();
+  if (count == 1) return seen_[0];
+  std::size_t chosen = 0;
+  if (count <= kFew && sum_ > 0) {
+    const float target = u.x * sum_;
+    float before = 0;
+    while (chosen + 1 < count && target >= before + seen_[chosen].weight()) before += seen_[chosen++].weight();
+    const float weight = std::max(seen_[chosen].weight(), 1e-30f);
+    u.x = std::clamp((target - before) / weight, 0.0f, 0x1.fffffep-1f);
+    probability = weight / sum_;
+    return seen_[chosen];
+  }
+  const auto& cumulative = light_.cumulative_area;
+  const double target = double{u.x} * light_.area_m2();
+  chosen = std::min<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin(),
+                                 count - 1);
+  u.x = std::clamp(static_cast<float>((target - (chosen > 0 ? cumulative[chosen - 1] : 0)) / area_of(chosen)), 0.0f,
+                   0x1.fffffep-1f);
+  probability = static_cast<float>(area_of(chosen) / light_.area_m2());
+  return count <= kFew ? seen_[chosen] : see(chosen);
+}
+
+// Arvo 1995, "Stratified Sampling of Spherical Triangles".
+Vec3 PolygonView::on_sphere(const Triangle& triangle, const Vec2& u) {
+  const auto& [a, b, c] = triangle.direction;
+  const float alpha = triangle.alpha;
+  const float phi = triangle.solid_angle * u.x - alpha;
+  const float s = std::sin(phi), t = std::cos(phi);
+  const float cos_alpha = std::cos(alpha), sin_alpha = std::sin(alpha);
+  const float cos_c = glm::dot(a, b);
+  const float k1 = t - cos_alpha, k2 = s + sin_alpha * cos_c;
+  const float numerator = (k2 * t - k1 * s) * cos_alpha - k2;
+  const float denominator = (k2 * s + k1 * t) * sin_alpha;
+  const float q = std::clamp(denominator != 0 ? numerator / denominator : 1.0f, -1.0f, 1.0f);
+  const Vec3 towards_c = normalize_or(c - glm::dot(c, a) * a, a);
+  const Vec3 on_edge = q * a + std::sqrt(1 - q * q) * towards_c;
+  const float z = 1 - u.y * (1 - glm::dot(on_edge, b));
+  const Vec3 from_b = normalize_or(on_edge - glm::dot(on_edge, b) * b, b);
+  return glm::normalize(z * b + std::sqrt(std::max(0.0f, 1 - z * z)) * from_b);
+}
+
+std::optional<PolygonSample> PolygonView::sample(const Vec2& u) const {
+  if (light_.double_sided ? height_ == 0 : height_ <= 0) return std::nullopt;
   Vec2 rest = u;
   float probability = 1;
-  const SeenTriangle triangle = choose_triangle(light, receiver, rest, probability);
+  const Triangle triangle = choose(rest, probability);
   PolygonSample s;
   if (triangle.solid_angle > kSmallSolidAngle) {
     const float pdf = warp_by_cosines(triangle.cosine, rest);
-    s.direction = sample_spherical_triangle(triangle, rest);
-    const float cosine = std::abs(glm::dot(light.normal, s.direction));
+    s.direction = on_sphere(triangle, rest);
+    const float cosine = std::abs(glm::dot(light_.normal, s.direction));
     if (!(cosine > 0)) return std::nullopt;
-    s.distance = std::abs(height) / cosine;
+    s.distance = std::abs(height_) / cosine;
     s.solid_angle = triangle.solid_angle / (probability * pdf);
   } else {
     const Vec2 w = square_to_triangle(rest);
@@ -276,12 +268,12 @@ std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Rec
     if (!(s.distance > 0)) return std::nullopt;
     s.direction = on / s.distance;
     s.solid_angle =
-        triangle.area / probability * std::abs(glm::dot(light.normal, s.direction)) / (s.distance * s.distance);
+        triangle.area / probability * std::abs(glm::dot(light_.normal, s.direction)) / (s.distance * s.distance);
   }
   if (!(s.solid_angle > 0) || !is_finite(s.direction)) return std::nullopt;
   // Stop short of the emitter itself, as far as rounding may put its points off its plane.
-  const float cosine = std::abs(glm::dot(light.normal, s.direction));
-  s.distance -= s.distance * 0x1p-14f + light.magnitude * (32 * 0x1p-24f) / std::max(cosine, 1e-6f);
+  const float cosine = std::abs(glm::dot(light_.normal, s.direction));
+  s.distance -= s.distance * 0x1p-14f + light_.magnitude * (32 * 0x1p-24f) / std::max(cosine, 1e-6f);
   return s;
 }
 

@@ -53,10 +53,45 @@ struct PolygonSample {
   float distance = 0;       // that a shadow ray must go; <= 0 where the light touches the point
   float solid_angle = 0;    // 1 / pdf per steradian
 };
-// Nearly in proportion to incidence() per solid angle where a triangle is large as seen from the receiver: spherical
-// triangles (Arvo 1995) warped by the cosines at their corners (Hart et al. 2020); else by area. Then incidence times
-// solid_angle hardly varies, and a ratio of such weights hardly has a bias. Nothing where the point sees the polygon
-// edge-on or from behind. u in [0,1)².
-std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Receiver& receiver, const Vec2& u);
+
+// A polygon as seen from a receiver, which must outlive it: what all its points have in common is found once.
+class PolygonView {
+ public:
+  PolygonView(const PolygonLight& light, const Receiver& receiver);
+
+  // Nearly in proportion to incidence() per solid angle where a triangle is large as seen from the receiver: spherical
+  // triangles (Arvo 1995) warped by the cosines at their corners (Hart et al. 2020); else by area. Then incidence times
+  // solid_angle hardly varies, and a ratio of such weights hardly has a bias. Nothing where the point sees the polygon
+  // edge-on or from behind. u in [0,1)².
+  std::optional<PolygonSample> sample(const Vec2& u) const;
+
+ private:
+  struct Triangle {
+    std::array<Vec3, 3> to;         // from the receiver to its corners
+    std::array<Vec3, 3> direction;  // the same, unit; only where solid_angle > 0
+    std::array<float, 3> cosine;    // incidence() there, with a floor that keeps every direction possible
+    float area = 0;                 // m²
+    float solid_angle = 0;          // 0 where the receiver touches a corner
+    float alpha = 0;                // angle at the first corner, where the solid angle is large
+
+    // Nearly its irradiance over its radiance.
+    float weight() const { return solid_angle * (cosine[0] + cosine[1] + cosine[2]); }
+  };
+  static constexpr std::size_t kFew = 8;
+
+  float area_of(std::size_t k) const;
+  Triangle see(std::size_t k) const;
+  Triangle choose(Vec2& u, float& probability) const;
+  static Vec3 on_sphere(const Triangle& triangle, const Vec2& u);
+
+  const PolygonLight& light_;
+  const Receiver& receiver_;
+  float height_ = 0;                 // over the light's plane
+  std::array<Triangle, kFew> seen_;  // where there are no more
+  float sum_ = 0;                    // of their weights
+};
+inline std::optional<PolygonSample> sample_polygon(const PolygonLight& light, const Receiver& receiver, const Vec2& u) {
+  return PolygonView(light, receiver).sample(u);
+}
 
 }  // namespace oriel

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "bake/jobs/units.h"
-#include "bake/radiosity/estimators/filter.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -16,6 +16,7 @@ constexpr std::size_t kMaxPolygons = 128;
 constexpr std::size_t kMaxPunctual = 256;    // that are asked one by one; of more,
 constexpr std::uint64_t kPicks = 16;         // so many are chosen for each point, by how bright they are from there
 constexpr std::uint32_t kSamplesAPoint = 4;  // beyond those that texels keep: to find one takes more rays than these
+constexpr std::uint32_t kPilot = 2;          // samples a half and light that tell whether more may differ
 constexpr int kTries = 16;                   // for a point of a light that is above the horizon
 constexpr std::size_t kGroup = 64;           // texels whose shadow rays to one light are traced together
 
@@ -38,7 +39,7 @@ class DirectGroup {
 
   void run(DirectSums& sums) {
     for (std::uint32_t l = 0; l < d_.polygons_.size(); ++l) {
-      aim_at_polygon(l);
+      sample_polygon_light(l);
       finish_light(d_.polygons_[l].radiance, scene().light_group(d_.polygons_[l].triangles.front()));
     }
     for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
@@ -81,6 +82,7 @@ class DirectGroup {
     std::uint32_t texel = 0;  // of the list
     int half = 0;
     std::uint32_t k = 0;
+    bool again = false;  // at the site of the point before
   };
   struct Shot {  // a shadow ray
     std::uint32_t point = 0;
@@ -113,7 +115,8 @@ class DirectGroup {
       for (std::uint32_t k = 0; k < per_half_; ++k) {
         const bool again = k > kept && (k - kept) % samples_a_point != 0;
         const std::uint32_t point = k < kept ? k : kept + (k - kept) / samples_a_point;
-        points_.push_back({again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k});
+        points_.push_back(
+            {again ? points_.back().site : d_.sites_.at(list_[i], half, point, rays_), i, half, k, again});
       }
     }
   }
@@ -125,24 +128,60 @@ class DirectGroup {
     return false;
   }
 
-  void aim_at_polygon(std::uint32_t l) {
+  // Where the first samples of all texels of the group see the light, or none of them does, it is left at that: the
+  // others would tell the same. A hall of many lamps has few in whose penumbra a place lies.
+  void sample_polygon_light(std::uint32_t l) {
+    const bool pilot = per_half_ > kPilot;
+    aim_at_polygon(
+        l, pilot ? [](const Point& p) { return p.k < kPilot; } : [](const Point&) { return true; }, true);
+    if (!pilot) return;
+    trace();
+    bool all = true, none = true, any = false;
+    for (const Tally& t : tallies_)
+      for (int half = 0; half < kHalves; ++half) {
+        all = all && t.passed[half] == t.weight[half], none = none && t.passed[half] == Vec3(0);
+        any = any || t.weight[half] != Vec3(0);
+      }
+    if (!none || !any)
+      aim_at_polygon(
+          l, [](const Point& p) { return p.k >= kPilot; }, !all);
+  }
+
+  // Points that `which` names: their light if nothing were before the lamp; with `shoot_rays` what is.
+  void aim_at_polygon(std::uint32_t l, bool (*which)(const Point&), bool shoot_rays) {
     const PolygonLight& light = d_.polygons_[l];
+    Receiver receiver;
+    std::optional<PolygonView> view;
+    float open = 0;
+    std::uint32_t last = ~0u;  // whose site these are of
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       const Point& point = points_[p];
-      const Receiver receiver = point.site.receiver();
-      const float open = polygon_irradiance(light, receiver);
-      if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
-      tallies_[point.texel].open[point.half] += Vec3(open);
-      Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
-      // Points of the light below the horizon weigh nothing: others are tried, of a light that reaches barely above it
-      // too.
-      for (int tries = 0; tries < kTries; ++tries) {
-        const auto s = sample_polygon(light, receiver, sampler.next2());
-        const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
-        if (!(weight > 0)) continue;
-        shoot(p, {point.site.origin, s->direction, s->distance}, Vec3(weight));
-        break;
+      if (!which(point)) continue;
+      if (!point.again || last + 1 != p) {
+        receiver = point.site.receiver();
+        open = polygon_irradiance(light, receiver);
+        view.reset();
       }
+      last = p;
+      if (!(open > 0) || !is_usable(point, Vec3(open))) continue;
+      Tally& tally = tallies_[point.texel];
+      tally.open[point.half] += Vec3(open);
+      const bool unseen = tally.weight[0] + tally.weight[1] == Vec3(0);
+      if (!shoot_rays && !unseen) continue;
+      if (!view) view.emplace(light, receiver);
+      Sampler sampler(d_.seed_ + seeds::kPolygonLight + l, stream_of(list_[point.texel], point.half), point.k);
+      shoot_at_polygon(*view, receiver, p, sampler);
+    }
+  }
+
+  // Points of the light below the horizon weigh nothing: others are tried, of a light that reaches barely above it too.
+  void shoot_at_polygon(const PolygonView& view, const Receiver& receiver, std::uint32_t p, Sampler& sampler) {
+    for (int tries = 0; tries < kTries; ++tries) {
+      const auto s = view.sample(sampler.next2());
+      const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
+      if (!(weight > 0)) continue;
+      shoot(p, {points_[p].site.origin, s->direction, s->distance}, Vec3(weight));
+      return;
     }
   }
 
@@ -345,28 +384,6 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
     }
   };
   return parallel_units(context, loop, &rays);
-}
-
-void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
-                    std::vector<std::uint32_t>& list) {
-  constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
-  constexpr float kWide = 0.1f;     // of the surroundings' light
-  std::vector<float> wide_noise(sums.value.size()), wide_light(sums.value.size());
-  for (std::size_t i = 0; i < wide_noise.size(); ++i)
-    wide_noise[i] = luminance(sums.variance[i]), wide_light[i] = luminance(sums.value[i]);
-  wide_noise = typical_errors(graph, std::move(wide_noise), context);
-  wide_light = typical_errors(graph, std::move(wide_light), context);
-  const float least = std::max(share, kUneven);
-  const auto uncertain = [&](std::uint32_t i) {
-    const Vec3 noise = sums.variance[i], light2 = sums.value[i] * sums.value[i];
-    return max_component(noise - share * share * light2) > 0 ||
-           max_component(noise + sums.uneven[i] - least * least * light2) > 0;
-  };
-  std::erase_if(list, [&](std::uint32_t i) {
-    const auto beside = graph.of(i);
-    return wide_noise[i] <= kWide * kWide * wide_light[i] * wide_light[i] && !uncertain(i) &&
-           std::none_of(beside.begin(), beside.end(), uncertain);
-  });
 }
 
 }  // namespace oriel

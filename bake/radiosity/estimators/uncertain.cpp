@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include "bake/radiosity/estimators/direct_light.h"
+#include "bake/radiosity/estimators/filter.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+
+void keep_uncertain(const DirectSums& sums, const TexelGraph& graph, float share, Context& context,
+                    std::vector<std::uint32_t>& list) {
+  constexpr float kUneven = 0.02f;  // light that is merely uneven over a texel is known well enough
+  constexpr float kWide = 0.1f;     // of the surroundings' light
+  std::vector<float> wide_noise(sums.value.size()), wide_light(sums.value.size());
+  for (std::size_t i = 0; i < wide_noise.size(); ++i)
+    wide_noise[i] = luminance(sums.variance[i]), wide_light[i] = luminance(sums.value[i]);
+  wide_noise = typical_errors(graph, std::move(wide_noise), context);
+  wide_light = typical_errors(graph, std::move(wide_light), context);
+  const float least = std::max(share, kUneven);
+  const auto uncertain = [&](std::uint32_t i) {
+    const Vec3 noise = sums.variance[i], light2 = sums.value[i] * sums.value[i];
+    return max_component(noise - share * share * light2) > 0 ||
+           max_component(noise + sums.uneven[i] - least * least * light2) > 0;
+  };
+  std::erase_if(list, [&](std::uint32_t i) {
+    const auto beside = graph.of(i);
+    return wide_noise[i] <= kWide * kWide * wide_light[i] * wide_light[i] && !uncertain(i) &&
+           std::none_of(beside.begin(), beside.end(), uncertain);
+  });
+}
+
+}  // namespace oriel

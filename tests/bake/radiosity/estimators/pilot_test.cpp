@@ -1,0 +1,65 @@
+// Lamps of which a neighbourhood sees all, or nothing, get no further shadow rays.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bake/radiosity/estimators/direct_light.h"
+#include "tests/bake/radiosity/listed.h"
+
+namespace oriel::test {
+namespace {
+
+// A floor of 3 m under two lamps; a board hides one of them from all of it.
+Scene two_lamps(bool board) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", matt, {0, 0, 0}, {0, 0, 3}, {3, 0, 0});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {1, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
+  parts.quad("hidden lamp", parts.diffuse(Vec3(0), Vec3(70)), {1, 4, 1}, {1, 0, 0}, {0, 0, 1});
+  if (board) parts.box("board", matt, {-9, 3, -9}, {12, 3.2f, 12});
+  return parts.finish();
+}
+
+struct Lit {
+  explicit Lit(Scene scene) : listed(std::move(scene), 0.1f) {}
+
+  DirectSums direct(std::uint32_t per_half) {
+    DirectSums sums(listed.texels.count(), false);
+    rays = 0;
+    const DirectLight light(transport, listed.texels, sites, 1);
+    EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums, rays));
+    return sums;
+  }
+
+  Listed listed;
+  std::atomic<std::uint64_t> rays{0};
+  const Transport transport = listed.transport();
+  const MoreSites sites = listed.sites(transport);
+};
+
+TEST(Pilot, TellsWhatIsSeenWhollyOrNotAtAll) {
+  Lit lit(two_lamps(true));
+  const DirectSums few = lit.direct(2);
+  const std::uint64_t rays = lit.rays;
+  const DirectSums many = lit.direct(8);
+  // One ray a half finds a further point of the texel. Shadow rays would be four times as many.
+  EXPECT_EQ(lit.rays, rays + 2 * lit.listed.floor.size());
+  for (const std::uint32_t i : lit.listed.floor) {
+    if (lit.listed.texels.visible[i] < 1) continue;
+    EXPECT_GT(many.value[i].g, 0);
+    EXPECT_NEAR(many.value[i].g, few.value[i].g, 0.05 * few.value[i].g) << "a texel's mean, of more points";
+    EXPECT_EQ(many.variance[i], Vec3(0));
+  }
+}
+
+// The upper lamp shines through the rim of the lower one's shadow: there all samples are traced.
+TEST(Pilot, LeavesPenumbraeToAllSamples) {
+  Lit lit(two_lamps(false));
+  (void)lit.direct(2);
+  const std::uint64_t rays = lit.rays;
+  (void)lit.direct(8);
+  EXPECT_GT(lit.rays, 2 * rays);
+}
+
+}  // namespace
+}  // namespace oriel::test
