@@ -81,7 +81,7 @@ TEST_F(PreviewLight, DirectLightIsThatOfTheReference) {
     options.shadows = shadows;
     const FloatImage direct = draw(options, 64);
     EXPECT_NEAR(mean_of(direct), mean_of(truth.direct), 0.004 * mean_of(truth.direct));
-    EXPECT_LT(apart(direct, truth.direct), 0.03);
+    EXPECT_LT(relative_error(direct, truth.direct, truth.diffuse_noise)->net(), 0.03);
   }
   PreviewOptions without = kDirectOnly;  // the check sees that something is wrong
   without.shadows = ShadowMethod::kNone;
