@@ -1,5 +1,6 @@
 #include "preview/app/offscreen.h"
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "bake/run/view_options.h"
@@ -75,15 +76,17 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   ORIEL_TRY_VOID(renderer.take(scene));
   ORIEL_TRY_VOID(renderer.look(camera, a.width, a.height));
   PreviewStats stats;
-  double first_s = 0;
+  double first_s = 0, first_cpu_s = 0;
   for (std::uint32_t i = 0; i < a.passes; ++i) {
     if (context.stopped()) return fail(ErrorCode::kStopped, "", "stopped; nothing was written");
     ORIEL_TRY(stats, renderer.pass(a.frame, context));
-    if (i == 0) first_s = seconds_since(started);
+    if (i == 0) first_s = seconds_since(started), first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   }
   ORIEL_TRY(const FrameTarget* frame, renderer.frame(nullptr));
   if (a.stats) {
     const nlohmann::ordered_json json = {{"first_lit_s", first_s},
+                                         {"first_lit_cpu_s", first_cpu_s},
+                                         {"cpu_s", static_cast<double>(std::clock()) / CLOCKS_PER_SEC},
                                          {"device_s", ready_s},
                                          {"loaded_s", loaded_s},
                                          {"import_s", scene->import_s},

@@ -168,9 +168,7 @@ Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
     if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
     return {};
   }
-  seen.reflected = read_texture(surfaces_->diffuse);
-  const std::vector<Vec4> light = read_texture(light_.light);
-  for (std::size_t i = 0; i < light.size(); ++i) seen.reflected[i] *= light[i];
+  seen.light = read_texture(light_.light);
   ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, seen, passes_, context));
   traced_.upload(0, traced.light.data());
   has_traced_ = true;

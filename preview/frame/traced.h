@@ -12,9 +12,9 @@ struct TracedFrame {
   int width = 0, height = 0;
   Mat4 clip_from_pack{1};
   Vec4 eye{0, 0, 0, 1};
-  std::vector<Vec4> place;      // a: triangle + 1, 0 where nothing is seen
-  std::vector<Vec4> normal;     // a: 1 to be traced
-  std::vector<Vec4> reflected;  // diffusely, cd/m²: what rays find again where they meet what the frame shows
+  std::vector<Vec4> place;   // a: triangle + 1, 0 where nothing is seen
+  std::vector<Vec4> normal;  // a: 1 to be traced
+  std::vector<Vec4> light;   // irradiance, lux: what rays find again where they meet what the frame shows
 };
 
 struct TracedLight {

@@ -17,6 +17,8 @@ namespace {
 // A triangle, lit by a lamp in front of it at a distance.
 std::string lamp_at(float distance) {
   test::Gltf g = test::triangle();
+  g.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0.0}};
+  g.doc["meshes"][0]["primitives"][0]["material"] = 0;
   g.use("KHR_lights_punctual");
   g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10.0}}};
   const std::size_t node = g.doc["nodes"].size();
