@@ -8,11 +8,13 @@
 #include "formats/image/png.h"
 #include "formats/query/camera_notes.h"
 #include "player/gpu/headless.h"
+#include "preview/frame/paths.h"
 
 namespace oriel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr double kTold_s = 2;  // between words of how far it is
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -63,6 +65,29 @@ Status write_frame(const PreviewArguments& a, const gpu::Device& device, const F
   return write_png(a.output, {size.x, size.y, 3, read_shown(frame.size())}, notes);
 }
 
+// All of them; tells how far it is.
+Result<PathMean> trace_paths(const PreviewArguments& a, const std::shared_ptr<const PreviewScene>& scene,
+                             const Camera& camera, const Context& context) {
+  PathFrame paths(a.threads);
+  const ReferenceOptions frame{
+      .width = a.width, .height = a.height, .samples = a.paths, .antialias = a.frame.antialias};
+  paths.start({scene, camera, frame, a.seed});
+  std::uint32_t told = 0;
+  Clock::time_point last = Clock::now();
+  while (!paths.wait(0.1)) {
+    if (context.stopped()) return fail(ErrorCode::kStopped, "", "stopped; nothing was written");
+    if (seconds_since(last) < kTold_s) continue;
+    last = Clock::now();
+    if (const auto mean = paths.newer(told)) {
+      told = mean->samples;
+      fmt::print(stderr, "oriel-preview: {} of {} paths a pixel, noise {:.1f} %\n", told, a.paths,
+                 100 * mean->relative_noise);
+    }
+  }
+  if (auto mean = paths.newer(0)) return std::move(*mean);
+  return fail(ErrorCode::kStopped, "", "stopped; nothing was written");
+}
+
 }  // namespace
 
 Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::time_point started) {
@@ -82,7 +107,14 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
     ORIEL_TRY(stats, renderer.pass(a.frame, context));
     if (i == 0) first_s = seconds_since(started), first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   }
-  ORIEL_TRY(const FrameTarget* frame, renderer.frame(nullptr));
+  std::optional<FloatImage> paths;
+  double noise = 0;
+  if (a.paths > 0) {
+    ORIEL_TRY(const PathMean mean, trace_paths(a, scene, camera, context));
+    noise = mean.relative_noise;
+    paths = blend_paths(mean, renderer.read_mean(), true);
+  }
+  ORIEL_TRY(const FrameTarget* frame, renderer.frame(paths ? &*paths : nullptr));
   if (a.stats) {
     const nlohmann::ordered_json json = {{"first_lit_s", first_s},
                                          {"first_lit_cpu_s", first_cpu_s},
@@ -97,6 +129,8 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                                          {"lamps", scene->lamps.count()},
                                          {"elements", scene->elements.size()},
                                          {"passes", renderer.passes()},
+                                         {"paths", a.paths},
+                                         {"noise", noise},
                                          {"last_pass", json_of_pass(stats)}};
     fmt::print("{}\n", json.dump());
   }

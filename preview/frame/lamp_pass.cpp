@@ -11,8 +11,8 @@ enum Unit { kPlace, kNormal, kFace, kMask, kProfile };
 
 }  // namespace
 
-Result<SeenLight> make_seen_light(const SeenSurfaces& surfaces) {
-  SeenLight out;
+Result<PassLight> make_pass_light(const SeenSurfaces& surfaces) {
+  PassLight out;
   out.light = gpu::Texture2d(gpu::kRgba32f, surfaces.size().x, surfaces.size().y, nullptr);
   ORIEL_TRY(out.framebuffer, gpu::Framebuffer::create("seen light", &out.light, &surfaces.depth, true));
   return out;

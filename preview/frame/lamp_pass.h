@@ -10,11 +10,11 @@
 namespace oriel {
 
 // Where passes add up irradiance, lux. The depth and stencil are those of the surfaces that are lit.
-struct SeenLight {
+struct PassLight {
   gpu::Texture2d light;
   gpu::Framebuffer framebuffer;
 };
-Result<SeenLight> make_seen_light(const SeenSurfaces& surfaces);
+Result<PassLight> make_pass_light(const SeenSurfaces& surfaces);
 
 // Counts in the stencil, modulo 256, the shadow volumes that hold what a pixel sees.
 class VolumePass {

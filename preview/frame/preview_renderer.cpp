@@ -74,8 +74,8 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
   passes_ = 0;
   if (surfaces_ && surfaces_->size() == IVec2(width, height)) return {};
   ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
-  ORIEL_TRY(light_, make_seen_light(*surfaces_));
-  ORIEL_TRY(sum_, make_seen_light(*surfaces_));
+  ORIEL_TRY(light_, make_pass_light(*surfaces_));
+  ORIEL_TRY(sum_, make_pass_light(*surfaces_));
   ORIEL_TRY(frame_, make_frame_target(width, height, 1));
   mask_ = gpu::Texture2d(gpu::kRgba8, width, height, nullptr);
   const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

@@ -18,7 +18,7 @@ enum class ShadowMethod { kNone, kVolumes, kRays };
 // Each effect is a switch (U11).
 struct PreviewOptions {
   ShadowMethod shadows = ShadowMethod::kVolumes;
-  std::uint32_t samples = 16;  // points on lamps of a pass, at least one of each kind of lamp
+  std::uint32_t samples = 8;  // points on lamps of a pass, at least one of each kind of lamp
   bool direct = true, bounce = true, emission = true, traced = true;
   bool antialias = true;  // each pass looks through other points of the pixels
   float glossy = 0.35f;   // roughness below which surfaces are traced
@@ -72,7 +72,7 @@ class PreviewRenderer {
   Camera camera_;
   View view_;
   std::optional<SeenSurfaces> surfaces_;
-  SeenLight light_, sum_;
+  PassLight light_, sum_;
   gpu::Texture2d mask_, traced_, paths_;
   std::optional<FrameTarget> frame_;
   SeenPoints points_;  // of the pass under way, where rays need them
