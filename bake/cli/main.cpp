@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "bake/cli/commands.h"
 #include "bake/run/version.h"
@@ -13,8 +14,8 @@ namespace {
 
 CommandLine command_line(BakeSession& session) {
   CommandLine out{kVersion, bake_command(session)};
-  for (const auto make : {plan_command, lux_command, render_command, replay_command, material_command, trade_command,
-                          worker_command, submit_command, verify_command, cache_command})
+  for (const auto make : {plan_command, lux_command, render_command, preview_command, replay_command, material_command,
+                          trade_command, worker_command, submit_command, verify_command, cache_command})
     out.command.commands.push_back(make(session));
   return out;
 }
@@ -47,6 +48,11 @@ int print_error(const Error& error, BakeSession& session) {
 
 int main_of_bake(int argc, char** argv) {
   BakeSession session;
+  if (argc > 1 && std::string_view(argv[1]) == "preview") {  // its options are that program's
+    const Status status = start_preview(std::vector<std::string>(argv + 2, argv + argc));
+    session.begin();
+    return print_error(status.error(), session);
+  }
   const CommandLine line = command_line(session);
   const auto parsed = parse(line, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;

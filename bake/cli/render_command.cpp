@@ -1,11 +1,11 @@
 #include "bake/cli/commands.h"
-#include "bake/cli/view_options.h"
 #include "bake/import/movers.h"
 #include "bake/jobs/parallel.h"
 #include "bake/reference/reference.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
+#include "bake/run/view_options.h"
 #include "formats/image/exr.h"
 #include "formats/query/camera_notes.h"
 #include "formats/query/camera_spec.h"
@@ -23,8 +23,7 @@ Layers of the file, linear cd/m²: R,G,B is the sum of direct, indirect (both re
 emission; error, diffuse_error and specular_error are standard errors of the sum, of direct + indirect and of specular.)";
 
 constexpr std::uint32_t kMostSamples = 1u << 24;
-constexpr int kLargestSide = 16384;
-constexpr const char* kFrame = "Frame";
+constexpr const char* kFrame = kFrameGroup;
 
 struct RenderArguments {
   std::filesystem::path scene, output;
@@ -83,7 +82,7 @@ std::vector<Option> frame_options(RenderArguments& args) {
       scene_argument(args.scene),
       {"-o,--output", kFrame, "The OpenEXR file to write", path(args.output, "FILE"), Use::kRequired},
       camera_option(args.camera),
-      size_option(args.frame),
+      size_option(args.frame.width, args.frame.height),
       {"--error", kFrame,
        "Instead of --samples: so many that the sum's standard error is at most this, relative, root mean square over "
        "the frame, dark pixels by 1 % of the mean",
@@ -105,35 +104,6 @@ std::vector<Option> frame_options(RenderArguments& args) {
 }
 
 }  // namespace
-
-Option size_option(ReferenceOptions& frame) {
-  const OptionValue size{
-      "WxH",
-      [&frame](const std::string& typed) -> Status {
-        char rest = 0;
-        const bool read = std::sscanf(typed.c_str(), "%dx%d%c", &frame.width, &frame.height, &rest) == 2;
-        if (read && std::min(frame.width, frame.height) >= 1 && std::max(frame.width, frame.height) <= kLargestSide)
-          return {};
-        return fail(ErrorCode::kUsage, "", "found '{}', expected WIDTHxHEIGHT, as 1280x720, at most {} a side", typed,
-                    kLargestSide);
-      },
-      [&frame] { return fmt::format("{}x{}", frame.width, frame.height); }};
-  return {"--size", kFrame, "Pixels of the frame", size, Use::kEveryday};
-}
-
-Option camera_option(std::string& camera) {
-  return {
-      "--camera", kFrame,
-      "A camera by name or by number from 0, PATH@SECONDS for a point of a path, or eye and target in world metres; "
-      "as oriel-play takes it. Default: the first",
-      text(camera, "NAME|N|PATH@S|ex,ey,ez,tx,ty,tz"), Use::kEveryday};
-}
-
-Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
-  const CameraChoices choices{scene.cameras, scene.paths, scene.origin};
-  if (text.empty()) return initial_camera(choices, scene.lower, scene.upper);
-  return parse_camera(text, choices);
-}
 
 ToolCommand render_command(BakeSession& session) {
   const auto args = std::make_shared<RenderArguments>();

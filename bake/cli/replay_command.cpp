@@ -1,9 +1,9 @@
 #include "bake/cli/commands.h"
-#include "bake/cli/view_options.h"
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/replay.h"
+#include "bake/run/view_options.h"
 #include "formats/core/file.h"
 
 namespace oriel {
@@ -71,7 +71,7 @@ ToolCommand replay_command(BakeSession& session) {
                   {"--first", "Replay", "The first path's number", number(args->paths.first, 0, kMost), Use::kEveryday},
                   {"--count", "Replay", "How many paths", number(args->paths.count, 1, kMost), Use::kEveryday},
                   camera_option(args->camera),
-                  size_option(args->frame)}};
+                  size_option(args->frame.width, args->frame.height)}};
   append(out.options, bake_options(args->bake));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) { return settle(args->bake, given); };

@@ -1,5 +1,8 @@
 #include "player/gpu/framebuffer.h"
 
+#include <array>
+#include <vector>
+
 namespace oriel::gpu {
 namespace {
 
@@ -32,11 +35,19 @@ Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d* color
 
 Result<Framebuffer> Framebuffer::create(const char* what, const Texture2d& color, const Texture2d& more,
                                         const Texture2d& depth) {
-  ORIEL_TRY(Framebuffer framebuffer, create(what, &color, &depth, true));
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, more.name(), 0);
-  const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  glDrawBuffers(2, both);
-  ORIEL_TRY_VOID(check_complete(what, color.width(), color.height()));
+  return create(what, std::array{&color, &more}, depth);
+}
+
+Result<Framebuffer> Framebuffer::create(const char* what, std::span<const Texture2d* const> colors,
+                                        const Texture2d& depth) {
+  ORIEL_TRY(Framebuffer framebuffer, create(what, nullptr, &depth, true));
+  std::vector<GLenum> drawn;
+  for (const Texture2d* color : colors) {
+    drawn.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawn.size()));
+    glFramebufferTexture2D(GL_FRAMEBUFFER, drawn.back(), GL_TEXTURE_2D, color->name(), 0);
+  }
+  glDrawBuffers(static_cast<GLsizei>(drawn.size()), drawn.data());
+  ORIEL_TRY_VOID(check_complete(what, depth.width(), depth.height()));
   return framebuffer;
 }
 

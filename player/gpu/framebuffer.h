@@ -1,6 +1,8 @@
 // What a pass draws into.
 #pragma once
 
+#include <span>
+
 #include "formats/core/vec.h"
 #include "player/gpu/texture.h"
 
@@ -17,6 +19,9 @@ class Framebuffer {
   // Two images that one pass draws into at once, of the same size as the depth with its stencil.
   static Result<Framebuffer> create(const char* what, const Texture2d& color, const Texture2d& more,
                                     const Texture2d& depth);
+
+  // Any number of images that one pass draws into at once, of one size; location i is colors[i].
+  static Result<Framebuffer> create(const char* what, std::span<const Texture2d* const> colors, const Texture2d& depth);
 
   // Both of the same number of samples; depth with its stencil.
   static Result<Framebuffer> create(const char* what, const MultisampleTexture& color, const MultisampleTexture& depth);

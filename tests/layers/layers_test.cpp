@@ -65,6 +65,8 @@ const Arrows kRestsOn = {
     {"player/output", {"player/session"}},
     {"player/window", {"player/output"}},
     {"player/app", {"player/window"}},
+    {"preview/frame", {"bake/import", "bake/reference", "player/passes"}},  // where baker and player meet
+    {"preview/app", {"preview/frame", "bake/run", "player/window"}},
     {"scenes/kit", {"formats/core"}},
     {"scenes", {"scenes/kit", "formats/image"}},
 };
@@ -95,7 +97,7 @@ const std::map<std::string, std::set<std::string>> kGuarded = {
     {"OpenEXR/", {"formats/image"}},
     {"Imf", {"formats/image"}},
     {"GLFW/", {"player/window"}},
-    {"imgui", {"player/window"}},
+    {"imgui", {"player/window", "preview/app"}},
     {"backends/imgui", {"player/window"}},
     {"CLI/", {"formats/cli", "formats/inspect", "scenes"}},
     {"epoxy/",
@@ -170,7 +172,7 @@ TEST(Layers, ArrowsHaveNoCircles) {
 }
 
 TEST(Layers, FoldersOfSourcesAreInTheTable) {
-  for (const char* top : {"formats", "bake", "player", "scenes", "tools"})
+  for (const char* top : {"formats", "bake", "player", "preview", "scenes", "tools"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       const std::string folder = fs::relative(entry.path().parent_path(), kRoot).string();
       EXPECT_TRUE(!is_source(entry.path()) || kArrows.contains(folder)) << entry.path();

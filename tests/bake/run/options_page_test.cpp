@@ -44,18 +44,21 @@ class Options : public testing::Test {
 };
 
 // With ORIEL_UPDATE_DOCS set the page is written instead.
-TEST_F(Options, ThePageOfTheBakerHoldsItsTables) {
-  const fs::path file = fs::path(ORIEL_SOURCE_DIR) / "docs/oriel-bake.md";
-  const std::string page = text_of(file), made = fmt::format("\n{}", run("oriel-bake --options-page"));
-  const std::string begin = "<!-- Made by oriel-bake --options-page; a test compares. -->\n", end = "<!-- end -->";
-  const std::size_t from = page.find(begin) + begin.size(), to = page.find(end);
-  ASSERT_LE(from, to);
-  ASSERT_NE(to, std::string::npos);
-  if (std::getenv("ORIEL_UPDATE_DOCS") != nullptr)
-    std::ofstream(file) << page.substr(0, from) << made << page.substr(to);
-  else
-    EXPECT_EQ(page.substr(from, to - from), made)
-        << "ORIEL_UPDATE_DOCS=1 build/release/bin/options_page_test writes the page";
+TEST_F(Options, PagesHoldTheTablesOfTheirPrograms) {
+  for (const std::string program : {"oriel-bake", "oriel-preview"}) {
+    const fs::path file = fs::path(ORIEL_SOURCE_DIR) / "docs" / (program + ".md");
+    const std::string page = text_of(file), made = fmt::format("\n{}", run(program + " --options-page"));
+    const std::string begin = fmt::format("<!-- Made by {} --options-page; a test compares. -->\n", program),
+                      end = "<!-- end -->";
+    const std::size_t from = page.find(begin) + begin.size(), to = page.find(end);
+    ASSERT_LE(from, to);
+    ASSERT_NE(to, std::string::npos);
+    if (std::getenv("ORIEL_UPDATE_DOCS") != nullptr)
+      std::ofstream(file) << page.substr(0, from) << made << page.substr(to);
+    else
+      EXPECT_EQ(page.substr(from, to - from), made)
+          << "ORIEL_UPDATE_DOCS=1 build/release/bin/options_page_test writes the page";
+  }
 }
 
 TEST_F(Options, ThePageOfThePlayerNamesThem) {

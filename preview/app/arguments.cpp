@@ -1,0 +1,102 @@
+#include "preview/app/arguments.h"
+
+#include "bake/run/option_table.h"
+#include "bake/run/version.h"
+#include "bake/run/view_options.h"
+#include "player/session/option_names.h"
+
+namespace oriel {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  oriel-preview house.glb                                      walk through it at once; the file is followed as it is saved
+  oriel-preview house.glb --offscreen --camera hall -o a.png   16 passes into a file
+  oriel-preview house.glb --offscreen --paths 256 -o a.exr     whole paths on top: what oriel-bake render gives
+
+Keys of the window are those of oriel-play: WASD and mouse walk, Tab opens the panel.)";
+
+constexpr std::uint32_t kMostPasses = 1u << 20;
+
+std::vector<Option> output_options(PreviewArguments& a) {
+  return {
+      {"SCENE", "Arguments", "The scene: .glb, or .gltf with its buffers and textures", path(a.scene.file, "FILE"),
+       Use::kRequired},
+      {"--offscreen", kFrameGroup, "Draws one frame into a file, without a window", flag(a.offscreen), Use::kEveryday},
+      {"-o,--output",
+       kFrameGroup,
+       "The picture: .png as shown, .exr linear cd/m²",
+       path(a.output, "FILE"),
+       Use::kEveryday,
+       {},
+       {},
+       {},
+       "--offscreen"},
+      camera_option(a.camera),
+      size_option(a.width, a.height),
+      {"--passes", kFrameGroup, "Passes over the frame that are added up while nothing moves",
+       number(a.passes, 1, kMostPasses), Use::kEveryday},
+      {"--paths", kFrameGroup,
+       "Whole paths a pixel after the passes, by the estimator of oriel-bake render. A window goes on with them as "
+       "long "
+       "as nothing moves",
+       number(a.paths, 0, kMostPasses), Use::kEveryday},
+      {"--ev", kFrameGroup, "Exposure value at ISO 100. Default: by the frame", number(a.ev100, -100, 100)},
+      {"--tonemap", kFrameGroup, "Tone curve of what is shown", choice(a.curve, kToneCurves)},
+      {"--frames", kFrameGroup, "The window closes after so many frames", number(a.frames, 1, 1e9)},
+      {"--stats", kFrameGroup, "A line of JSON on stdout: seconds to the first lit frame, and of each stage of a pass",
+       flag(a.stats), Use::kEveryday},
+  };
+}
+
+std::vector<Option> effect_options(PreviewArguments& a) {
+  constexpr const char* kEffects = "Effects";
+  return {
+      {"--samples", kEffects, "Points on lamps in each pass, shared by power; at least one for each kind of lamp",
+       number(a.frame.samples, 1, 4096), Use::kEveryday},
+      {"--shadows", kEffects,
+       "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; or none",
+       choice(a.frame.shadows,
+              Names<ShadowMethod>{
+                  {"volumes", ShadowMethod::kVolumes}, {"rays", ShadowMethod::kRays}, {"none", ShadowMethod::kNone}}),
+       Use::kEveryday},
+      {"--elements", kEffects,
+       "Elements of surfaces that shine back what lamps throw on them, without shadows; 0: none",
+       number(a.scene.elements, 0, 1024), Use::kEveryday},
+      {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
+      {"--no-bounce", kEffects, "Leaves out what elements shine back", flag(a.frame.bounce, false)},
+      {"--no-emission", kEffects, "Leaves out what surfaces emit", flag(a.frame.emission, false)},
+      {"--no-traced", kEffects, "Leaves out reflections and what is behind glass, which rays find",
+       flag(a.frame.traced, false)},
+      {"--glossy", kEffects, "Roughness below which reflections are traced", number(a.frame.glossy, 0, 1)},
+      {"--no-antialias", kEffects, "Every pass looks through the pixels' centres", flag(a.frame.antialias, false)},
+  };
+}
+
+}  // namespace
+
+CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> run) {
+  ToolCommand command{.name = "oriel-preview",
+                      .help = "Shows a scene as it will be lit, at once and better while one looks, before any bake",
+                      .footer = kFooter,
+                      .options = output_options(a)};
+  append(command.options, effect_options(a));
+  command.options.push_back(mover_option(a.scene.import));
+  append(command.options, light_options(a.scene.import));
+  append(command.options, scene_options(a.scene.import, a.reproducible));
+  append(command.options,
+         {{"--threads", "Run", "Threads of rays; 0: all CPUs", number(a.threads, 0, 1024), Use::kEveryday},
+          {"--seed", "Run", "Of every random number", number(a.seed, 0, 18446744073709551615.0)}});
+  command.settle = [&a](const Given&) -> Status {
+    if (!a.offscreen) return {};
+    const auto ending = a.output.extension();
+    if (!a.output.empty() && ending != ".png" && ending != ".exr")
+      return fail(ErrorCode::kUsage, "-o " + a.output.string(), "found '{}', expected .png or .exr", ending.string());
+    if (a.output.empty() && !a.stats)
+      return fail(ErrorCode::kUsage, "--offscreen", "found no output, expected -o FILE.png, -o FILE.exr or --stats");
+    return {};
+  };
+  command.run = std::move(run);
+  return {kVersion, std::move(command)};
+}
+
+}  // namespace oriel

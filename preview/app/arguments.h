@@ -1,0 +1,33 @@
+// The command line of oriel-preview.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "formats/cli/command.h"
+#include "player/passes/display_pass.h"
+#include "preview/frame/preview_renderer.h"
+
+namespace oriel {
+
+struct PreviewArguments {
+  PreviewSceneOptions scene;
+  PreviewOptions frame;
+  std::string camera;  // as written; empty: the scene's first
+  int width = 1280, height = 720;
+  bool offscreen = false, stats = false, reproducible = false;
+  std::filesystem::path output;  // .png as shown, .exr linear
+  std::uint32_t passes = 16;
+  std::uint32_t paths = 0;     // a pixel, after the passes
+  std::optional<float> ev100;  // nothing: automatic
+  ToneCurve curve = ToneCurve::kAces;
+  int frames = -1;  // the window closes after so many; -1: never
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+// Options and what contradicts; `run` is called once they are set.
+CommandLine preview_command_line(PreviewArguments& arguments, std::function<Status()> run);
+
+}  // namespace oriel

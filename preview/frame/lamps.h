@@ -1,0 +1,53 @@
+// Points on lamps that passes draw light from: jittered samples (U1), as many as are asked for, whatever the lamps.
+#pragma once
+
+#include "bake/scene/scene.h"
+#include "bake/trace/sky_sampler.h"
+
+namespace oriel {
+
+enum class LampKind { kFlat, kPunctual, kAfar };
+
+// A point that shines. On a receiver's incidence i (bake/trace/polygon_light.h: the cosine at it) its light, lux, is
+//   kFlat      power cos i / d², cos at the lamp's front; power = radiance area over the density of choosing the point
+//   kPunctual  power profile i / d²; power = cd
+//   kAfar      power i; power = lux
+struct LampPoint {
+  LampKind kind = LampKind::kFlat;
+  Vec4 place{0, 0, 0, 1};     // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
+  Vec3 normal{0, 0, -1};      // of a flat lamp's front
+  Vec3 power{0};              // per channel
+  std::uint32_t light = ~0u;  // into Scene::lights, of a punctual one
+};
+
+// All that shines in a scene, by power.
+class Lamps {
+ public:
+  Lamps() = default;
+  explicit Lamps(const Scene& scene);
+
+  bool empty() const { return near_.empty() && afar_.empty(); }
+  // Flat lamps that touch count as one; a sky too.
+  std::size_t count() const { return count_; }
+  // At least `count` points, stratified over those of pass 0, 1, 2, …: the mean over passes is all direct light. From
+  // each kind of lamp, near or afar, at least one.
+  std::vector<LampPoint> points(std::uint64_t seed, std::uint32_t pass, std::uint32_t count) const;
+
+ private:
+  struct Near {
+    bool punctual;
+    std::uint32_t index;  // of a triangle or of Scene::lights
+    bool back;            // of a double-sided triangle
+  };
+  LampPoint near_point(double at, const Vec2& on, float count) const;
+  LampPoint sky_point(const Vec2& on, float count) const;
+
+  const Scene* scene_ = nullptr;
+  std::vector<Near> near_;
+  std::vector<double> near_cdf_;     // cumulative lumens
+  std::vector<std::uint32_t> afar_;  // into Scene::lights; ~0u: the sky
+  SkySampler sky_;                   // of an image
+  std::size_t count_ = 0;
+};
+
+}  // namespace oriel

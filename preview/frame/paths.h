@@ -1,0 +1,62 @@
+// Whole paths while nothing moves: the frame of oriel-bake render, sample by sample, on threads of its own.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "bake/reference/reference.h"
+#include "preview/frame/preview_scene.h"
+
+namespace oriel {
+
+// The mean of so many paths a pixel, and its noise; row 0 at the top, RGB, cd/m².
+struct PathMean {
+  std::uint32_t samples = 0;
+  FloatImage mean, noise;     // noise: standard errors; none of one sample
+  double relative_noise = 1;  // as ReferenceFrame's
+};
+
+// What is being traced, and from where.
+struct PathView {
+  std::shared_ptr<const PreviewScene> scene;
+  Camera camera;
+  ReferenceOptions frame;  // samples: at most
+  std::uint64_t seed = 1;
+};
+
+class PathFrame {
+ public:
+  explicit PathFrame(int threads);  // 0: all CPUs
+  ~PathFrame();
+  PathFrame(const PathFrame&) = delete;
+  PathFrame& operator=(const PathFrame&) = delete;
+
+  // From the first path on; what was under way is dropped.
+  void start(PathView view);
+  void stop();
+  // The mean of more samples than that, once it is there.
+  std::optional<PathMean> newer(std::uint32_t than) const;
+  // Waits until all samples are taken, or for so long.
+  bool wait(double seconds) const;
+
+ private:
+  void work();
+  void trace(const PathView& view);
+
+  Context context_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::optional<PathView> wanted_;
+  PathMean mean_;  // published
+  bool busy_ = false, ends_ = false;
+  std::thread thread_;
+};
+
+// RGBA: that mean, and how far it is trusted beside the passes' (RGB, the same size), by tile: passes err by what they
+// leave out, which their distance from the paths tells beyond the paths' own noise; paths err by their noise. The
+// weights are those of the least squared error, and at least samples / (samples + 64): in the end the frame is that of
+// the paths alone. whole: it is now.
+FloatImage blend_paths(const PathMean& paths, const FloatImage& passes, bool whole);
+
+}  // namespace oriel

@@ -1,0 +1,277 @@
+#include "preview/frame/preview_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "bake/trace/sampler.h"
+#include "player/gpu/raster_state.h"
+
+namespace oriel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint64_t kPixelStream = 0x706978;
+constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
+
+// Adds the time until it ends; waits for the device, whose work comes later otherwise.
+class Stage {
+ public:
+  explicit Stage(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  ~Stage() {
+    glFinish();
+    seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+ private:
+  double& seconds_;
+  Clock::time_point start_;
+};
+
+void draw_screen(const gpu::VertexArray& no_vertices) {
+  glBindVertexArray(no_vertices.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+std::vector<Vec4> read_texture(const gpu::Texture2d& texture) {
+  std::vector<Vec4> texels(static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height()));
+  texture.bind(0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+  return texels;
+}
+
+}  // namespace
+
+Result<PreviewRenderer> PreviewRenderer::create(const gpu::Device& device) {
+  PreviewRenderer r;
+  r.device_ = device;
+  ORIEL_TRY(r.surface_pass_, SurfacePass::create(device.dialect));
+  ORIEL_TRY(r.volume_pass_, VolumePass::create(device.dialect));
+  ORIEL_TRY(r.lamp_pass_, LampPass::create(device.dialect));
+  ORIEL_TRY(r.elements_pass_, gpu::Program::create("screen_preview_elements", device.dialect));
+  ORIEL_TRY(r.sum_pass_, gpu::Program::create("screen_preview_sum", device.dialect));
+  ORIEL_TRY(r.mean_pass_, gpu::Program::create("screen_preview_mean", device.dialect));
+  r.no_vertices_ = gpu::make_vertex_array();
+  return r;
+}
+
+Status PreviewRenderer::take(std::shared_ptr<const PreviewScene> scene) {
+  ORIEL_TRY(mesh_, PreviewMesh::create(scene->scene(), device_));
+  volume_pass_.take(scene->shadows);
+  scene_ = std::move(scene);
+  passes_ = 0;
+  return {};
+}
+
+Status PreviewRenderer::look(const Camera& camera, int width, int height) {
+  if (std::max(width, height) > device_.texture_size)
+    return fail(ErrorCode::kUsage, "", "found a frame of {}x{}, expected at most {} a side on this device", width,
+                height, device_.texture_size);
+  camera_ = camera;
+  passes_ = 0;
+  if (surfaces_ && surfaces_->size() == IVec2(width, height)) return {};
+  ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
+  ORIEL_TRY(light_, make_pass_light(*surfaces_));
+  ORIEL_TRY(sum_, make_pass_light(*surfaces_));
+  ORIEL_TRY(frame_, make_frame_target(width, height, 1));
+  mask_ = gpu::Texture2d(gpu::kRgba8, width, height, nullptr);
+  const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  traced_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
+  has_traced_ = false;
+  paths_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
+  return {};
+}
+
+// Through another point of the pixels in each pass.
+View PreviewRenderer::view_of_pass(bool antialias) const {
+  const IVec2 size = surfaces_->size();
+  const Scene& scene = scene_->scene();
+  const View view = make_view(camera_, size.x, size.y, {scene.lower, scene.upper});
+  if (!antialias) return view;
+  Sampler sampler(1, kPixelStream, passes_);
+  return part_of(view, sampler.next2() - 0.5f, size.x, size.y);
+}
+
+Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Context& context) {
+  PreviewStats stats;
+  {
+    const Stage total(stats.total_s);
+    view_ = view_of_pass(options.antialias);
+    {
+      const Stage stage(stats.surfaces_s);
+      surface_pass_.draw(mesh_, view_, options.glossy, *surfaces_);
+    }
+    ORIEL_TRY_VOID(light(options, context, stats));
+    if (options.traced) {
+      const Stage stage(stats.traced_s);
+      ORIEL_TRY_VOID(trace(context, stats));
+    }
+    add_pass(options);
+    ++passes_;
+  }
+  ORIEL_TRY_VOID(gpu::check_gl("drawing the preview"));
+  return stats;
+}
+
+Status PreviewRenderer::light(const PreviewOptions& options, Context& context, PreviewStats& stats) {
+  light_.framebuffer.bind();
+  gpu::apply({});
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (options.direct) {
+    const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples);
+    stats.points = lamps.size();
+    if (options.shadows == ShadowMethod::kRays && !lamps.empty()) {
+      const Stage stage(stats.shadows_s);
+      points_ = read_points();
+    }
+    for (const LampPoint& point : lamps) ORIEL_TRY_VOID(add_lamp(point, options, context, stats));
+  }
+  if (options.bounce) {
+    const Stage stage(stats.bounce_s);
+    light_.framebuffer.bind();
+    add_elements();
+  }
+  return {};
+}
+
+Status PreviewRenderer::add_lamp(const LampPoint& point, const PreviewOptions& options, Context& context,
+                                 PreviewStats& stats) {
+  light_.framebuffer.bind();
+  const bool rays = options.shadows == ShadowMethod::kRays, volumes = options.shadows == ShadowMethod::kVolumes;
+  if (rays || volumes) {
+    const Stage stage(stats.shadows_s);
+    if (rays) {
+      ORIEL_TRY(const auto mask, shadow_mask(points_, point, *scene_->accel, context));
+      mask_.upload(0, mask.data());
+    } else {
+      const ShadowVolumes shadow = scene_->shadows.volumes(point.place, view_.eye);
+      stats.shadow_quads += shadow.indices.size() / 6;
+      volume_pass_.draw(shadow, point.place, view_);
+    }
+  }
+  const Stage stage(stats.direct_s);
+  lamp_pass_.draw(point, mesh_, *surfaces_, volumes, rays ? &mask_ : nullptr);
+  return {};
+}
+
+Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
+  const IVec2 size = surfaces_->size();
+  TracedFrame seen{
+      size.x, size.y, view_.clip_from_pack, view_.eye, read_texture(surfaces_->place), read_texture(surfaces_->normal),
+      {}};
+  const auto tagged = [](const Vec4& normal) { return normal.w > 0.5f; };
+  if (std::none_of(seen.normal.begin(), seen.normal.end(), tagged)) {
+    const std::vector<Vec4> black(has_traced_ ? seen.normal.size() : 0);
+    if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
+    return {};
+  }
+  seen.light = read_texture(light_.light);
+  ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, seen, passes_, context));
+  traced_.upload(0, traced.light.data());
+  has_traced_ = true;
+  stats.traced_pixels = traced.pixels;
+  return {};
+}
+
+void PreviewRenderer::add_elements() const {
+  gpu::apply({.blend = gpu::Blend::kAdd});
+  elements_pass_.use();
+  surfaces_->place.bind(0);
+  surfaces_->normal.bind(1);
+  surfaces_->face.bind(2);
+  elements_pass_.set("u_place", 0);
+  elements_pass_.set("u_normal", 1);
+  elements_pass_.set("u_face", 2);
+  const std::vector<BounceElement>& elements = scene_->elements;
+  for (std::size_t first = 0; first < elements.size(); first += kBatch) {
+    std::vector<Vec4> places;
+    std::vector<Vec3> fronts, powers;
+    for (std::size_t i = first; i < std::min<std::size_t>(elements.size(), first + kBatch); ++i) {
+      places.emplace_back(elements[i].place, elements[i].area / kPi);
+      fronts.push_back(elements[i].normal);
+      powers.push_back(elements[i].power);
+    }
+    elements_pass_.set("u_count", static_cast<int>(places.size()));
+    elements_pass_.set("u_elements", std::span<const Vec4>(places));
+    elements_pass_.set("u_fronts", std::span<const Vec3>(fronts));
+    elements_pass_.set("u_powers", std::span<const Vec3>(powers));
+    draw_screen(no_vertices_);
+  }
+}
+
+void PreviewRenderer::add_pass(const PreviewOptions& options) const {
+  sum_.framebuffer.bind();
+  if (passes_ == 0) {
+    gpu::apply({});
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  gpu::apply({.blend = gpu::Blend::kAdd});
+  sum_pass_.use();
+  const gpu::Texture2d* textures[] = {&surfaces_->place, &surfaces_->diffuse, &surfaces_->emission, &light_.light,
+                                      &traced_};
+  const char* names[] = {"u_place", "u_diffuse", "u_emission", "u_light", "u_traced"};
+  for (int i = 0; i < 5; ++i) {
+    textures[i]->bind(i);
+    sum_pass_.set(names[i], i);
+  }
+  const Scene& scene = scene_->scene();
+  if (mesh_.sky()) mesh_.sky().bind(5);
+  sum_pass_.set("u_sky", 5);
+  sum_pass_.set("u_sky_image", mesh_.sky() ? 1 : 0);
+  sum_pass_.set("u_sky_color", scene.sky);
+  sum_pass_.set("u_sky_turn", scene.sky_image.rotation_rad);
+  sum_pass_.set("u_pack_from_clip", glm::inverse(view_.clip_from_pack));
+  sum_pass_.set("u_eye", view_.eye);
+  sum_pass_.set("u_size", Vec2(surfaces_->size()));
+  sum_pass_.set("u_traces", options.traced ? 1.0f : 0.0f);
+  sum_pass_.set("u_emits", options.emission ? 1.0f : 0.0f);
+  draw_screen(no_vertices_);
+}
+
+Result<const FrameTarget*> PreviewRenderer::frame(const FloatImage* paths) {
+  if (paths != nullptr) paths_.upload(0, paths->pixels.data());
+  frame_->framebuffer.bind();
+  glViewport(0, 0, frame_->size().x, frame_->size().y);
+  gpu::apply({});
+  mean_pass_.use();
+  sum_.light.bind(0);
+  paths_.bind(1);
+  mean_pass_.set("u_sum", 0);
+  mean_pass_.set("u_paths", 1);
+  mean_pass_.set("u_has_paths", paths != nullptr ? 1 : 0);
+  mean_pass_.set("u_passes", static_cast<float>(std::max(passes_, 1u)));
+  draw_screen(no_vertices_);
+  ORIEL_TRY_VOID(gpu::check_gl("showing the preview"));
+  return &*frame_;
+}
+
+FloatImage PreviewRenderer::read_mean() {
+  const std::vector<Vec4> sum = read_texture(sum_.light);
+  const auto size = UVec2(surfaces_->size());
+  FloatImage out{size.x, size.y, 3, {}};
+  out.pixels.reserve(3 * sum.size());
+  const float share = 1 / static_cast<float>(std::max(passes_, 1u));
+  for (std::uint32_t y = size.y; y-- > 0;)
+    for (std::uint32_t x = 0; x < size.x; ++x)
+      for (int c = 0; c < 3; ++c) out.pixels.push_back(share * sum[std::size_t{y} * size.x + x][c]);
+  return out;
+}
+
+SeenPoints PreviewRenderer::read_points() const {
+  return {surfaces_->size().x, surfaces_->size().y, read_texture(surfaces_->place), read_texture(surfaces_->face)};
+}
+
+std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point) const {
+  light_.framebuffer.bind();
+  volume_pass_.draw(scene_->shadows.volumes(point.place, view_.eye), point.place, view_);
+  const IVec2 size = surfaces_->size();
+  std::vector<std::uint8_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.x, size.y, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, counts.data());
+  return counts;
+}
+
+}  // namespace oriel

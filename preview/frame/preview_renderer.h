@@ -1,0 +1,83 @@
+// The preview's frame: passes of direct light with its shadows, one bounce, specular pixels by rays, all added up while
+// nothing moves (Udeshi & Hansen 1999).
+#pragma once
+
+#include <optional>
+
+#include "formats/image/image.h"
+#include "player/passes/targets.h"
+#include "preview/frame/lamp_pass.h"
+#include "preview/frame/preview_scene.h"
+#include "preview/frame/ray_shadows.h"
+#include "preview/frame/traced.h"
+
+namespace oriel {
+
+enum class ShadowMethod { kNone, kVolumes, kRays };
+
+// Each effect is a switch (U11).
+struct PreviewOptions {
+  ShadowMethod shadows = ShadowMethod::kVolumes;
+  std::uint32_t samples = 8;  // points on lamps of a pass, at least one of each kind of lamp
+  bool direct = true, bounce = true, emission = true, traced = true;
+  bool antialias = true;  // each pass looks through other points of the pixels
+  float glossy = 0.35f;   // roughness below which surfaces are traced
+};
+
+// Of the last pass: where its time went, seconds, and what it drew.
+struct PreviewStats {
+  double surfaces_s = 0, shadows_s = 0, direct_s = 0, bounce_s = 0, traced_s = 0, total_s = 0;
+  std::size_t points = 0, shadow_quads = 0, traced_pixels = 0;
+};
+
+class PreviewRenderer {
+ public:
+  // Compiles all shaders; kRuntime holds what the driver said.
+  static Result<PreviewRenderer> create(const gpu::Device& device);
+
+  // To be drawn from now on; what was added up is left.
+  Status take(std::shared_ptr<const PreviewScene> scene);
+  // From here, of that size; what was added up is left.
+  Status look(const Camera& camera, int width, int height);
+  // One more pass. context: for rays. Errors: kRuntime of the driver, kStopped.
+  Result<PreviewStats> pass(const PreviewOptions& options, Context& context);
+  std::uint32_t passes() const { return passes_; }
+
+  // The mean of the passes, cd/m², into a frame that DisplayPass shows; `paths` (RGBA, row 0 at the top, a: its
+  // weight) over it, if any.
+  Result<const FrameTarget*> frame(const FloatImage* paths);
+  // The mean of the passes, RGB, row 0 at the top.
+  FloatImage read_mean();
+
+  // For checks: what the last pass saw, and which pixels a lamp's point does not reach by its shadow volumes.
+  SeenPoints read_points() const;
+  std::vector<std::uint8_t> read_in_shadow(const LampPoint& point) const;
+
+ private:
+  Status light(const PreviewOptions& options, Context& context, PreviewStats& stats);
+  Status add_lamp(const LampPoint& point, const PreviewOptions& options, Context& context, PreviewStats& stats);
+  Status trace(Context& context, PreviewStats& stats);
+  void add_elements() const;
+  void add_pass(const PreviewOptions& options) const;
+  View view_of_pass(bool antialias) const;
+
+  gpu::Device device_;
+  SurfacePass surface_pass_;
+  VolumePass volume_pass_;
+  LampPass lamp_pass_;
+  gpu::Program elements_pass_, sum_pass_, mean_pass_;
+  gpu::VertexArray no_vertices_;
+  std::shared_ptr<const PreviewScene> scene_;
+  PreviewMesh mesh_;
+  Camera camera_;
+  View view_;
+  std::optional<SeenSurfaces> surfaces_;
+  PassLight light_, sum_;
+  gpu::Texture2d mask_, traced_, paths_;
+  std::optional<FrameTarget> frame_;
+  SeenPoints points_;  // of the pass under way, where rays need them
+  std::uint32_t passes_ = 0;
+  bool has_traced_ = false;  // traced_ is not black
+};
+
+}  // namespace oriel

@@ -1,0 +1,43 @@
+// A scene file as the preview needs it: for rays and for passes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "bake/import/import.h"
+#include "bake/trace/path.h"
+#include "preview/frame/elements.h"
+#include "preview/frame/lamps.h"
+#include "preview/frame/shadow_mesh.h"
+
+namespace oriel {
+
+// Its parts refer to each other: it stays where it is.
+struct PreviewScene {
+  ImportedScene imported;
+  std::optional<Accel> accel;
+  std::optional<LightSet> lights;
+  Lamps lamps;
+  ShadowMesh shadows;
+  std::vector<BounceElement> elements;
+  double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
+
+  const Scene& scene() const { return imported.scene; }
+  Transport transport() const { return {*accel, *lights, {}}; }
+};
+
+struct PreviewSceneOptions {
+  std::filesystem::path file;
+  ImportOptions import;
+  std::uint32_t elements = 32;  // of one bounce; 0: none
+};
+
+// The rest of a scene that is read. Errors: as Accel::build(), kStopped.
+Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
+                                                                  Context& context);
+
+// Errors also: as import_gltf().
+Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context);
+
+}  // namespace oriel

@@ -1,0 +1,156 @@
+#include "preview/frame/shadow_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "bake/scene/shade.h"
+
+namespace oriel {
+namespace {
+
+// A line as Plücker's coordinates: direction and moment.
+struct Line {
+  DVec3 along, moment;
+};
+Line line_through(const DVec4& from, const DVec4& to) {
+  return {DVec3(to) * from.w - DVec3(from) * to.w, glm::cross(DVec3(from), DVec3(to))};
+}
+
+// On which side of the line an edge passes. a < b as numbers, so that both triangles of an edge get one answer, on the
+// line itself too.
+bool passes_left(const Line& line, const DVec3& a, const DVec3& b) {
+  return glm::dot(line.along, glm::cross(a, b)) + glm::dot(line.moment, b - a) >= 0;
+}
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// An edge of a triangle, before those of one place are brought together.
+struct HalfEdge {
+  std::uint64_t key;   // a << 32 | b
+  std::uint32_t side;  // as ShadowMesh::sides_
+};
+
+}  // namespace
+
+ShadowMesh::ShadowMesh(const Scene& scene) {
+  std::vector<std::uint32_t> opaque;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (!may_transmit(scene.materials[scene.surfaces[scene.triangle_surface[t]].material])) opaque.push_back(t);
+  weld(scene, opaque);
+  for (const UVec3& t : triangles_) {
+    const DVec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
+    const DVec3 normal = glm::cross(b - a, c - a);
+    planes_.push_back({normal, glm::dot(normal, a)});
+  }
+  find_edges();
+}
+
+// Corners at exactly the same place become one.
+void ShadowMesh::weld(const Scene& scene, const std::vector<std::uint32_t>& opaque) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * opaque.size());
+  for (const std::uint32_t t : opaque)
+    for (int k = 0; k < 3; ++k) corners.push_back(scene.triangles[t][k]);
+  std::vector<std::uint32_t> order = corners;
+  const auto place = [&](std::uint32_t v) {
+    const Vec3& p = scene.positions[v];
+    return std::tuple(p.x, p.y, p.z);
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return place(i) < place(j); });
+  std::vector<std::uint32_t> welded(scene.positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || place(order[i]) != place(order[i - 1])) positions_.push_back(scene.positions[order[i]]);
+    welded[order[i]] = static_cast<std::uint32_t>(positions_.size() - 1);
+  }
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const UVec3 t(welded[corners[i]], welded[corners[i + 1]], welded[corners[i + 2]]);
+    if (t.x != t.y && t.y != t.z && t.z != t.x) triangles_.push_back(t);
+  }
+}
+
+void ShadowMesh::find_edges() {
+  std::vector<HalfEdge> halves;
+  halves.reserve(3 * triangles_.size());
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t from = triangles_[t][k], to = triangles_[t][(k + 1) % 3];
+      halves.push_back({std::min(from, to) << 32 | std::max(from, to), 2 * t + (from < to ? 1u : 0u)});
+    }
+  std::sort(halves.begin(), halves.end(),
+            [](const HalfEdge& x, const HalfEdge& y) { return std::tie(x.key, x.side) < std::tie(y.key, y.side); });
+  body_.resize(triangles_.size());
+  std::iota(body_.begin(), body_.end(), 0u);
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    if (i == 0 || halves[i].key != halves[i - 1].key)
+      edges_.push_back({static_cast<std::uint32_t>(halves[i].key >> 32), static_cast<std::uint32_t>(halves[i].key),
+                        static_cast<std::uint32_t>(i)});
+    else
+      body_[root_of(body_, halves[i].side / 2)] = root_of(body_, halves[i - 1].side / 2);
+    sides_.push_back(halves[i].side);
+  }
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) body_[t] = root_of(body_, t);
+  even_.assign(triangles_.size(), 1);
+  const auto end_of = [&](std::size_t e) { return e + 1 < edges_.size() ? edges_[e + 1].first : sides_.size(); };
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if ((end_of(e) - edges_[e].first) % 2 != 0) even_[body_[sides_[edges_[e].first] / 2]] = 0;
+  for (Edge& edge : edges_) edge.halved = even_[body_[sides_[edge.first] / 2]] != 0;
+}
+
+// Whether a triangle's front is towards it.
+std::vector<char> ShadowMesh::facing(const Vec4& from) const {
+  const DVec3 place(from);
+  const double w = from.w;
+  std::vector<char> front(planes_.size());
+  for (std::size_t t = 0; t < planes_.size(); ++t)
+    front[t] = glm::dot(planes_[t].normal, place) - planes_[t].offset * w >= 0;
+  return front;
+}
+
+// Triangles between eye and light, those of an even body as pairs.
+std::uint32_t ShadowMesh::volumes_around(const Vec4& eye, const Vec4& light, const std::vector<char>& lit) const {
+  const std::vector<char> seen = facing(eye);
+  const Line line = line_through(DVec4(eye), DVec4(light));
+  const auto left = [&](std::uint32_t from, std::uint32_t to) {
+    const bool of_edge =
+        passes_left(line, DVec3(positions_[std::min(from, to)]), DVec3(positions_[std::max(from, to)]));
+    return of_edge == (from < to);
+  };
+  std::vector<std::uint32_t> crossed;  // their bodies
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (seen[t] == lit[t]) continue;
+    const UVec3& v = triangles_[t];
+    const bool first = left(v.x, v.y);
+    if (left(v.y, v.z) == first && left(v.z, v.x) == first) crossed.push_back(body_[t]);
+  }
+  std::sort(crossed.begin(), crossed.end());
+  std::uint32_t count = 0;
+  for (std::size_t i = 0, end = 0; i < crossed.size(); i = end) {
+    for (end = i; end < crossed.size() && crossed[end] == crossed[i];) ++end;
+    const auto times = static_cast<std::uint32_t>(end - i);
+    count += even_[crossed[i]] ? (times + 1) / 2 : times;
+  }
+  return count;
+}
+
+ShadowVolumes ShadowMesh::volumes(const Vec4& light, const Vec4& eye) const {
+  ShadowVolumes out;
+  const std::vector<char> lit = facing(light);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
+    const std::size_t end = e + 1 < edges_.size() ? edges_[e + 1].first : sides_.size();
+    int net = 0;  // how often the triangles, turned to the light, go from a to b, less how often back
+    for (std::size_t i = edge.first; i < end; ++i) net += (lit[sides_[i] / 2] != 0) == (sides_[i] % 2 != 0) ? 1 : -1;
+    if (net == 0) continue;
+    const std::uint32_t from = 2 * (net > 0 ? edge.a : edge.b), to = 2 * (net > 0 ? edge.b : edge.a);
+    for (int i = edge.halved ? std::abs(net) / 2 : std::abs(net); i > 0; --i)
+      out.indices.insert(out.indices.end(), {to, from, from + 1, to, from + 1, to + 1});
+  }
+  out.around_eye = volumes_around(eye, light, lit);
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,66 @@
+// What pixels see of a scene, as textures that the passes of light read.
+#pragma once
+
+#include <map>
+#include <tuple>
+
+#include "bake/scene/scene.h"
+#include "player/gpu/buffer.h"
+#include "player/gpu/framebuffer.h"
+#include "player/gpu/program.h"
+#include "player/navigation/view.h"
+
+namespace oriel {
+
+// By pixel, row 0 at the bottom; shaders/passes/preview_surface.frag says what is in each.
+struct SeenSurfaces {
+  gpu::Texture2d place, normal, face, diffuse, emission, depth;
+  gpu::Framebuffer framebuffer;
+  IVec2 size() const { return {place.width(), place.height()}; }
+};
+Result<SeenSurfaces> make_seen_surfaces(int width, int height);
+
+// A scene's triangles, textures and reflectances on the device.
+class PreviewMesh {
+ public:
+  PreviewMesh() = default;
+  // Errors: kRuntime where the device takes no texture or buffer of that size.
+  static Result<PreviewMesh> create(const Scene& scene, const gpu::Device& device);
+  const Scene& scene() const { return *scene_; }
+  // Draws all of it; the program of SurfacePass is in use.
+  void draw(const gpu::Program& program) const;
+  const gpu::Texture2d& sky() const { return sky_; }  // an image, or none
+  // Candela of Scene::lights[light]'s profile; one without is empty.
+  const gpu::Texture2d& profile(std::uint32_t light) const;
+
+ private:
+  void upload_vertices(const Scene& scene);
+  Status upload_textures(const Scene& scene, const gpu::Device& device);
+  void upload_reflectances(const Scene& scene);
+  void upload_lighting(const Scene& scene);
+  void set_slot(const gpu::Program& program, const TextureSlot& slot, bool srgb, const char* name, int unit) const;
+  void set_material(const gpu::Program& program, std::uint32_t material) const;
+
+  using TextureKey = std::tuple<std::int32_t, bool, Wrap, Wrap, bool>;  // image, srgb, wraps, nearest
+  const Scene* scene_ = nullptr;
+  gpu::VertexArray vertices_;
+  std::vector<gpu::Buffer> buffers_;
+  gpu::Buffer indices_;
+  std::map<TextureKey, gpu::Texture2d> textures_;
+  gpu::Texture2d white_, faces_, left_, sky_;
+  std::vector<Vec2> left_rows_;           // by material
+  std::vector<gpu::Texture2d> profiles_;  // by light
+  gpu::Texture2d no_profile_;
+};
+
+class SurfacePass {
+ public:
+  static Result<SurfacePass> create(gpu::Dialect dialect);
+  // glossy: roughness below which surfaces are tagged to be traced, [0,1].
+  void draw(const PreviewMesh& mesh, const View& view, float glossy, const SeenSurfaces& to) const;
+
+ private:
+  gpu::Program program_;
+};
+
+}  // namespace oriel

@@ -1,0 +1,43 @@
+// The light of a point of a lamp on what pixels see, lux; the stencil, or a mask, has what is in its shadow.
+#include "lib/incidence.glsl"
+uniform sampler2D u_place, u_normal, u_face;
+uniform sampler2D u_mask;  // what rays let pass
+uniform bool u_masked;
+uniform int u_kind;    // 0 flat, 1 punctual, 2 from afar
+uniform vec4 u_light;  // homogeneous
+uniform vec3 u_front;  // of a flat lamp; a spot's direction
+uniform vec3 u_right;  // of a profile, horizontal 0
+uniform vec3 u_power;
+uniform vec2 u_cone;   // cosines of the outer and inner angle; x < -1: none
+uniform sampler2D u_profile;  // candela: horizontal 0 to 360 degrees across, vertical 0 to 180 down
+uniform bool u_profiled;
+layout(location = 0) out vec4 o_light;
+
+// Relative to u_power, in a direction that leaves the lamp.
+float intensity(vec3 direction) {
+  float along = dot(u_front, direction);
+  if (u_profiled) {
+    float x = dot(u_right, direction), y = dot(cross(u_right, u_front), direction);
+    vec2 at = vec2(fract(atan(y, x) / 6.28318531), atan(length(vec2(x, y)), along) / 3.14159265);
+    vec2 size = vec2(textureSize(u_profile, 0));
+    return texture(u_profile, (at * (size - 1.0) + 0.5) / size).r;
+  }
+  if (u_cone.x < -1.0) return 1.0;
+  float t = clamp((along - u_cone.x) / max(1e-3, u_cone.y - u_cone.x), 0.0, 1.0);
+  return t * t;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec4 place = texelFetch(u_place, at, 0);
+  if (place.a == 0.0) discard;
+  vec3 to = u_light.xyz - place.xyz * u_light.w;
+  float d2 = dot(to, to);
+  vec3 direction = to * inversesqrt(max(d2, 1e-30));
+  float light = incidence(texelFetch(u_normal, at, 0).xyz, texelFetch(u_face, at, 0).xyz, direction);
+  if (u_kind == 0) light *= max(-dot(u_front, direction), 0.0);
+  if (u_kind == 1) light *= intensity(-direction);
+  if (u_kind != 2) light /= max(d2, 1e-30);
+  vec3 passed = u_masked ? texelFetch(u_mask, at, 0).rgb : vec3(1.0);
+  o_light = vec4(light * u_power * passed, 1.0);
+}

@@ -1,0 +1,214 @@
+// The preview's light against the path-traced reference and closed forms.
+#include <gtest/gtest.h>
+
+#include "bake/reference/reference.h"
+#include "formats/metrics/relative_error.h"
+#include "formats/query/camera.h"
+#include "player/gpu/headless.h"
+#include "preview/frame/paths.h"
+#include "preview/frame/preview_renderer.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48;
+
+// A room with a lamp, a box and a ball.
+Scene room(const Vec3& wall = Vec3(0.6f)) {
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(wall), red = parts.diffuse({0.7f, 0.2f, 0.1f});
+  parts.box("room", grey, {-2, 0, -2}, {2, 2.5f, 2}, true);
+  parts.box("box", red, {-1.2f, 0, -1}, {-0.4f, 0.9f, -0.2f});
+  parts.sphere("ball", grey, {0.7f, 0.4f, -0.5f}, 0.4f, 3);
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {-0.4f, 2.45f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f});
+  return parts.finish();
+}
+
+const Camera kCamera = look_at({0.3f, 1.4f, 1.8f}, {0, 0.8f, -1}, 1.1f);
+
+class PreviewLight : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto context = gpu::HeadlessContext::create();
+    if (!context) GTEST_SKIP() << context.error().text();
+    gl_ = std::move(*context);
+    renderer_ = *PreviewRenderer::create(*gpu::open_device());
+  }
+
+  void take(Scene scene, std::uint32_t elements = 0) {
+    scene_ = *prepare_preview_scene({std::move(scene), {}}, elements, context_);
+    ASSERT_TRUE(renderer_.take(scene_));
+  }
+
+  FloatImage draw(const PreviewOptions& options, std::uint32_t passes, const Camera& camera = kCamera) {
+    EXPECT_TRUE(renderer_.look(camera, kWidth, kHeight));
+    for (std::uint32_t i = 0; i < passes; ++i) EXPECT_TRUE(renderer_.pass(options, context_));
+    return renderer_.read_mean();
+  }
+
+  ReferenceFrame reference(std::uint32_t samples, std::uint64_t seed = 7, const Camera& camera = kCamera) {
+    Context context;
+    context.seed = seed;
+    return *render_reference(scene_->transport(), camera,
+                             {.width = kWidth, .height = kHeight, .samples = samples, .antialias = false}, context);
+  }
+
+  std::unique_ptr<gpu::HeadlessContext> gl_;
+  PreviewRenderer renderer_;
+  std::shared_ptr<const PreviewScene> scene_;
+  Context context_;
+};
+
+constexpr PreviewOptions kDirectOnly{.bounce = false, .emission = false, .traced = false, .antialias = false};
+
+double mean_of(const FloatImage& image) {
+  double sum = 0;
+  for (const float v : image.pixels) sum += v;
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+// How far apart two pictures are, relative.
+double apart(const FloatImage& a, const FloatImage& b) {
+  return relative_error(a, b)->rel_rmse;
+}
+
+TEST_F(PreviewLight, DirectLightIsThatOfTheReference) {
+  take(room());
+  const ReferenceFrame truth = reference(256);
+  for (const ShadowMethod shadows : {ShadowMethod::kVolumes, ShadowMethod::kRays}) {
+    PreviewOptions options = kDirectOnly;
+    options.shadows = shadows;
+    const FloatImage direct = draw(options, 64);
+    EXPECT_NEAR(mean_of(direct), mean_of(truth.direct), 0.004 * mean_of(truth.direct));
+    EXPECT_LT(relative_error(direct, truth.direct, truth.diffuse_noise)->net(), 0.03);
+  }
+  PreviewOptions without = kDirectOnly;  // the check sees that something is wrong
+  without.shadows = ShadowMethod::kNone;
+  EXPECT_GT(apart(draw(without, 64), truth.direct), 0.1);
+}
+
+// A point light over a floor: E = I cos / d².
+TEST_F(PreviewLight, PointSpotAndSunAreTheirClosedForms) {
+  test::SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  Scene scene = parts.finish();
+  Light light;
+  light.intensity = Vec3(100, 50, 25);
+  light.position = {0, 2, 0};
+  light.direction = {0, -1, 0};
+  const auto centre = [&](const Light& of) {
+    Scene lit = scene;
+    lit.lights = {of};
+    take(lit);
+    const FloatImage image = draw(kDirectOnly, 4, look_at({0, 3, 0.001f}, {0, 0, 0}, 0.02f));
+    const std::size_t i = std::size_t{3} * (kHeight / 2 * kWidth + kWidth / 2);
+    return Vec3(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+  };
+  const Vec3 point = 0.5f / kPi * light.intensity / 4.0f;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(centre(light)[c], point[c], 1e-3f * point[c]);
+  light.type = LightType::kSpot;
+  light.inner_cone_rad = 0.1f, light.outer_cone_rad = 0.5f;
+  EXPECT_NEAR(centre(light).r, point.r, 1e-3f * point.r);
+  light.direction = glm::normalize(Vec3(1, -1, 0));  // 45° beside: beyond the cone
+  EXPECT_EQ(centre(light).r, 0);
+  light.type = LightType::kDirectional;
+  EXPECT_NEAR(centre(light).r, 0.5f / kPi * 100 * std::sqrt(0.5f), 0.01f);
+}
+
+// Skies reach a floor under them with π L.
+TEST_F(PreviewLight, AnEvenSkyIsItsClosedForm) {
+  test::SceneParts parts;
+  parts.quad("floor", parts.diffuse(Vec3(0.5f)), {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  Scene scene = parts.finish();
+  scene.sky = Vec3(3);
+  take(std::move(scene));
+  EXPECT_NEAR(mean_of(draw(kDirectOnly, 64, look_at({0, 2, 0.001f}, {0, 0, 0}, 0.5f))), 1.5, 0.02);
+}
+
+// Elements leave out shadows and further bounces, so they are no more than near. More of them come nearer.
+TEST_F(PreviewLight, OneBounceComesNearerWithMoreElements) {
+  PreviewOptions options = kDirectOnly;
+  options.direct = false;
+  options.bounce = true;
+  take(room(), 0);
+  EXPECT_EQ(mean_of(draw(options, 1)), 0);
+  const FloatImage truth = reference(64).indirect;
+  std::vector<double> errors;
+  for (const std::uint32_t elements : {4u, 32u, 256u}) {
+    take(room(), elements);
+    EXPECT_LE(scene_->elements.size(), std::max(elements, 6u));
+    errors.push_back(apart(draw(options, 1), truth));
+    std::printf("%u elements (%zu): relative RMSE of the indirect light %.3f\n", elements, scene_->elements.size(),
+                errors.back());
+  }
+  EXPECT_LT(errors.back(), errors.front());
+}
+
+TEST_F(PreviewLight, PathsAreTheReferenceToTheBit) {
+  take(room());
+  PathFrame paths(2);
+  const ReferenceOptions frame{.width = kWidth, .height = kHeight, .samples = 32, .antialias = false};
+  paths.start({scene_, kCamera, frame, 7});
+  ASSERT_TRUE(paths.wait(60));
+  const auto mean = paths.newer(0);
+  ASSERT_TRUE(mean);
+  EXPECT_EQ(mean->samples, 32u);
+  const ReferenceFrame truth = reference(32);
+  for (std::size_t i = 0; i < truth.total.pixels.size(); ++i)
+    EXPECT_NEAR(mean->mean.pixels[i], truth.total.pixels[i], 1e-4f * truth.total.pixels[i] + 1e-6f) << i;
+  EXPECT_NEAR(mean->relative_noise, truth.relative_noise, 1e-3 * truth.relative_noise);
+}
+
+// Other random numbers: both means lie within both noises of each other.
+TEST_F(PreviewLight, TheConvergedPreviewIsTheReferenceWithinBothNoises) {
+  take(room(), 32);
+  const FloatImage passes = draw({.antialias = false}, 4);
+  PathFrame paths(2);
+  paths.start({scene_, kCamera, {.width = kWidth, .height = kHeight, .samples = 128, .antialias = false}, 11});
+  ASSERT_TRUE(paths.wait(120));
+  const PathMean mean = *paths.newer(0);
+  const FloatImage blended = blend_paths(mean, passes, true);
+  const auto frame = renderer_.frame(&blended);
+  ASSERT_TRUE(frame) << frame.error().text();
+  std::vector<float> shown(std::size_t{3} * kWidth * kHeight);
+  (*frame)->framebuffer.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_FLOAT, shown.data());
+  const ReferenceFrame truth = reference(128);
+  double z2 = 0, count = 0;
+  for (std::size_t y = 0; y < kHeight; ++y)
+    for (std::size_t x = 0; x < 3 * kWidth; ++x) {
+      const std::size_t i = y * 3 * kWidth + x;
+      const double noise2 =
+          double{mean.noise.pixels[i]} * mean.noise.pixels[i] + double{truth.noise.pixels[i]} * truth.noise.pixels[i];
+      const double off = double{shown[(kHeight - 1 - y) * 3 * kWidth + x]} - truth.total.pixels[i];
+      if (noise2 > 0) z2 += off * off / noise2, ++count;
+    }
+  std::printf("mean z² of the converged preview: %.3f over %.0f values\n", z2 / count, count);
+  EXPECT_LT(z2 / count, 1.1);  // below 1: stratified samples err less than their own scatter tells
+  EXPECT_GT(z2 / count, 0.1);  // and the noise is no empty claim
+  EXPECT_GT(apart(passes, truth.total), 2 * truth.relative_noise);  // passes alone are not
+}
+
+// What is known of the passes' error decides: where they are right, few noisy paths count little.
+TEST_F(PreviewLight, FewPathsDoNotSpoilWhatPassesHave) {
+  take(room(Vec3(0)));  // the red box alone reflects: all light is direct
+  const FloatImage passes = draw({.antialias = false}, 64);
+  PathFrame paths(2);
+  paths.start({scene_, kCamera, {.width = kWidth, .height = kHeight, .samples = 4, .antialias = false}, 3});
+  ASSERT_TRUE(paths.wait(60));
+  const PathMean mean = *paths.newer(0);
+  const FloatImage blended = blend_paths(mean, passes, false);
+  const FloatImage truth = reference(256).total;
+  FloatImage shown = passes;
+  for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+    const float w = blended.pixels[4 * (i / 3) + 3];
+    shown.pixels[i] += w * (blended.pixels[4 * (i / 3) + i % 3] - shown.pixels[i]);
+  }
+  // 4 of 68 is what they count at least, and the tiles' own estimates scatter.
+  EXPECT_LT(apart(shown, truth), apart(passes, truth) + 0.1 * apart(mean.mean, truth));
+}
+
+}  // namespace
+}  // namespace oriel

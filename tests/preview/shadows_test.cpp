@@ -1,0 +1,145 @@
+// Shadow volumes against rays, pixel by pixel, on scenes made of anything.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "formats/query/camera.h"
+#include "player/gpu/headless.h"
+#include "preview/frame/preview_renderer.h"
+#include "tests/bake/support/scene_parts.h"
+
+namespace oriel {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+
+struct Random {
+  std::mt19937 engine;
+  float operator()(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine); }
+  Vec3 inside(float reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
+};
+
+// Boxes, spheres and loose triangles that cut each other, in a room or on nothing.
+Scene random_scene(std::uint32_t seed) {
+  Random random{std::mt19937(seed)};
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(Vec3(0.5f));
+  if (seed % 3 != 0) parts.box("room", grey, Vec3(-3), Vec3(3), true);
+  parts.quad("floor", grey, {-2.5f, -2, 2.5f}, {5, 0, 0}, {0, 0, -5});
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 at = random.inside(1.5f);
+    parts.box("box", grey, at, at + Vec3(random(0.1f, 0.8f), random(0.1f, 0.8f), random(0.1f, 0.8f)), i == 3);
+    parts.sphere("sphere", grey, random.inside(1.8f), random(0.1f, 0.5f), 2);
+  }
+  for (int i = 0; i < 12; ++i) {  // no two share an edge
+    const Vec3 at = random.inside(1.8f);
+    parts.quad("sheet", grey, at, random.inside(0.6f), random.inside(0.6f));
+  }
+  return parts.finish();
+}
+
+// What the volumes and the rays of a light say of what a camera sees.
+struct Compared {
+  int lit = 0, dark = 0, silhouettes = 0, wrong = 0, wrong_on_silhouettes = 0;
+  std::uint32_t around_eye = 0;
+};
+
+class ShadowVolumesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto context = gpu::HeadlessContext::create();
+    if (!context) GTEST_SKIP() << context.error().text();
+    gl_ = std::move(*context);
+    device_ = *gpu::open_device();
+    renderer_ = *PreviewRenderer::create(device_);
+  }
+
+  void take(Scene scene) {
+    auto prepared = prepare_preview_scene({std::move(scene), {}}, 0, context_);
+    ASSERT_TRUE(prepared) << prepared.error().text();
+    scene_ = *prepared;
+    const Status taken = renderer_.take(scene_);
+    ASSERT_TRUE(taken) << taken.error().text();
+  }
+
+  // forget_eye: the checker's own check, as if no volume held the eye.
+  Compared compare(const Camera& camera, const LampPoint& light, bool forget_eye = false) {
+    Compared out;
+    EXPECT_TRUE(renderer_.look(camera, kWidth, kHeight));
+    const auto stats = renderer_.pass({.shadows = ShadowMethod::kNone, .antialias = false}, context_);
+    EXPECT_TRUE(stats) << stats.error().text();
+    const SeenPoints points = renderer_.read_points();
+    const std::vector<std::uint8_t> counts = renderer_.read_in_shadow(light);
+    const std::vector<std::uint8_t> mask = *shadow_mask(points, light, *scene_->accel, context_);
+    const Vec4 eye = camera.vertical_fov_rad > 0 ? Vec4(camera.eye, 1) : Vec4(-camera.forward, 0);
+    out.around_eye = scene_->shadows.volumes(light.place, eye).around_eye;
+    const auto passes = [&](int x, int y) { return mask[4 * static_cast<std::size_t>(y * kWidth + x)] > 127; };
+    const auto faces = [&](int x, int y) { return mask[4 * static_cast<std::size_t>(y * kWidth + x) + 3] != 0; };
+    for (int y = 1; y + 1 < kHeight; ++y)
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        if (!faces(x, y)) continue;
+        bool edge = false;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) edge |= passes(x + dx, y + dy) != passes(x, y) || !faces(x + dx, y + dy);
+        std::uint8_t count = counts[static_cast<std::size_t>(y * kWidth + x)];
+        if (forget_eye) count = static_cast<std::uint8_t>(count - out.around_eye);
+        const bool wrong = (count == 0) != passes(x, y);
+        ++(passes(x, y) ? out.lit : out.dark);
+        out.silhouettes += edge;
+        if (wrong) ++(edge ? out.wrong_on_silhouettes : out.wrong);
+      }
+    return out;
+  }
+
+  std::unique_ptr<gpu::HeadlessContext> gl_;
+  gpu::Device device_;
+  PreviewRenderer renderer_;
+  std::shared_ptr<const PreviewScene> scene_;
+  Context context_;
+};
+
+LampPoint lamp_at(const Vec3& place) {
+  return {LampKind::kPunctual, Vec4(place, 1), {0, -1, 0}, Vec3(1), ~0u};
+}
+
+TEST_F(ShadowVolumesTest, AreRaysButForSilhouettes) {
+  Compared all;
+  int eyes_inside = 0;
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    take(random_scene(seed));
+    Random random{std::mt19937(1000 + seed)};
+    LampPoint light = lamp_at(random.inside(1.9f));
+    if (seed % 4 == 1)
+      light = {LampKind::kAfar, Vec4(glm::normalize(random.inside(1) + Vec3(0, 1, 0)), 0), {}, Vec3(1), ~0u};
+    for (int i = 0; i < 3; ++i) {
+      Camera camera = look_at(random.inside(2), random.inside(0.5f), 1.2f);
+      if (seed % 5 == 4) camera.vertical_fov_rad = 0, camera.half_height = 2.5f;
+      const Compared c = compare(camera, light);
+      all.lit += c.lit, all.dark += c.dark, all.silhouettes += c.silhouettes;
+      all.wrong += c.wrong, all.wrong_on_silhouettes += c.wrong_on_silhouettes;
+      eyes_inside += c.around_eye > 0;
+      EXPECT_LE(c.wrong, 2) << "scene " << seed << " eye " << i << ", volumes around it: " << c.around_eye;
+    }
+  }
+  std::printf("lit %d, in shadow %d, silhouettes %d; wrong elsewhere %d, on silhouettes %d; eyes in volumes %d of 60\n",
+              all.lit, all.dark, all.silhouettes, all.wrong, all.wrong_on_silhouettes, eyes_inside);
+  EXPECT_GT(all.lit, 50000);
+  EXPECT_GT(all.dark, 50000);
+  EXPECT_GT(eyes_inside, 10);
+}
+
+TEST_F(ShadowVolumesTest, AnEyeInsideThatIsForgottenIsSeen) {
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  parts.box("cover", grey, {-1, 2, -1}, {1, 2.2f, 1});
+  take(parts.finish());
+  const Camera below = look_at({0.1f, 1, 0.2f}, {1, 0, -3}, 1.2f);
+  const Compared right = compare(below, lamp_at({0.01f, 4, 0.02f}));
+  EXPECT_EQ(right.around_eye, 1u);  // a closed box counts once
+  EXPECT_LE(right.wrong, 2);
+  EXPECT_GT(compare(below, lamp_at({0.01f, 4, 0.02f}), true).wrong, 1000);
+}
+
+}  // namespace
+}  // namespace oriel
