@@ -3,8 +3,9 @@ import { PieceError } from './bytes';
 import { Input } from './input';
 import { Renderer } from './frame';
 import { Walk } from './walk';
-import { checkScene, readPiece } from './sections';
+import { checkField, checkMover, checkPageGroups, checkScene, readPiece } from './sections';
 import { GpuScene, makeDevice } from './scene';
+import { LightsPanel } from './lights_panel';
 import { Show } from './show';
 import { loadManifest, loadPiece } from './pieces';
 import { Panel, element } from './panel';
@@ -34,12 +35,15 @@ function contextOf(): WebGL2RenderingContext | null {
 class Walkthrough {
   readonly pieces = new Map<string, Sections>();
   show?: Show;
-  constructor(readonly gl: WebGL2RenderingContext, readonly scene: Sections, readonly walk: Walk) {}
+  readonly lights: LightsPanel;
+  constructor(readonly gl: WebGL2RenderingContext, readonly scene: Sections, readonly walk: Walk) {
+    this.lights = new LightsPanel(scene.groups, () => this.show?.dim());
+  }
 
   begin(): void {
     const device = makeDevice(this.gl), pages = this.scene.pages.slice();
     const gpu = new GpuScene(device, { ...this.scene, pages });
-    this.show = new Show(canvas, new Renderer(device), gpu, this.walk, panel);
+    this.show = new Show(canvas, new Renderer(device), gpu, this.walk, panel, this.lights);
     for (const [name, sections] of this.pieces) this.take(name, sections);
   }
 
@@ -50,6 +54,10 @@ class Walkthrough {
     if (kind === 'light' && sections.pages[0]) show.scene.setPage(at, sections.pages[0]);
     if (kind === 'texture' && sections.textures[0]) show.scene.setTexture(at, sections.textures[0], false);
     if (kind === 'normal' && sections.normals[0]) show.scene.setTexture(at, sections.normals[0], true);
+    if (kind === 'surround' && sections.surrounds[0]) show.scene.setSurround(at, sections.surrounds[0]);
+    if (kind === 'field' && sections.field) show.scene.movers.setField(sections.field);
+    if (kind === 'mover' && sections.movers[0]) show.scene.movers.add(at, sections.movers[0]);
+    if (kind === 'lamps' && sections.pageGroups[0]) show.scene.setPageGroups(sections.pageGroups[0]);
     show.changed();
   }
 }
@@ -78,12 +86,12 @@ async function run(): Promise<void> {
   panel.progress(0.05);
   const scene = readPiece(await loadPiece(first), first.file);
   const count = (kind: string): number => manifest.pieces.filter((p) => p.kind === kind).length;
-  checkScene(scene, count('texture'), count('normal'));
+  checkScene(scene, count('texture'), count('normal'), count('surround'));
   const walk = new Walk(scene);
   const walkthrough = new Walkthrough(gl, scene, walk);
   walkthrough.begin();
   begun = true;
-  panel.begin(walk, () => walkthrough.show);
+  panel.begin(walk, walkthrough.lights, () => walkthrough.show);
   const input = new Input(canvas, {
     key: (key) => panel.key(key), go: (x, y) => walkthrough.show?.go(x, y), hover: (x, y) => walkthrough.show?.hover(x, y),
   });
@@ -113,7 +121,10 @@ async function run(): Promise<void> {
   for (const piece of manifest.pieces) {
     if (piece === first) continue;
     const sections = readPiece(await loadPiece(piece), piece.file);
-    if (piece.kind === 'light') checkPage(sections, piece);
+    checkPiece(sections, piece);
+    if (piece.kind === 'mover') checkMover(sections.movers[0]!, scene);
+    if (piece.kind === 'field') checkField(sections.field!, scene);
+    if (piece.kind === 'lamps') checkPageGroups(sections.pageGroups[0]!, scene, walkthrough.pieces.get(`light ${sections.pageGroups[0]!.page}`)?.pages[0]);
     walkthrough.take(nameOf(piece), sections);
     panel.progress((done += piece.bytes) / all);
   }
@@ -122,8 +133,14 @@ async function run(): Promise<void> {
   await keepOffline(manifest);
 }
 
-function checkPage(sections: Sections, piece: Piece): void {
-  if (sections.pages.length !== 1) throw new PieceError(`${piece.file}: found ${sections.pages.length} pages, expected one`);
+/** A piece of another kind than the manifest says is no piece of this pack. */
+function checkPiece(sections: Sections, piece: Piece): void {
+  const held: Record<string, unknown[]> = {
+    light: sections.pages, texture: sections.textures, normal: sections.normals, surround: sections.surrounds,
+    lamps: sections.pageGroups, mover: sections.movers, field: sections.field ? [sections.field] : [],
+  };
+  const found = held[piece.kind]?.length ?? 0;
+  if (found !== 1) throw new PieceError(`${piece.file}: found ${found} of kind '${piece.kind}', expected one`);
 }
 
 run().catch((error: unknown) => {
