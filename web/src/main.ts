@@ -66,7 +66,7 @@ async function keepOffline(manifest: Manifest): Promise<void> {
   if (!('serviceWorker' in navigator) || !isSecureContext) return;
   const number = /pieces-([0-9a-f]+)\.json/.exec(document.body.dataset['pieces']!)?.[1];
   try {
-    const cache = await caches.open(`oriel ${number}`);
+    const cache = await caches.open(`oriel ${new URL('./', location.href).pathname} ${number}`);
     const own = [...document.querySelectorAll<HTMLElement>('script[src], link[href]')].map((e) => e.getAttribute('src') ?? e.getAttribute('href')!);
     await cache.addAll(['./', document.body.dataset['pieces']!, ...own, ...manifest.pieces.map((p) => p.file)]);
     await navigator.serviceWorker.register('offline.js');
@@ -85,6 +85,8 @@ async function run(): Promise<void> {
   let done = first.bytes;
   panel.progress(0.05);
   const scene = readPiece(await loadPiece(first), first.file);
+  const most = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
+  checkSizes(scene, first.file, most);
   const count = (kind: string): number => manifest.pieces.filter((p) => p.kind === kind).length;
   checkScene(scene, count('texture'), count('normal'), count('surround'));
   const walk = new Walk(scene);
@@ -121,7 +123,7 @@ async function run(): Promise<void> {
   for (const piece of manifest.pieces) {
     if (piece === first) continue;
     const sections = readPiece(await loadPiece(piece), piece.file);
-    checkPiece(sections, piece);
+    checkPiece(sections, piece, most);
     if (piece.kind === 'mover') checkMover(sections.movers[0]!, scene);
     if (piece.kind === 'field') checkField(sections.field!, scene);
     if (piece.kind === 'lamps') checkPageGroups(sections.pageGroups[0]!, scene, walkthrough.pieces.get(`light ${sections.pageGroups[0]!.page}`)?.pages[0]);
@@ -130,17 +132,28 @@ async function run(): Promise<void> {
   }
   state('whole');
   panel.progress(1);
+  panel.sizes(all, walkthrough.show?.scene.bytes ?? 0);
   await keepOffline(manifest);
 }
 
 /** A piece of another kind than the manifest says is no piece of this pack. */
-function checkPiece(sections: Sections, piece: Piece): void {
+function checkPiece(sections: Sections, piece: Piece, most: number): void {
   const held: Record<string, unknown[]> = {
     light: sections.pages, texture: sections.textures, normal: sections.normals, surround: sections.surrounds,
     lamps: sections.pageGroups, mover: sections.movers, field: sections.field ? [sections.field] : [],
   };
   const found = held[piece.kind]?.length ?? 0;
   if (found !== 1) throw new PieceError(`${piece.file}: found ${found} of kind '${piece.kind}', expected one`);
+  checkSizes(sections, piece.file, most);
+}
+
+/** Refuses images that the device cannot hold. */
+function checkSizes(sections: Sections, file: string, most: number): void {
+  const sizes = [...sections.textures, ...sections.normals, ...sections.pages].map((t) => [t.width, t.height]);
+  for (const p of sections.pages) sizes.push([p.detailWidth, p.detailHeight]);
+  for (const s of sections.surrounds) sizes.push([1.5 * s.size + 4, s.size + 64]);
+  for (const [w, h] of sizes)
+    if (Math.max(w!, h!) > most) throw new PieceError(`${file}: found an image of ${w} x ${h} texels, but this device holds at most ${most} a side`);
 }
 
 run().catch((error: unknown) => {

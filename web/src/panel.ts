@@ -42,6 +42,12 @@ export class Panel {
     });
   }
 
+  /** loaded, held by the device: bytes. */
+  sizes(loaded: number, held: number): void {
+    element('sheet-sizes').textContent = `Loaded: ${(loaded / 1e6).toFixed(1)} MB. Held on the graphics device: ${(held / 1e6).toFixed(1)} MB, and the frame.`;
+    document.body.dataset['held'] = String(held);
+  }
+
   private movers = '';
   moversAre(there: boolean, run: boolean): void {
     const now = `${there} ${run}`;

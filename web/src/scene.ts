@@ -21,7 +21,7 @@ export interface GpuReflector {
 }
 export interface GpuCurved extends Range { map: number; }
 export interface GpuKernel { taps: WebGLTexture; count: number; rows: number; median: number; lobes?: WebGLTexture; }
-interface Light { light: WebGLTexture; scale: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
+interface Light { light: WebGLTexture; scale: number; bytes: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
 
 export interface Device {
   gl: WebGL2RenderingContext;
@@ -194,17 +194,20 @@ export class GpuScene {
     this.shown[index] = page;
     const { gl } = this.device, old = this.pages[index];
     for (const texture of [old?.light, old?.direction, old?.cells, old?.detail]) if (texture) gl.deleteTexture(texture);
+    this.bytes -= old?.bytes ?? 0;
+    const before = this.bytes;
     const halves = (texels: Uint16Array, width: number, height: number): WebGLTexture => {
       this.bytes += texels.byteLength;
       return makeTexture(gl, { width, height, format: gl.RGB16F, min: gl.LINEAR, mag: gl.LINEAR }, texels);
     };
-    const light: Light = { light: halves(page.light, page.width, page.height), scale: page.scale };
+    const light: Light = { light: halves(page.light, page.width, page.height), scale: page.scale, bytes: 0 };
     if (page.direction) light.direction = halves(page.direction, page.width, page.height);
     if (page.detail && page.cells) {
       light.cells = makeTexture(gl, { width: page.width, height: page.height, format: gl.R32UI }, page.cells);
       light.detail = halves(page.detail, page.detailWidth, page.detailHeight);
       this.bytes += page.cells.byteLength;
     }
+    light.bytes = this.bytes - before;
     this.pages[index] = light;
   }
 
