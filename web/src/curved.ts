@@ -17,15 +17,20 @@ interface Canvas {
 interface Shown { curved: GpuCurved; value: number; }
 
 export class CurvedReflections {
-  private readonly mask: Program;
-  private readonly surface: Program;
-  private readonly shade: Program;
-  private readonly light: Program;
-  private readonly shadedLight: Program;
+  private mask!: Program;
+  private surface!: Program;
+  private shade!: Program;
+  private light!: Program;
+  private shadedLight!: Program;
+  private made = false;
   private canvas?: Canvas;
 
-  constructor(private readonly device: Device, private readonly renderer: Renderer) {
-    const { gl } = device;
+  constructor(private readonly device: Device, private readonly renderer: Renderer) {}
+
+  /** Once they are wanted: compiling takes time, and the first frame waits for it. */
+  private make(): void {
+    const { gl } = this.device;
+    this.made = true;
     this.mask = Program.make(gl, 'reflector_mask'), this.surface = Program.make(gl, 'curved_surface');
     this.shade = Program.make(gl, 'screen_curved'), this.light = Program.make(gl, 'curved_light');
     this.shadedLight = Program.make(gl, 'curved_light', 'SHADED');
@@ -34,7 +39,8 @@ export class CurvedReflections {
   /** Opaque ones in the frame are drawn, all others marked; which must be added later, and materials of all that are opaque. */
   draw(scene: GpuScene, target: Target, options: FrameOptions): { later: GpuCurved[]; materials: number[] } {
     const later: GpuCurved[] = [], materials: number[] = [], shown: Shown[] = [], { view } = target;
-    if (options.largeOnly) return { later, materials };
+    if (options.largeOnly || scene.surrounds.length === 0) return { later, materials };
+    if (!this.made) this.make();
     for (const curved of scene.curved) {
       if (curved.count === 0 || !scene.surrounds[curved.map] || !v.mayBeVisible(view.clipFromPack, curved.bounds)) continue;
       const seeThrough = scene.isTransparent(curved.material);

@@ -45,14 +45,12 @@ function upload(gl: WebGL2RenderingContext, mover: Mover): number {
 
 export class Movers {
   private readonly movers: (GpuMover | undefined)[] = [];
-  private readonly depth: Program;
-  private readonly light: Program;
+  private depth!: Program;
+  private light!: Program;
   private field?: LightField;
   private shining?: FieldLight;
 
-  constructor(private readonly device: Device, private readonly scene: GpuScene) {
-    this.depth = Program.make(device.gl, 'depth'), this.light = Program.make(device.gl, 'mover_light');
-  }
+  constructor(private readonly device: Device, private readonly scene: GpuScene) {}
 
   get animated(): boolean { return this.movers.some((m) => (m?.mover.keys.length ?? 0) > 1); }
   get some(): boolean { return this.movers.some((m) => m?.table); }
@@ -70,7 +68,9 @@ export class Movers {
   }
 
   add(index: number, mover: Mover): void {
-    const { gl } = this.device, p = mover.mesh.positions, bounds = v.emptyBounds(), ranges: Range[] = [];
+    const { gl } = this.device, p = mover.mesh.positions;
+    this.depth ??= Program.make(gl, 'depth'), this.light ??= Program.make(gl, 'mover_light');
+    const bounds = v.emptyBounds(), ranges: Range[] = [];
     for (const part of mover.mesh.parts) {
       if (part.count === 0) continue;
       const range: Range = { ...part, page: -1, bounds: v.emptyBounds() };
@@ -131,6 +131,7 @@ export class Movers {
 
   /** Over that depth; distance: into the image of a mirror. */
   drawLight(view: View, distance: boolean): void {
+    if (!this.some) return;
     const m = view.viewFromPack;
     this.light.use();
     this.light.set('u_eye', view.eye);

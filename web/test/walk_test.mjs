@@ -71,15 +71,6 @@ try {
   };
   assert.ok(await until((_, now) => far(back, now) > 0.2, tap, 6), 'a tap walks there');
 
-  if (await browser.evaluate(`[...document.getElementById('places').options].some((o) => o.text === 'stairs')`)) {
-    await browser.evaluate(`location.hash = '#camera=stairs'`);
-    await wait(500);
-    const foot = await place();
-    const climbed = await until((_, now) => Math.abs(now[1] - foot[1]) > 0.3, () => browser.key('KeyW', 'w', 1500), 20);
-    assert.ok(climbed, `stairs are climbed from ${foot}, not only to ${await place()}`);
-    console.log(`stairs climbed from ${foot[1]} m to ${climbed[1]} m`);
-  }
-
   const keys = ['KeyW', 'KeyA', 'KeyS', 'KeyD', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'KeyC', 'KeyP', 'KeyX', 'KeyL', 'KeyG', 'KeyO', 'KeyM', 'Home', 'Digit1', 'Digit5', 'Minus'];
   for (let i = 0; i < inputs; ++i) {
     const x = random() * 640, y = random() * 300, code = keys[Math.floor(random() * keys.length)];
