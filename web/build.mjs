@@ -1,6 +1,6 @@
 // Makes web/dist of web/src and web/page: what oriel-inspect holds. `node build.mjs DIR` writes elsewhere.
 import { build } from 'esbuild';
-import { copyFileSync, mkdirSync, readdirSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -21,3 +21,6 @@ await build({
   logLevel: 'warning',
 });
 for (const file of readdirSync(join(here, 'page'))) copyFileSync(join(here, 'page', file), join(out, file));
+// Notices that go where the bundle goes.
+const notices = ['fzstd'].map((name) => `${name}, part of the viewer's script:\n\n${readFileSync(join(here, 'node_modules', name, 'LICENSE'), 'utf8')}`);
+writeFileSync(join(out, 'licences.txt'), notices.join('\n'));

@@ -33,7 +33,8 @@ Examples:
   oriel-inspect export house.oriel -o house.glb
                                                the lit scene for any glTF viewer
   oriel-inspect web house.oriel -o house
-                                               a walkthrough in a browser: a folder for any web server
+                                               a walkthrough in a browser: a folder for any web server;
+                                               with --serve it can be looked at, at once
 
 docs/oriel-inspect.md explains every line of the output, docs/format.md the file.)";
 
@@ -144,6 +145,18 @@ void add_web(CLI::App& app, Arguments& a) {
   command->add_option("--title", a.web.title, "What the page is called; unless told the pack's file name");
   command->add_option("--picture", a.web.picture,
                       "A PNG file, as oriel-play writes them, for browsers in which the walkthrough cannot run");
+  command
+      ->add_option_function<std::string>(
+          "--serve",
+          [&a](const std::string& port) {
+            a.web.serve = static_cast<std::uint16_t>(port.empty() ? 0 : std::stoi(port));
+          },
+          "Then show the folder to browsers on this machine, and to nobody else, until Ctrl-C; on this port, or on a "
+          "free "
+          "one")
+      ->type_name("[PORT]")
+      ->expected(0, 1)
+      ->check(CLI::Range(0, 65535));
 }
 
 int run(int argc, char** argv) {

@@ -75,12 +75,14 @@ Result<Bytes> scene_piece(const Pack& pack) {
   out.list(kMaterialSection, pack.materials);
   for (const LightmapPage& page : pack.lightmaps) out.one(kLightmapSection, coarse_page(page));
   out.list(kReflectorSection, without_maps(pack.reflectors));
+  out.list(kCurvedReflectorSection, pack.curved_reflectors);
   out.list(kEmitterSection, pack.emitters);
   out.list(kKernelSection, pack.kernels);
   out.list(kFresnelSection, without_spheres(pack.fresnel_maps));
   out.list(kCameraSection, pack.cameras);
   out.list(kPathSection, pack.paths);
   out.list(kWalkSection, pack.walk_grids);
+  out.list(kLightGroupSection, pack.light_groups);
   return out.file();
 }
 
@@ -126,9 +128,10 @@ std::vector<std::string> left_out_of_pieces(const Pack& pack) {
     if (number > 0) lines.push_back(fmt::format("{} {}: {}", number, number == 1 ? one : many, why));
   };
   add(pack.radiance_maps.size(), "radiance map", "radiance maps", "the viewer draws the mirrored scene instead");
-  add(pack.curved_reflectors.size(), "curved reflector", "curved reflectors", "shown without an image");
-  add(pack.movers.size(), "mover", "movers", "not shown");
-  add(pack.light_groups.size(), "light group", "light groups", "lamps shine as they were baked");
+  if (pack.light_field.bands > 0)
+    add(pack.movers.size(), "mover", "movers", "shown without the shadows that bright lamps throw");
+  else
+    add(pack.movers.size(), "mover", "movers", "not shown, as the pack has no light for them");
   return lines;
 }
 
@@ -139,7 +142,13 @@ Status make_pieces(const Pack& pack, const std::function<Status(WebPiece)>& take
   for (const LightmapPage& page : pack.lightmaps) pages.push_back(without_errors(page));
   ORIEL_TRY_VOID(each("light", kLightmapSection, pages, take));
   ORIEL_TRY_VOID(each("texture", kTextureSection, pack.textures, take));
-  return each("normal", kNormalTextureSection, pack.normal_textures, take);
+  ORIEL_TRY_VOID(each("normal", kNormalTextureSection, pack.normal_textures, take));
+  if (!pack.movers.empty() && pack.light_field.bands > 0) {
+    ORIEL_TRY_VOID(each("field", kLightFieldSection, std::vector<LightField>{pack.light_field}, take));
+    ORIEL_TRY_VOID(each("mover", kMoverSection, pack.movers, take));
+  }
+  ORIEL_TRY_VOID(each("surround", kSurroundMapSection, pack.surround_maps, take));
+  return each("lamps", kPageGroupsSection, pack.page_groups, take);
 }
 
 }  // namespace oriel

@@ -5,7 +5,7 @@
 
 namespace oriel {
 
-// "app.js", "index.html", "offline.js", "style.css", "icon.svg"; empty for another name.
+// "app.js", "index.html", "offline.js", "style.css", "icon.svg", "licences.txt"; empty for another name.
 std::string_view viewer_file(std::string_view name);
 
 }  // namespace oriel

@@ -116,6 +116,7 @@ Result<WebFolder> write_web_folder(const std::filesystem::path& folder, const Pa
     ORIEL_TRY_VOID(writer.put("picture.png", options.picture));
     picture = "<img src=\"picture.png\" alt=\"" + escaped(options.title) + "\">";
   }
+  ORIEL_TRY_VOID(writer.put("licences.txt", viewer_file("licences.txt")));
   ORIEL_TRY_VOID(writer.put("icon.svg", viewer_file("icon.svg")));
   ORIEL_TRY_VOID(writer.put("offline.js", filled(std::string(viewer_file("offline.js")), {{"number", number}})));
   const std::string page =

@@ -11,7 +11,7 @@
 namespace oriel {
 
 // Of the files that a page, its manifest and the viewer make together: a viewer refuses another one.
-inline constexpr int kWebVersion = 1;
+inline constexpr int kWebVersion = 2;
 
 struct WebOptions {
   std::string title;  // of the page, as people read it

@@ -1,7 +1,13 @@
 // After the first visit the walkthrough is there without a network. The page itself is asked for first, so that a new one is seen.
-const name = 'oriel {{number}}';
+// By folder: an origin may have several walkthroughs.
+const own = `oriel ${new URL('./', self.location.href).pathname} `, name = `${own}{{number}}`;
+self.addEventListener('install', () => self.skipWaiting());
 self.addEventListener('activate', (event) => {
-  event.waitUntil(self.clients.claim());
+  const forget = async () => {
+    for (const other of await caches.keys()) if (other.startsWith(own) && other !== name) await caches.delete(other);
+    await self.clients.claim();
+  };
+  event.waitUntil(forget());
 });
 self.addEventListener('fetch', (event) => {
   if (event.request.method !== 'GET') return;

@@ -20,6 +20,7 @@ export class ByteReader {
   }
   u8(): number { return this.view.getUint8(this.take(1)); }
   u32(): number { return this.view.getUint32(this.take(4), true); }
+  u16(): number { return this.view.getUint16(this.take(2), true); }
   i32(): number { return this.view.getInt32(this.take(4), true); }
   f64(): number { return this.view.getFloat64(this.take(8), true); }
   f32(): number {
@@ -72,6 +73,10 @@ export class ByteReader {
   }
   planesU32(n: number): Uint32Array { return new Uint32Array(this.planes(n, 4).buffer); }
   planesU16(n: number, of = 1): Uint16Array { return new Uint16Array(this.planes(n, 2 * of).buffer); }
+  f32s(n: number): Float32Array {
+    if (4 * n > this.left) this.fail(`found ${this.left} bytes, expected ${4 * n}`);
+    return Float32Array.from(this.floats(n));
+  }
   u32s(n: number): Uint32Array {
     if (4 * n > this.left) this.fail(`found ${this.left} bytes, expected ${4 * n}`);
     const from = this.take(4 * n), out = new Uint32Array(n);
@@ -87,4 +92,14 @@ export function halfToFloat(h: number): number {
   const exponent = (h >> 10) & 31, mantissa = h & 1023, sign = h & 0x8000 ? -1 : 1;
   if (exponent === 0) return sign * mantissa * 2 ** -24;
   return exponent === 31 ? NaN : sign * (1 + mantissa / 1024) * 2 ** (exponent - 15);
+}
+
+const float = new Float32Array(1), bits = new Uint32Array(float.buffer);
+/** Of a number that is not negative; the nearest half, the largest for what is larger. */
+export function halfFromFloat(value: number): number {
+  if (!(value < 65504)) return 0x7bff;
+  if (value < 2 ** -14) return Math.round(value * 2 ** 24);
+  float[0] = value;
+  const b = bits[0]! - 0x38000000, down = b >>> 13, rest = b & 0x1fff;
+  return down + Number(rest > 0x1000 || (rest === 0x1000 && (down & 1) > 0));
 }

@@ -71,22 +71,27 @@ export class Renderer {
   /** Sample `sample` of a picture into the frame. */
   draw(scene: GpuScene, camera: Camera, width: number, height: number, sample: number | undefined, options: FrameOptions): void {
     const { gl } = this.device, frame = this.ensure(width, height);
-    const view = makeView(camera, width, height, scene.bounds, sample === undefined ? [0, 0] : pattern[sample % 4]);
+    const view = makeView(camera, width, height, scene.movers.bounds(), sample === undefined ? [0, 0] : pattern[sample % 4]);
     const begin = (): void => {
       gl.bindFramebuffer(gl.FRAMEBUFFER, frame.target);
       gl.viewport(0, 0, width, height);
     };
     begin();
-    this.clear([...scene.data.sky.map((s) => s * scene.unit), 1]);
+    this.clear([...scene.sky.map((s) => s * scene.unit), 1]);
     const shown = scene.opaque.filter((r) => v.mayBeVisible(view.clipFromPack, r.bounds));
     this.drawDepth(scene, view, shown);
-    const target = { view, begin, inFrame: true, mirrors: 0, reflectance: 1, share: 1, texture: frame.light };
+    scene.movers.drawDepth(view);
+    const target = { view, begin, inFrame: true, mirrors: 0, reflectance: 1, share: 1, texture: frame.light, values: 0 };
     const marked = this.reflections.drawMasks(scene, target, options);
     for (const m of marked) if (m.value > 0) this.reflections.draw(scene, target, m, options);
+    const curved = this.reflections.curved.draw(scene, target, options);
     begin();
-    this.drawOpaque(scene, view, shown, new Set(marked.filter((m) => m.value > 0).map((m) => m.reflector.material)));
+    this.drawOpaque(scene, view, shown, new Set([...marked.filter((m) => m.value > 0).map((m) => m.reflector.material), ...curved.materials]));
+    scene.movers.drawLight(view, false);
     this.drawTransparent(scene, view);
     for (const m of marked) if (m.value === 0) this.reflections.draw(scene, target, m, options);
+    begin();
+    this.reflections.curved.add(scene, target, curved.later, options);
   }
 
   clear(color: number[]): void {

@@ -6,6 +6,7 @@ const units: Record<string, number> = {
   u_base_texture: 0, u_lightmap: 1, u_reflectance: 2, u_direction: 3, u_normal_texture: 4, u_change: 5, u_cells: 6, u_detail: 7,
   u_surfaces: 8, u_image: 9, u_frame: 9, u_source: 9, u_blurred: 10, u_before: 10, u_taps: 11, u_polygons: 12, u_visibility: 13,
   u_seen: 14, u_lobes: 15,
+  u_codes: 6, u_table: 7, u_light: 9, u_inverse_distance: 10, u_places: 12, u_normals: 13, u_shaded: 15,
 };
 
 export class Program {
@@ -33,7 +34,7 @@ export class Program {
       const info = gl.getActiveUniform(program, i)!, place = gl.getUniformLocation(program, info.name)!;
       out.at.set(info.name, { place, type: info.type });
       const unit = units[info.name];
-      const sampler = info.type === gl.SAMPLER_2D || info.type === gl.UNSIGNED_INT_SAMPLER_2D;  // u_cells is a size elsewhere
+      const sampler = [gl.SAMPLER_2D, gl.INT_SAMPLER_2D, gl.UNSIGNED_INT_SAMPLER_2D].includes(info.type as 35678);  // u_cells is a size elsewhere
       if (sampler && unit !== undefined) gl.uniform1i(place, unit);
     }
     return out;
@@ -65,7 +66,10 @@ function layoutOf(gl: WebGL2RenderingContext, format: number): [number, number] 
     case gl.RGB16F: return [gl.RGB, gl.HALF_FLOAT];
     case gl.RGBA16F: return [gl.RGBA, gl.HALF_FLOAT];
     case gl.RGBA32F: return [gl.RGBA, gl.FLOAT];
+    case gl.RGB9_E5: return [gl.RGB, gl.UNSIGNED_INT_5_9_9_9_REV];
+    case gl.R32F: return [gl.RED, gl.FLOAT];
     case gl.R32UI: return [gl.RED_INTEGER, gl.UNSIGNED_INT];
+    case gl.RGBA16I: return [gl.RGBA_INTEGER, gl.SHORT];
     case gl.RGBA32UI: return [gl.RGBA_INTEGER, gl.UNSIGNED_INT];
     case gl.DEPTH24_STENCIL8: return [gl.DEPTH_STENCIL, gl.UNSIGNED_INT_24_8];
     default: return [gl.RGBA, gl.UNSIGNED_BYTE];
@@ -91,10 +95,14 @@ export function bind(gl: WebGL2RenderingContext, sampler: string, texture: WebGL
   gl.bindTexture(gl.TEXTURE_2D, texture);
 }
 
-export function makeTarget(gl: WebGL2RenderingContext, color: WebGLTexture, depth?: WebGLTexture): WebGLFramebuffer {
+export function makeTarget(gl: WebGL2RenderingContext, color: WebGLTexture, depth?: WebGLTexture, second?: WebGLTexture): WebGLFramebuffer {
   const framebuffer = gl.createFramebuffer()!;
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, color, 0);
+  if (second) {
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT1, gl.TEXTURE_2D, second, 0);
+    gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
+  }
   if (depth) gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_STENCIL_ATTACHMENT, gl.TEXTURE_2D, depth, 0);
   return framebuffer;
 }

@@ -3,8 +3,9 @@ import { PieceError } from './bytes';
 import { Input } from './input';
 import { Renderer } from './frame';
 import { Walk } from './walk';
-import { checkScene, readPiece } from './sections';
+import { checkField, checkMover, checkPageGroups, checkScene, readPiece } from './sections';
 import { GpuScene, makeDevice } from './scene';
+import { LightsPanel } from './lights_panel';
 import { Show } from './show';
 import { loadManifest, loadPiece } from './pieces';
 import { Panel, element } from './panel';
@@ -34,12 +35,15 @@ function contextOf(): WebGL2RenderingContext | null {
 class Walkthrough {
   readonly pieces = new Map<string, Sections>();
   show?: Show;
-  constructor(readonly gl: WebGL2RenderingContext, readonly scene: Sections, readonly walk: Walk) {}
+  readonly lights: LightsPanel;
+  constructor(readonly gl: WebGL2RenderingContext, readonly scene: Sections, readonly walk: Walk) {
+    this.lights = new LightsPanel(scene.groups, () => this.show?.dim());
+  }
 
   begin(): void {
     const device = makeDevice(this.gl), pages = this.scene.pages.slice();
     const gpu = new GpuScene(device, { ...this.scene, pages });
-    this.show = new Show(canvas, new Renderer(device), gpu, this.walk, panel);
+    this.show = new Show(canvas, new Renderer(device), gpu, this.walk, panel, this.lights);
     for (const [name, sections] of this.pieces) this.take(name, sections);
   }
 
@@ -50,6 +54,10 @@ class Walkthrough {
     if (kind === 'light' && sections.pages[0]) show.scene.setPage(at, sections.pages[0]);
     if (kind === 'texture' && sections.textures[0]) show.scene.setTexture(at, sections.textures[0], false);
     if (kind === 'normal' && sections.normals[0]) show.scene.setTexture(at, sections.normals[0], true);
+    if (kind === 'surround' && sections.surrounds[0]) show.scene.setSurround(at, sections.surrounds[0]);
+    if (kind === 'field' && sections.field) show.scene.movers.setField(sections.field);
+    if (kind === 'mover' && sections.movers[0]) show.scene.movers.add(at, sections.movers[0]);
+    if (kind === 'lamps' && sections.pageGroups[0]) show.scene.setPageGroups(sections.pageGroups[0]);
     show.changed();
   }
 }
@@ -58,7 +66,7 @@ async function keepOffline(manifest: Manifest): Promise<void> {
   if (!('serviceWorker' in navigator) || !isSecureContext) return;
   const number = /pieces-([0-9a-f]+)\.json/.exec(document.body.dataset['pieces']!)?.[1];
   try {
-    const cache = await caches.open(`oriel ${number}`);
+    const cache = await caches.open(`oriel ${new URL('./', location.href).pathname} ${number}`);
     const own = [...document.querySelectorAll<HTMLElement>('script[src], link[href]')].map((e) => e.getAttribute('src') ?? e.getAttribute('href')!);
     await cache.addAll(['./', document.body.dataset['pieces']!, ...own, ...manifest.pieces.map((p) => p.file)]);
     await navigator.serviceWorker.register('offline.js');
@@ -77,13 +85,15 @@ async function run(): Promise<void> {
   let done = first.bytes;
   panel.progress(0.05);
   const scene = readPiece(await loadPiece(first), first.file);
+  const most = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
+  checkSizes(scene, first.file, most);
   const count = (kind: string): number => manifest.pieces.filter((p) => p.kind === kind).length;
-  checkScene(scene, count('texture'), count('normal'));
+  checkScene(scene, count('texture'), count('normal'), count('surround'));
   const walk = new Walk(scene);
   const walkthrough = new Walkthrough(gl, scene, walk);
   walkthrough.begin();
   begun = true;
-  panel.begin(walk, () => walkthrough.show);
+  panel.begin(walk, walkthrough.lights, () => walkthrough.show);
   const input = new Input(canvas, {
     key: (key) => panel.key(key), go: (x, y) => walkthrough.show?.go(x, y), hover: (x, y) => walkthrough.show?.hover(x, y),
   });
@@ -113,17 +123,37 @@ async function run(): Promise<void> {
   for (const piece of manifest.pieces) {
     if (piece === first) continue;
     const sections = readPiece(await loadPiece(piece), piece.file);
-    if (piece.kind === 'light') checkPage(sections, piece);
+    checkPiece(sections, piece, most);
+    if (piece.kind === 'mover') checkMover(sections.movers[0]!, scene);
+    if (piece.kind === 'field') checkField(sections.field!, scene);
+    if (piece.kind === 'lamps') checkPageGroups(sections.pageGroups[0]!, scene, walkthrough.pieces.get(`light ${sections.pageGroups[0]!.page}`)?.pages[0]);
     walkthrough.take(nameOf(piece), sections);
     panel.progress((done += piece.bytes) / all);
   }
   state('whole');
   panel.progress(1);
+  panel.sizes(all, walkthrough.show?.scene.bytes ?? 0);
   await keepOffline(manifest);
 }
 
-function checkPage(sections: Sections, piece: Piece): void {
-  if (sections.pages.length !== 1) throw new PieceError(`${piece.file}: found ${sections.pages.length} pages, expected one`);
+/** A piece of another kind than the manifest says is no piece of this pack. */
+function checkPiece(sections: Sections, piece: Piece, most: number): void {
+  const held: Record<string, unknown[]> = {
+    light: sections.pages, texture: sections.textures, normal: sections.normals, surround: sections.surrounds,
+    lamps: sections.pageGroups, mover: sections.movers, field: sections.field ? [sections.field] : [],
+  };
+  const found = held[piece.kind]?.length ?? 0;
+  if (found !== 1) throw new PieceError(`${piece.file}: found ${found} of kind '${piece.kind}', expected one`);
+  checkSizes(sections, piece.file, most);
+}
+
+/** Refuses images that the device cannot hold. */
+function checkSizes(sections: Sections, file: string, most: number): void {
+  const sizes = [...sections.textures, ...sections.normals, ...sections.pages].map((t) => [t.width, t.height]);
+  for (const p of sections.pages) sizes.push([p.detailWidth, p.detailHeight]);
+  for (const s of sections.surrounds) sizes.push([1.5 * s.size + 4, s.size + 64]);
+  for (const [w, h] of sizes)
+    if (Math.max(w!, h!) > most) throw new PieceError(`${file}: found an image of ${w} x ${h} texels, but this device holds at most ${most} a side`);
 }
 
 run().catch((error: unknown) => {

@@ -1,4 +1,5 @@
 // Buttons, keys and lines over the view.
+import type { LightsPanel } from './lights_panel';
 import type { Show } from './show';
 import type { Walk } from './walk';
 
@@ -10,11 +11,12 @@ export function element(id: string): HTMLElement {
 
 export class Panel {
   private walk?: Walk;
+  private lights?: LightsPanel;
   private show: () => Show | undefined = () => undefined;
   private timer = 0;
 
-  begin(walk: Walk, show: () => Show | undefined): void {
-    this.walk = walk;
+  begin(walk: Walk, lights: LightsPanel, show: () => Show | undefined): void {
+    this.walk = walk, this.lights = lights;
     this.show = show;
     const places = element('places') as HTMLSelectElement;
     walk.cameras.forEach((camera, i) => places.append(new Option(camera.name || `place ${i + 1}`, String(i))));
@@ -25,6 +27,7 @@ export class Panel {
     });
     element('tour').hidden = !walk.path;
     element('tour').addEventListener('click', () => this.key('p'));
+    element('movers').addEventListener('click', () => this.key('m'));
     element('link').addEventListener('click', () => void this.copyLink());
     element('screen').hidden = !document.fullscreenEnabled;
     element('screen').addEventListener('click', () => {
@@ -35,7 +38,23 @@ export class Panel {
     addEventListener('hashchange', () => {
       const camera = walk.fromHash();
       if (camera) this.walk!.jump(camera), this.show()?.changed();
+      lights.fromHash();
     });
+  }
+
+  /** loaded, held by the device: bytes. */
+  sizes(loaded: number, held: number): void {
+    element('sheet-sizes').textContent = `Loaded: ${(loaded / 1e6).toFixed(1)} MB. Held on the graphics device: ${(held / 1e6).toFixed(1)} MB, and the frame.`;
+    document.body.dataset['held'] = String(held);
+  }
+
+  private movers = '';
+  moversAre(there: boolean, run: boolean): void {
+    const now = `${there} ${run}`;
+    if (now === this.movers) return;
+    this.movers = now;
+    element('movers').hidden = !there;
+    element('movers').setAttribute('aria-pressed', String(run));
   }
 
   progress(share: number): void {
@@ -71,8 +90,8 @@ export class Panel {
   }
 
   private async copyLink(): Promise<void> {
-    const url = location.href.split('#')[0] + this.walk!.toHash();
-    history.replaceState(null, '', this.walk!.toHash());
+    const hash = this.walk!.toHash() + this.lights!.toHash(), url = location.href.split('#')[0] + hash;
+    history.replaceState(null, '', hash);
     try {
       await navigator.clipboard.writeText(url);
       this.say('A link to this view is on the clipboard.');
@@ -87,6 +106,8 @@ export class Panel {
     switch (key) {
       case 'c': this.jump((walk.place + 1) % walk.cameras.length); break;
       case 'Home': this.jump(0); break;
+      case 'o': this.lights!.toggle(); break;
+      case 'm': walk.clock.runs = !walk.clock.runs; break;
       case 'p': walk.toggleTour(); break;
       case 'g': show.go(0.5, 0.5); break;
       case 'l': show.toggleLux(); break;

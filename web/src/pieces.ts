@@ -1,7 +1,7 @@
 // The files of a walkthrough: a manifest and pieces, each compared with its hash by the browser itself.
 import { PieceError } from './bytes';
 
-export const webVersion = 1;
+export const webVersion = 2;
 export interface Piece { kind: string; index: number; file: string; bytes: number; integrity: string; }
 export interface Manifest { version: number; title: string; pieces: Piece[]; }
 

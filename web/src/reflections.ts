@@ -2,6 +2,7 @@
 // player/passes/reflection_renderer.h, with images in images.
 import * as v from './vec';
 import { Program, apply, bind, makeTarget, makeTexture } from './gl';
+import { CurvedReflections } from './curved';
 import { clipFromViewTo, partOf, projectPolygon, withNearPlane } from './view';
 import type { Renderer, FrameOptions } from './frame';
 import type { Device, GpuKernel, GpuReflector, GpuScene } from './scene';
@@ -12,6 +13,7 @@ const reflectorBits = 0x7f, seeThroughBit = 0x80;
 
 export interface Target {
   view: View; begin: () => void; inFrame: boolean; mirrors: number; reflectance: number; share: number; texture: WebGLTexture;
+  values: number;  // of the stencil, that reflectors have taken
 }
 export interface Marked { reflector: GpuReflector; screen: Rect; value: number; }  // value 0: see-through, or in an image
 
@@ -32,19 +34,21 @@ export class Reflections {
   private readonly emitters: Program;
   private readonly pull: Program;
   private readonly blur: Program;
+  readonly curved: CurvedReflections;
   private readonly images: Image[] = [];
 
   constructor(private readonly device: Device, private readonly renderer: Renderer, private readonly none: WebGLVertexArrayObject) {
     const { gl } = device;
     this.mask = Program.make(gl, 'reflector_mask'), this.compose = Program.make(gl, 'reflector_compose');
     this.convolve = Program.make(gl, 'reflector_convolve'), this.emitters = Program.make(gl, 'reflector_emitters');
+    this.curved = new CurvedReflections(device, renderer);
     this.pull = Program.make(gl, 'screen_pull'), this.blur = Program.make(gl, 'screen_convolve');
   }
 
   /** Marks the reflectors that are seen in the target, whose depth is there. */
   drawMasks(scene: GpuScene, target: Target, options: FrameOptions): Marked[] {
     const out: Marked[] = [], { gl } = this.device, view = target.view;
-    let values = 0;
+    target.values = 0;
     for (const reflector of scene.reflectors) {
       const eye = v.transform(reflector.reflectorFromPack, view.eye);
       if (reflector.count === 0 || eye[2] <= (view.ortho ? kEdgeOn : kEdgeOn * reflector.size)) continue;
@@ -52,8 +56,8 @@ export class Reflections {
       if (!screen || (options.largeOnly && target.share * shareOf(screen) < kLargeShare)) continue;
       const seeThrough = scene.isTransparent(reflector.material), left = target.reflectance * scene.reflectanceOf(reflector.material);
       if (!target.inFrame && (seeThrough || left < kLeastReflectance || left * target.share * shareOf(screen) < kLeastShown)) continue;
-      if (!seeThrough && values + 1 >= reflectorBits) continue;
-      const value = seeThrough ? 0 : ++values;
+      if (!seeThrough && target.values + 1 >= reflectorBits) continue;
+      const value = seeThrough ? 0 : ++target.values;
       this.drawMask(scene, reflector, view, value, target.inFrame);
       if (target.inFrame && !reflector.visible) {
         if (!seeThrough) this.drawMask(scene, reflector, view, 0, false, true);
@@ -138,24 +142,29 @@ export class Reflections {
     begin();
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(0, 0, rect.width, rect.height);
-    this.renderer.clear([...scene.data.sky.map((s) => s * scene.unit), closest]);
+    this.renderer.clear([...scene.sky.map((s) => s * scene.unit), closest]);
     gl.disable(gl.SCISSOR_TEST);
     const view = this.mirroredView(scene, r, outer, rect);
     const shown = scene.opaque.filter((range) => v.mayBeVisible(view.clipFromPack, range.bounds));
     const dark = r.dark.filter((range) => v.mayBeVisible(view.clipFromPack, range.bounds));
     const inside: Target = {
-      view, begin, inFrame: false, mirrors: target.mirrors + 1, texture: image.color,
+      view, begin, inFrame: false, mirrors: target.mirrors + 1, texture: image.color, values: 0,
       reflectance: target.reflectance * scene.reflectanceOf(r.material),
       share: (target.share * view.width * view.height) / (outer.width * outer.height),
     };
     if (inside.mirrors < options.orders) {
       this.renderer.drawDepth(scene, view, shown);
-      const marked = this.drawMasks(scene, inside, options);
-      this.renderer.drawReflected(scene, view, shown, dark, new Set(marked.map((m) => m.reflector.material)));
+      const marked = this.drawMasks(scene, inside, options), curved = this.curved.draw(scene, inside, options);
+      this.renderer.drawReflected(scene, view, shown, dark, new Set([...marked.map((m) => m.reflector.material), ...curved.materials]));
       for (const m of marked) this.draw(scene, inside, m, options);
       begin();
+      this.curved.add(scene, inside, curved.later, options);
     } else {
       this.renderer.drawReflected(scene, view, shown, dark, new Set());
+    }
+    if (scene.movers.some) {
+      scene.movers.drawDepth(view);
+      scene.movers.drawLight(view, true);
     }
     this.renderer.drawTransparent(scene, view);
   }

@@ -3,9 +3,14 @@ import * as v from './vec';
 import { Program, bind, makeTexture } from './gl';
 import { trianglesOf, uploadEmitters } from './emitters';
 import { halfToFloat } from './bytes';
+import { cutoutMips } from './cutout_mips';
+import { meanFactor, relit } from './lights';
+import { Movers } from './movers';
+import { uploadSurround } from './surround';
 import { lobeRows, lobeTexels, makeTaps } from './kernel';
 import type { ReflectorEmitters } from './emitters';
-import type { Material, Page, Sections, Texture } from './sections';
+import type { GpuSurround } from './surround';
+import type { Emitter, Material, Page, PageGroups, Sections, Surround, Texture } from './sections';
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
@@ -14,8 +19,9 @@ export interface GpuReflector {
   corners: Vec3[]; size: number; flatness: number; emitters?: ReflectorEmitters; dark: Range[];
   query?: WebGLQuery; asked: boolean; visible: boolean;
 }
+export interface GpuCurved extends Range { map: number; }
 export interface GpuKernel { taps: WebGLTexture; count: number; rows: number; median: number; lobes?: WebGLTexture; }
-interface Light { light: WebGLTexture; scale: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
+interface Light { light: WebGLTexture; scale: number; bytes: number; direction?: WebGLTexture; cells?: WebGLTexture; detail?: WebGLTexture; }
 
 export interface Device {
   gl: WebGL2RenderingContext;
@@ -37,12 +43,20 @@ export class GpuScene {
   readonly opaque: Range[] = [];
   readonly transparent: Range[] = [];
   readonly reflectors: GpuReflector[] = [];
+  readonly curved: GpuCurved[];
+  readonly surrounds: GpuSurround[] = [];
+  readonly movers: Movers;
   readonly unit: number;  // what light is multiplied by, so that it fits the device's numbers
   bytes = 0;              // of textures and vertices
   private readonly array: WebGLVertexArrayObject;
   private readonly textures: (WebGLTexture | undefined)[] = [];
   private readonly normals: (WebGLTexture | undefined)[] = [];
   private readonly pages: Light[] = [];
+  private readonly shown: Page[] = [];        // as lamps shine now
+  private readonly pageGroups: PageGroups[] = [];
+  factors: Vec3[];               // by light group
+  private emission: number[][];               // by material
+  sky: number[];
   private readonly white: WebGLTexture;
   private readonly flat: WebGLTexture;
   private readonly zero: WebGLTexture;
@@ -51,9 +65,13 @@ export class GpuScene {
 
   constructor(readonly device: Device, readonly data: Sections) {
     const gl = device.gl, mesh = data.mesh!, brightest = Math.max(1, ...data.materials.flatMap((m) => m.emission), ...data.sky);
+    this.emission = data.materials.map((m) => m.emission), this.sky = data.sky;
+    this.factors = data.groups.map(() => [1, 1, 1]);
     this.unit = device.color === gl.RGBA32F ? 1 : Math.min(1, 8192 / brightest);
     const indices = this.sortRanges();
     data.reflectors.forEach((_, i) => this.addReflector(i, indices));
+    this.movers = new Movers(device, this);
+    this.curved = data.curved.map((c) => ({ ...this.rangeOf(indices, c.indices, c.material, -1), map: c.map }));
     this.array = gl.createVertexArray()!;
     gl.bindVertexArray(this.array);
     const attribute = (at: number, values: ArrayBufferView | undefined, size: number, type: number = gl.FLOAT): void => {
@@ -140,21 +158,57 @@ export class GpuScene {
 
   /** A finer page in place of the one that was there. */
   setPage(index: number, page: Page): void {
+    this.data.pages[index] = page;
+    this.uploadPage(index);
+  }
+
+  setPageGroups(groups: PageGroups): void {
+    this.pageGroups[groups.page] = groups;
+    this.uploadPage(groups.page);
+  }
+
+  /** By group, how many times what was baked its lamps shine: what BakedLamps of player/scene/lights.h does. */
+  setLights(factors: Vec3[]): void {
+    const { groups, emitters } = this.data, changed: Emitter[] = emitters.slice();
+    const times = (light: number[], factor: Vec3): number[] => light.map((x, i) => x * factor[i]!);
+    this.factors = factors;
+    groups.forEach((group, g) => {
+      for (const m of group.materials) this.emission[m] = times(this.data.materials[m]!.emission, factors[g]!);
+      for (const e of group.emitters) changed[e] = { ...emitters[e]!, radiance: times(emitters[e]!.radiance, factors[g]!) };
+      if (group.sky) this.sky = times(this.data.sky, factors[g]!);
+    });
+    for (const r of this.reflectors) {
+      const old = r.emitters;
+      if (!old) continue;
+      for (const texture of [old.polygons, old.visibility, old.seen]) this.device.gl.deleteTexture(texture);
+      r.emitters = uploadEmitters(this.device.gl, this.data.reflectors[r.index]!, changed, r.reflectorFromPack, r.size, this.unit);
+    }
+    this.data.pages.forEach((_, i) => this.uploadPage(i));
+    this.surrounds.forEach((s, i) => { s.tint = meanFactor(groups, factors, 'surrounds', i); });
+    this.movers.relight();
+  }
+
+  private uploadPage(index: number): void {
+    const page = relit(this.data.pages[index]!, this.pageGroups[index], this.factors);
+    if (page === this.shown[index]) return;
+    this.shown[index] = page;
     const { gl } = this.device, old = this.pages[index];
     for (const texture of [old?.light, old?.direction, old?.cells, old?.detail]) if (texture) gl.deleteTexture(texture);
+    this.bytes -= old?.bytes ?? 0;
+    const before = this.bytes;
     const halves = (texels: Uint16Array, width: number, height: number): WebGLTexture => {
       this.bytes += texels.byteLength;
       return makeTexture(gl, { width, height, format: gl.RGB16F, min: gl.LINEAR, mag: gl.LINEAR }, texels);
     };
-    const light: Light = { light: halves(page.light, page.width, page.height), scale: page.scale };
+    const light: Light = { light: halves(page.light, page.width, page.height), scale: page.scale, bytes: 0 };
     if (page.direction) light.direction = halves(page.direction, page.width, page.height);
     if (page.detail && page.cells) {
       light.cells = makeTexture(gl, { width: page.width, height: page.height, format: gl.R32UI }, page.cells);
       light.detail = halves(page.detail, page.detailWidth, page.detailHeight);
       this.bytes += page.cells.byteLength;
     }
+    light.bytes = this.bytes - before;
     this.pages[index] = light;
-    this.data.pages[index] = page;
   }
 
   setTexture(index: number, texture: Texture, normal: boolean): void {
@@ -164,12 +218,48 @@ export class GpuScene {
       width: texture.width, height: texture.height, levels, format: normal ? gl.RGBA8 : gl.SRGB8_ALPHA8, min: gl.LINEAR_MIPMAP_LINEAR,
       mag: texture.nearest ? gl.NEAREST : gl.LINEAR, wrapS: wraps[texture.wrapS], wrapT: wraps[texture.wrapT],
     }, texture.texels);
-    gl.generateMipmap(gl.TEXTURE_2D);
+    const cutoff = normal ? undefined : this.cutoffIn(index), t = texture.texels;
+    let cuts = false;
+    for (let i = 3; i < t.length && cutoff !== undefined && !cuts; i += 4) cuts = t[i]! < 255;
+    if (cuts) {
+      cutoutMips(texture, cutoff!).forEach((mip, l) => {
+        gl.texSubImage2D(gl.TEXTURE_2D, l + 1, 0, 0, mip.width, mip.height, gl.RGBA, gl.UNSIGNED_BYTE, mip.texels);
+      });
+    } else gl.generateMipmap(gl.TEXTURE_2D);
     const anisotropic = gl.getExtension('EXT_texture_filter_anisotropic');
     if (anisotropic && !texture.nearest)
       gl.texParameterf(gl.TEXTURE_2D, anisotropic.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(8, gl.getParameter(anisotropic.MAX_TEXTURE_MAX_ANISOTROPY_EXT) as number));
     (normal ? this.normals : this.textures)[index] = out;
     this.bytes += (texture.texels.byteLength * 4) / 3;
+  }
+
+  /** Of alpha in a texture, what materials cut out with it: 0 where it blends; nothing where some show all of it. */
+  private cutoffIn(texture: number): number | undefined {
+    let out: number | undefined;
+    for (const m of this.data.materials) {
+      if (m.texture !== texture) continue;
+      if (m.alphaMode === 0) return undefined;
+      if (m.alphaMode === 2) out ??= 0;
+      else if (!out) {
+        if (!(m.cutoff > 0)) return undefined;
+        out = m.alpha > 0 ? m.cutoff / m.alpha : 2;
+      }
+    }
+    return out;
+  }
+
+  setSurround(index: number, map: Surround): void {
+    this.surrounds[index] = uploadSurround(this.device.gl, map);
+    this.surrounds[index]!.tint = meanFactor(this.data.groups, this.factors, 'surrounds', index);
+    this.bytes += 10 * map.light.length;
+  }
+
+  /** A normal map of a material, if it has one and what it needs is there. */
+  setNormals(program: Program, material: number, has = !!this.data.mesh!.normalUvs): void {
+    const m = this.data.materials[material]!, normal = m.normalTexture >= 0 && has ? this.normals[m.normalTexture] : undefined;
+    program.set('u_normal_mapped', !!normal);
+    program.set('u_normal_scale', m.normalScale);
+    bind(this.device.gl, 'u_normal_texture', normal ?? this.flat);
   }
 
   kernel(material: number, taps: number): GpuKernel {
@@ -211,21 +301,18 @@ export class GpuScene {
   }
 
   /** Albedo, reflectance, emission, normal map and light of a range. */
-  setSurface(program: Program, range: Range): void {
+  setSurface(program: Program, range: Range, hasNormalUvs = !!this.data.mesh!.normalUvs): void {
     const { gl } = this.device, m = this.data.materials[range.material]!, light = this.pages[range.page];
     program.set('u_base_color', [...m.baseColor.map((c) => Math.min(Math.max(c, 0), 1)), m.alpha]);
     program.set('u_alpha_cutoff', cutoffOf(m));
     program.set('u_covers', m.alphaMode === 2);
     program.set('u_diffuse_share', (1 - m.metallic) * (1 - m.transmission));
     program.set('u_transmission', m.transmission);
-    program.set('u_emission', m.emission.map((e) => e * this.unit));
+    program.set('u_emission', this.emission[range.material]!.map((e) => e * this.unit));
     program.set('u_unlit', m.unlit);
     this.setReflectance(program, range.material);
     this.bindBase(m.texture);
-    const normal = m.normalTexture >= 0 && this.data.mesh!.normalUvs ? this.normals[m.normalTexture] : undefined;
-    program.set('u_normal_mapped', !!normal);
-    program.set('u_normal_scale', m.normalScale);
-    bind(gl, 'u_normal_texture', normal ?? this.flat);
+    this.setNormals(program, range.material, hasNormalUvs);
     bind(gl, 'u_lightmap', light?.light ?? this.white);
     program.set('u_lightmap_scale', light ? light.scale * this.unit : 0);
     program.set('u_directional', !!light?.direction);
@@ -237,7 +324,7 @@ export class GpuScene {
 
   /** Irradiance at a vertex-interpolated place of a page, lux. */
   luxAt(page: number, s: number, t: number): number {
-    const p = this.data.pages[page];
+    const p = this.shown[page];
     if (!p) return 0;
     const x = Math.min(Math.floor(s * p.width), p.width - 1), y = Math.min(Math.floor(t * p.height), p.height - 1), at = 3 * (y * p.width + x);
     return p.scale * (0.2126 * halfToFloat(p.light[at]!) + 0.7152 * halfToFloat(p.light[at + 1]!) + 0.0722 * halfToFloat(p.light[at + 2]!));

@@ -1,233 +1,15 @@
-// The sections of a piece, which has the format of a pack (docs/format.md), as the viewer uses them.
+// The sections of a piece, which has the format of a pack (docs/format.md), and whether they fit together.
 import { decompress } from 'fzstd';
-import { ByteReader, PieceError, halfToFloat } from './bytes';
-import type { Vec3 } from './vec';
+import { ByteReader, PieceError } from './bytes';
+import {
+  readMesh, readMaterial, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readCurved, readSurround, list, mostGroups,
+} from './elements';
+import { readField, readMover } from './mover_elements';
+import type { LightField, Mover, Page, PageGroups, Sections } from './types';
 
-export interface Part { name: string; first: number; count: number; material: number; page: number; }
-export interface Mesh {
-  origin: Vec3;
-  positions: Float32Array; normals: Float32Array; uvs: Float32Array; lightmapUvs: Float32Array;
-  colors?: Uint8Array; normalUvs?: Float32Array; tangents?: Float32Array;
-  indices: Uint32Array; parts: Part[];
-}
-export interface Material {
-  name: string; baseColor: number[]; alpha: number; texture: number; alphaMode: number; doubleSided: boolean; unlit: boolean;
-  cutoff: number; metallic: number; transmission: number; emission: number[]; kernel: number; fresnel: number;
-  normalTexture: number; normalScale: number;
-}
-export interface Texture {
-  width: number; height: number; wrapS: number; wrapT: number; nearest: boolean; texels: Uint8Array;
-}
-export interface Page {
-  width: number; height: number; scale: number; light: Uint16Array; direction?: Uint16Array;
-  detailWidth: number; detailHeight: number; cells?: Uint32Array; detail?: Uint16Array;
-}
-export interface Reflector {
-  name: string; material: number; packFromReflector: Float64Array; lower: number[]; upper: number[]; flatness: number;
-  indices: Uint32Array; nodesX: number; nodesY: number; emitters: Uint32Array; visibility: Uint8Array;
-}
-export interface Emitter { twoSided: boolean; radiance: number[]; corners: Vec3[]; }
-export interface Slice { cosTheta: number; shift: number; width: number[]; lower: number[]; upper: number[]; weights: Float32Array; }
-export interface Kernel { size: number; halfExtent: number; weights: Float32Array; sliceSize: number; slices: Slice[]; fits: number[][]; }
-export interface Fresnel { table: Float32Array; factor: Float32Array; }
-export interface Camera { name: string; eye: Vec3; forward: Vec3; up: Vec3; fov: number; halfHeight: number; }
-export interface Path { name: string; fov: number; keys: { time: number; eye: Vec3; forward: Vec3 }[]; }
-export interface WalkGrid {
-  lower: number[]; cell: number; eyeHeight: number; width: number; height: number; walkable: Uint8Array; floor: Float32Array;
-}
+export type * from './types';
 
-export interface Sections {
-  sky: number[]; mesh?: Mesh; materials: Material[]; textures: Texture[]; normals: Texture[]; pages: Page[];
-  reflectors: Reflector[]; emitters: Emitter[]; kernels: Kernel[]; fresnels: Fresnel[];
-  cameras: Camera[]; paths: Path[]; grids: WalkGrid[];
-}
-
-const kMaxSide = 32768;
 const kMostBytes = 2 ** 30;  // of a section: what a browser may hold
-
-function vec3(r: ByteReader): Vec3 { return r.floats(3) as Vec3; }
-
-function unpackOctahedral(codes: Uint32Array, of: number): Float32Array {
-  const out = new Float32Array(codes.length * of);
-  for (let i = 0; i < codes.length; ++i) {
-    const code = codes[i]!;
-    let x = Math.max((code << 16) >> 16, -32767) / 32767, y = Math.max(code >> 16, -32767) / 32767;
-    const z = 1 - Math.abs(x) - Math.abs(y);
-    if (z < 0) [x, y] = [(1 - Math.abs(y)) * (x < 0 ? -1 : 1), (1 - Math.abs(x)) * (y < 0 ? -1 : 1)];
-    const length = Math.hypot(x, y, z);
-    out[of * i] = x / length, out[of * i + 1] = y / length, out[of * i + 2] = z / length;
-  }
-  return out;
-}
-
-function readMesh(r: ByteReader): Mesh {
-  const origin: Vec3 = [r.f64(), r.f64(), r.f64()];
-  const vertices = r.u32(), count = r.u32(), parts = r.u32(), flags = r.size(3, 'mesh flags');
-  if (count % 3 !== 0) r.fail(`found ${count} indices, expected triangles`);
-  const mesh: Mesh = {
-    origin, positions: r.planesF32(vertices, 3), normals: unpackOctahedral(r.planesU32(vertices), 3),
-    uvs: r.planesF32(vertices, 2), lightmapUvs: r.planesF32(vertices, 2), indices: new Uint32Array(), parts: [],
-  };
-  if (flags & 1) mesh.colors = r.planes(vertices, 4);
-  if (flags & 2) {
-    mesh.normalUvs = r.planesF32(vertices, 2);
-    mesh.tangents = unpackOctahedral(r.planesU32(vertices), 4);
-    const sides = new Int8Array(r.planes(vertices, 1).buffer);
-    for (let i = 0; i < vertices; ++i) mesh.tangents[4 * i + 3] = sides[i]!;
-  }
-  mesh.indices = r.planesU32(count);
-  for (let i = 0, index = 0; i < count; ++i) {
-    index = (index + mesh.indices[i]!) >>> 0;
-    if (index >= vertices) r.fail(`found index ${index} of ${vertices} vertices`);
-    mesh.indices[i] = index;
-  }
-  for (let i = 0; i < parts; ++i) {
-    const part = { name: r.text(), first: r.u32(), count: r.u32(), material: r.u32(), page: r.i32() };
-    if (part.first % 3 || part.count % 3 || part.first + part.count > count) r.fail(`found part '${part.name}' outside the indices`);
-    mesh.parts.push(part);
-  }
-  return mesh;
-}
-
-function readMaterial(r: ByteReader): Material {
-  const name = r.text(), baseColor = r.floats(3), alpha = r.f32(), texture = r.i32();
-  const alphaMode = r.choice(2, 'alpha mode'), doubleSided = r.choice(1, 'flag') > 0, unlit = r.choice(1, 'flag') > 0;
-  r.choice(0, 'reserved byte');
-  const cutoff = r.f32(), metallic = r.f32();
-  r.floats(5);
-  return {
-    name, baseColor, alpha, texture, alphaMode, doubleSided, unlit, cutoff, metallic, transmission: r.f32(), emission: r.floats(3),
-    kernel: r.i32(), fresnel: r.i32(), normalTexture: r.i32(), normalScale: r.f32(),
-  };
-}
-
-function readTexture(r: ByteReader): Texture {
-  r.text();
-  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height');
-  const wrapS = r.choice(2, 'wrap'), wrapT = r.choice(2, 'wrap'), nearest = r.choice(1, 'filter') > 0;
-  r.choice(0, 'reserved byte');
-  if (!width || !height) r.fail('found a texture without texels');
-  return { width, height, wrapS, wrapT, nearest, texels: r.planes(width * height, 4) };
-}
-
-// Halves that are numbers, and of light not negative.
-function halves(r: ByteReader, n: number, signed: boolean): Uint16Array {
-  const out = r.planesU16(n, 3);
-  for (const h of out) if ((h & 0x7c00) === 0x7c00 || (!signed && h > 0x8000)) r.fail('found light that is negative or no number');
-  return out;
-}
-
-function exponent(r: ByteReader): number {
-  const value = r.i32();
-  if (value < -94 || value > 112) r.fail(`found exponent ${value}, expected -94 to 112`);
-  return value;
-}
-
-function readPage(r: ByteReader): Page {
-  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height'), flags = r.size(1, 'lightmap flags');
-  const detailWidth = r.size(16384, 'details'), detailHeight = r.size(16384, 'details');
-  const page: Page = { width, height, detailWidth, detailHeight, scale: 2 ** exponent(r), light: halves(r, width * height, false) };
-  if (!width || !height) r.fail('found a page without texels');
-  if (flags & 1) page.direction = halves(r, width * height, true);
-  if (detailWidth > 0) {
-    page.cells = r.planesU32(width * height);
-    for (const code of page.cells) {
-      const side = code >>> 28;
-      if (code === 0) continue;
-      if (side < 1 || side > 3 || (code & 0x3fff) + (1 << side) >= detailWidth || ((code >>> 14) & 0x3fff) + (1 << side) >= detailHeight)
-        r.fail('found a cell outside of the image of details');
-    }
-    page.detail = halves(r, detailWidth * detailHeight, false);
-  }
-  exponent(r);
-  halves(r, width * height, false);
-  r.planes(width * height, 1);
-  return page;
-}
-
-function readReflector(r: ByteReader): Reflector {
-  const name = r.text(), material = r.u32(), matrix = new Float64Array(r.floats(16));
-  const lower = r.floats(2), upper = r.floats(2);
-  r.f32();
-  const flatness = r.f32();
-  r.u32s(4);
-  const indices = r.u32s(r.count(4)), emitters = r.size(16, 'emitters');
-  const nodesX = r.size(kMaxSide, 'nodes'), nodesY = r.size(kMaxSide, 'nodes');
-  if (emitters > 0 && (nodesX < 2 || nodesY < 2)) r.fail('found emitters without nodes');
-  return {
-    name, material, packFromReflector: matrix, lower, upper, flatness, indices, nodesX, nodesY,
-    emitters: r.u32s(emitters), visibility: r.planes(nodesX * nodesY * emitters, 1),
-  };
-}
-
-function readEmitter(r: ByteReader): Emitter {
-  const corners = r.choice(4, 'corners'), twoSided = r.choice(1, 'flag') > 0;
-  if (corners < 3) r.fail(`found ${corners} corners, expected 3 or 4`);
-  return { twoSided, radiance: r.floats(3), corners: Array.from({ length: corners }, () => vec3(r)) };
-}
-
-function readSlice(r: ByteReader, size: number): Slice {
-  const cosTheta = r.f32();
-  r.floats(3);
-  const shift = r.f32(), width = r.floats(2), lower = r.floats(2), upper = r.floats(2);
-  r.f32();
-  r.planesU16(r.count(2));
-  const half = r.planesU16((size * (size + 1)) / 2), weights = new Float32Array(size * size);
-  let i = 0;
-  for (let y = 0; y < size; ++y)
-    for (let x = (size - 1) / 2; x < size; ++x) {
-      const weight = halfToFloat(half[i++]!);
-      if (!(weight >= 0 && weight <= 1)) r.fail('found a weight outside 0 to 1');
-      weights[y * size + x] = weights[y * size + size - 1 - x] = weight;
-    }
-  return { cosTheta, shift, width, lower, upper, weights };
-}
-
-function readKernel(r: ByteReader): Kernel {
-  r.choice(1, 'kernel model');
-  r.u8(), r.u8(), r.u8();
-  r.floats(2);
-  const halfExtent = r.f32();
-  r.f32();
-  const size = r.size(kMaxSide, 'kernel size'), weights = r.planesF32(size * size), sliceSize = r.size(kMaxSide, 'slice size');
-  const count = r.count(4);
-  if (count > 256 || (count > 0 && sliceSize % 2 === 0)) r.fail(`found ${count} slices of ${sliceSize}`);
-  const slices = Array.from({ length: count }, () => readSlice(r, sliceSize));
-  const fits = r.count(20);
-  if (fits !== 0 && fits !== count) r.fail(`found ${fits} cosine lobes of ${count} slices`);
-  return { size, halfExtent, weights, sliceSize, slices, fits: Array.from({ length: fits }, () => r.floats(5)) };
-}
-
-function readFresnel(r: ByteReader): Fresnel {
-  r.f32();
-  const n = r.u32(), m = r.u32(), sphere = r.size(kMaxSide, 'sphere');
-  if (n < 2) r.fail('found a reflectance of fewer than two angles');
-  const map = { table: r.planesF32(n, 3), factor: r.planesF32(m, 3) };
-  r.planesF32(sphere * sphere, 3);
-  return map;
-}
-
-function readCamera(r: ByteReader): Camera {
-  return { name: r.text(), eye: vec3(r), forward: vec3(r), up: vec3(r), fov: r.f32(), halfHeight: r.f32() };
-}
-
-function readPath(r: ByteReader): Path {
-  const name = r.text(), fov = r.f32(), count = r.count(28);
-  return { name, fov, keys: Array.from({ length: count }, () => ({ time: r.f32(), eye: vec3(r), forward: vec3(r) })) };
-}
-
-function readGrid(r: ByteReader): WalkGrid {
-  const lower = r.floats(2), cell = r.f32(), eyeHeight = r.f32();
-  const width = r.size(kMaxSide, 'width'), height = r.size(kMaxSide, 'height');
-  if (!(cell > 0)) r.fail('found a walk grid without cells');
-  return { lower, cell, eyeHeight, width, height, walkable: r.planes(width * height, 1), floor: r.planesF32(width * height) };
-}
-
-function list<T>(r: ByteReader, count: number, one: (r: ByteReader) => T): T[] {
-  const out: T[] = [];
-  for (let i = 0; i < count; ++i) out.push(one(r));
-  return out;
-}
 
 function readSection(kind: string, count: number, r: ByteReader, out: Sections): void {
   switch (kind) {
@@ -243,6 +25,12 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'FRES': out.fresnels = list(r, count, readFresnel); break;
     case 'CAMS': out.cameras = list(r, count, readCamera); break;
     case 'PATH': out.paths = list(r, count, readPath); break;
+    case 'CRFL': out.curved = list(r, count, readCurved); break;
+    case 'SMAP': out.surrounds.push(...list(r, count, readSurround)); break;
+    case 'MOVR': out.movers.push(...list(r, count, readMover)); break;
+    case 'PROB': out.field = readField(r); break;
+    case 'LGRP': out.groups = list(r, count, readGroup); break;
+    case 'GLMP': out.pageGroups.push(...list(r, count, readPageGroups)); break;
     case 'WALK': out.grids = list(r, count, readGrid); break;
     default: r.fail('found a section that a piece does not have');
   }
@@ -257,7 +45,7 @@ export function readPiece(bytes: Uint8Array, name: string): Sections {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const out: Sections = {
     sky: [0, 0, 0], materials: [], textures: [], normals: [], pages: [], reflectors: [], emitters: [], kernels: [],
-    fresnels: [], cameras: [], paths: [], grids: [],
+    fresnels: [], cameras: [], paths: [], grids: [], groups: [], pageGroups: [], curved: [], surrounds: [], movers: [],
   };
   if (bytes.length < 64 || magic.some((m, i) => bytes[i] !== m)) fail('is no piece of a pack');
   if (view.getUint32(8, true) !== 1) fail(`found format version ${view.getUint32(8, true)}, expected 1`);
@@ -285,7 +73,7 @@ export function readPiece(bytes: Uint8Array, name: string): Sections {
 }
 
 /** Refuses a scene whose numbers point nowhere. */
-export function checkScene(scene: Sections, textures: number, normals: number): void {
+export function checkScene(scene: Sections, textures: number, normals: number, surrounds: number): void {
   const fail = (text: string): never => { throw new PieceError(`scene: ${text}`); };
   const within = (index: number, count: number, what: string, least = -1): void => {
     if (index < least || index >= count) fail(`found ${what} ${index} of ${count}`);
@@ -307,4 +95,37 @@ export function checkScene(scene: Sections, textures: number, normals: number): 
     for (const i of r.indices) within(i, mesh.positions.length / 3, 'vertex', 0);
     for (const e of r.emitters) within(e, scene.emitters.length, 'emitter', 0);
   }
+  for (const c of scene.curved) {
+    within(c.material, scene.materials.length, 'material', 0);
+    within(c.map, surrounds, 'surround map', 0);
+    for (const i of c.indices) within(i, mesh.positions.length / 3, 'vertex', 0);
+  }
+  if (scene.groups.length > mostGroups) fail(`found ${scene.groups.length} light groups, expected at most ${mostGroups}`);
+  for (const g of scene.groups) {
+    for (const m of g.materials) within(m, scene.materials.length, 'material', 0);
+    for (const e of g.emitters) within(e, scene.emitters.length, 'emitter', 0);
+  }
+}
+
+/** Refuses light whose lamps are not those that the scene's groups name. */
+export function checkField(field: LightField, scene: Sections): void {
+  for (const g of scene.groups)
+    for (const b of g.brightLights)
+      if (b >= field.lights.length) throw new PieceError(`group '${g.name}': found bright light ${b} of ${field.lights.length}`);
+}
+
+/** Refuses a mover whose materials are not those of the scene. */
+export function checkMover(mover: Mover, scene: Sections): void {
+  for (const p of mover.mesh.parts)
+    if (p.material >= scene.materials.length) throw new PieceError(`mover '${mover.name}': found material ${p.material} of ${scene.materials.length}`);
+}
+
+/** Refuses groups' light that is of another page, or of other groups. */
+export function checkPageGroups(groups: PageGroups, scene: Sections, page: Page | undefined): void {
+  const fail = (text: string): never => { throw new PieceError(`light of groups on page ${groups.page}: ${text}`); }, n = scene.groups.length;
+  if (!page) return fail(`found no such page among ${scene.pages.length}`);
+  if (groups.width !== page.width || groups.height !== page.height || groups.detailWidth !== page.detailWidth || groups.detailHeight !== page.detailHeight)
+    fail(`found ${groups.width} x ${groups.height} texels, expected ${page.width} x ${page.height} and as many details`);
+  for (const rest of [groups.rest, groups.restOfDetail]) for (const g of rest) if (g >= n) fail(`found group ${g} of ${n}`);
+  for (const other of groups.others) if (other.group >= n) fail(`found group ${other.group} of ${n}`);
 }

@@ -5,11 +5,23 @@ import lib_fullscreen from '../../shaders/lib/fullscreen.glsl';
 import lib_kernel from '../../shaders/lib/kernel.glsl';
 import lib_lightmap_uv from '../../shaders/lib/lightmap_uv.glsl';
 import lib_lobe_light from '../../shaders/lib/lobe_light.glsl';
+import lib_lit_surface from '../../shaders/lib/lit_surface.glsl';
+import lib_mirrored from '../../shaders/lib/mirrored.glsl';
 import lib_normal_map from '../../shaders/lib/normal_map.glsl';
+import lib_octahedral from '../../shaders/lib/octahedral.glsl';
 import lib_reflectance from '../../shaders/lib/reflectance.glsl';
 import lib_shading from '../../shaders/lib/shading.glsl';
+import lib_surround from '../../shaders/lib/surround.glsl';
 import lib_taken_light from '../../shaders/lib/taken_light.glsl';
 import lib_tonemap from '../../shaders/lib/tonemap.glsl';
+import lib_transfer from '../../shaders/lib/transfer.glsl';
+import pass_mover_light_frag from '../../shaders/passes/mover_light.frag';
+import pass_mover_light_vert from '../../shaders/passes/mover_light.vert';
+import pass_curved_light_frag from '../../shaders/passes/curved_light.frag';
+import pass_curved_light_vert from '../../shaders/passes/curved_light.vert';
+import pass_curved_lobe_glsl from '../../shaders/passes/curved_lobe.glsl';
+import pass_curved_surface_frag from '../../shaders/passes/curved_surface.frag';
+import pass_curved_surface_vert from '../../shaders/passes/curved_surface.vert';
 import pass_depth_frag from '../../shaders/passes/depth.frag';
 import pass_depth_vert from '../../shaders/passes/depth.vert';
 import pass_lightmap_glsl from '../../shaders/passes/lightmap.glsl';
@@ -30,6 +42,7 @@ import pass_scene_vert from '../../shaders/passes/scene.vert';
 import pass_screen_blur_width_glsl from '../../shaders/passes/screen_blur_width.glsl';
 import pass_screen_convolve_glsl from '../../shaders/passes/screen_convolve.glsl';
 import pass_screen_convolve_frag from '../../shaders/passes/screen_convolve.frag';
+import pass_screen_curved_frag from '../../shaders/passes/screen_curved.frag';
 import pass_screen_fullscreen_vert from '../../shaders/passes/screen_fullscreen.vert';
 import pass_screen_luminance_frag from '../../shaders/passes/screen_luminance.frag';
 import pass_screen_pull_frag from '../../shaders/passes/screen_pull.frag';
@@ -46,14 +59,26 @@ const files: Record<string, string> = {
   'lib/kernel.glsl': lib_kernel,
   'lib/lightmap_uv.glsl': lib_lightmap_uv,
   'lib/lobe_light.glsl': lib_lobe_light,
+  'lib/lit_surface.glsl': lib_lit_surface,
+  'lib/mirrored.glsl': lib_mirrored,
   'lib/normal_map.glsl': lib_normal_map,
+  'lib/octahedral.glsl': lib_octahedral,
   'lib/reflectance.glsl': lib_reflectance,
   'lib/shading.glsl': lib_shading,
+  'lib/surround.glsl': lib_surround,
   'lib/taken_light.glsl': lib_taken_light,
   'lib/tonemap.glsl': lib_tonemap,
+  'lib/transfer.glsl': lib_transfer,
+  'passes/curved_light.frag': pass_curved_light_frag,
+  'passes/curved_light.vert': pass_curved_light_vert,
+  'passes/curved_lobe.glsl': pass_curved_lobe_glsl,
+  'passes/curved_surface.frag': pass_curved_surface_frag,
+  'passes/curved_surface.vert': pass_curved_surface_vert,
   'passes/depth.frag': pass_depth_frag,
   'passes/depth.vert': pass_depth_vert,
   'passes/lightmap.glsl': pass_lightmap_glsl,
+  'passes/mover_light.frag': pass_mover_light_frag,
+  'passes/mover_light.vert': pass_mover_light_vert,
   'passes/opaque.glsl': pass_opaque_glsl,
   'passes/reflector_compose.frag': pass_reflector_compose_frag,
   'passes/reflector_compose.vert': pass_reflector_compose_vert,
@@ -71,6 +96,7 @@ const files: Record<string, string> = {
   'passes/screen_blur_width.glsl': pass_screen_blur_width_glsl,
   'passes/screen_convolve.glsl': pass_screen_convolve_glsl,
   'passes/screen_convolve.frag': pass_screen_convolve_frag,
+  'passes/screen_curved.frag': pass_screen_curved_frag,
   'passes/screen_fullscreen.vert': pass_screen_fullscreen_vert,
   'passes/screen_luminance.frag': pass_screen_luminance_frag,
   'passes/screen_pull.frag': pass_screen_pull_frag,
@@ -98,10 +124,3 @@ export function assembleShader(name: string, define = ''): string {
   };
   return head + (define ? `#define ${define}\n` : '') + append(name);
 }
-
-/** Names of the programs that the viewer draws with, and what is defined in them. */
-export const programs: readonly (readonly [string, string])[] = [
-  ['depth', ''], ['depth', 'PLAIN'], ['scene', ''], ['scene', 'PLAIN'], ['scene', 'REFLECTED'], ['transparent', ''],
-  ['reflector_mask', ''], ['reflector_compose', ''], ['reflector_convolve', ''], ['reflector_emitters', ''],
-  ['screen_luminance', ''], ['screen_pull', ''], ['screen_convolve', ''], ['screen_average', ''],
-];

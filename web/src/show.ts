@@ -3,6 +3,7 @@ import { Renderer, movingFrame, wholeFrame } from './frame';
 import { pick, rayThrough } from './pick';
 import type { GpuScene } from './scene';
 import type { Input } from './input';
+import type { LightsPanel } from './lights_panel';
 import type { Panel } from './panel';
 import type { Walk } from './walk';
 
@@ -12,6 +13,7 @@ export class Show {
   private count = 0;        // samples that are shown
   private movedAt = -1e9;
   private scale = 1;
+  private hurries = false;  // whole frames take too long while something moves
   private began = false;
   private meteredAt = -1e9;
   private byHand?: number;  // stops over what the meter finds
@@ -20,10 +22,16 @@ export class Show {
   frames = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly renderer: Renderer, readonly scene: GpuScene,
-              private readonly walk: Walk, private readonly panel: Panel) {}
+              private readonly walk: Walk, private readonly panel: Panel, private readonly lights: LightsPanel) {
+    if (lights.changed) this.dim();
+  }
 
   /** Something else is to be seen. */
   changed(): void { this.count = 0; }
+
+  private dimmed = false;
+  /** Lamps are to shine as the panel says, from the next frame on. */
+  dim(): void { this.dimmed = true; }
 
   brighter(stops: number): void {
     this.byHand = (this.byHand ?? 0) - stops / 3;
@@ -37,8 +45,16 @@ export class Show {
   }
 
   frame(input: Input, dt: number, now: number): void {
-    const moved = this.walk.step(input.take(dt), dt);
+    const walked = this.walk.step(input.take(dt), dt), runs = this.walk.clock.runs && this.scene.movers.animated, moved = walked || runs;
+    if (runs) this.walk.clock.seconds += dt;
+    this.scene.movers.place(this.walk.clock.seconds);
+    this.panel.moversAre(this.scene.movers.animated, runs);
     this.panel.stick(input.stick);
+    if (this.dimmed) {
+      this.dimmed = false;
+      this.scene.setLights(this.lights.factors);
+      this.changed();
+    }
     const width = Math.max(1, Math.round(this.canvas.clientWidth * Math.min(devicePixelRatio, 2)));
     const height = Math.max(1, Math.round(this.canvas.clientHeight * Math.min(devicePixelRatio, 2)));
     if (this.canvas.width !== width || this.canvas.height !== height) {
@@ -51,6 +67,7 @@ export class Show {
       this.count = 0;
       delete document.body.dataset['rest'];
     }
+    if (!moved && now - this.movedAt > 500) this.hurries = false;
     const moving = this.began && now - this.movedAt < kRest;
     if (!moving && this.count >= kSamples) return;
     if (moving && !moved) return;
@@ -60,13 +77,14 @@ export class Show {
   }
 
   private adapt(ms: number): void {
-    if (ms > kSlow) this.scale = Math.max(this.scale * Math.max(Math.sqrt(kSlow / ms), 0.5), kLeastScale);
+    if (ms > kSlow && !this.hurries) this.hurries = true;
+    else if (ms > kSlow) this.scale = Math.max(this.scale * Math.max(Math.sqrt(kSlow / ms), 0.5), kLeastScale);
     else if (ms < kQuick) this.scale = Math.min(this.scale * 1.05, 1);
   }
 
   private draw(moving: boolean, width: number, height: number, now: number): void {
     const scale = moving ? this.scale : 1, w = Math.max(1, Math.round(width * scale)), h = Math.max(1, Math.round(height * scale));
-    this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving ? movingFrame : wholeFrame);
+    this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving && this.hurries ? movingFrame : wholeFrame);
     if (moving ? now - this.meteredAt > 200 : this.count === 0) this.meter(moving, now);
     this.renderer.show(this.scene, moving ? 0 : this.count, width, height);
     this.count = moving ? 0 : this.count + 1;

@@ -21,6 +21,7 @@ export class Walk {
   private way: Vec3[] = [];
   private tour?: number;  // seconds into the path
   place = 0;
+  readonly clock: { seconds: number; runs: boolean };  // of movers' animations
 
   constructor(scene: Sections) {
     this.floors = new Floors(scene.grids);
@@ -28,6 +29,8 @@ export class Walk {
     this.path = scene.paths.find((p) => p.keys.length > 1);
     this.cameras = scene.cameras.length > 0 ? scene.cameras : [this.somewhere(scene)];
     this.camera = { ...(this.fromHash() ?? this.cameras[0]!) };
+    const time = Number(new URLSearchParams(location.hash.slice(1)).get('time') ?? NaN), fixed = Number.isFinite(time);
+    this.clock = { seconds: fixed ? Math.max(time, 0) : 0, runs: !fixed && !matchMedia('(prefers-reduced-motion: reduce)').matches };
   }
 
   private somewhere(scene: Sections): Camera {

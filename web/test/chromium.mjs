@@ -10,15 +10,27 @@ const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/cs
 export const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 export const hasChromium = () => existsSync(chromiumPath);
 
-export async function serve(folder) {
+/** A folder, or files by name (`site.files`, which may be changed), below a path of the address. */
+export async function serve(folder, below = '/') {
+  const site = { files: typeof folder === 'string' ? undefined : folder };
+  const bytesOf = (name) => {
+    if (site.files) return site.files.get(name);
+    const file = join(folder, name);
+    return file.startsWith(folder) && existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
+  };
   const server = createServer((request, response) => {
+    if (site.down) return request.destroy();
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname)).replace(/\/$/, '/index.html');
-    const file = join(folder, path);
-    if (!file.startsWith(folder) || !existsSync(file) || !statSync(file).isFile()) return response.writeHead(404).end();
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
+    const bytes = path.startsWith(below) ? bytesOf(path.slice(below.length)) : undefined;
+    if (!bytes) return response.writeHead(404).end();
+    response.writeHead(200, { 'content-type': types[extname(path)] ?? 'application/octet-stream', 'cache-control': 'no-cache' }).end(bytes);
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
-  return { url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
+  const close = () => {
+    server.close();
+    server.closeAllConnections();
+  };
+  return Object.assign(site, { url: `http://127.0.0.1:${server.address().port}${below}`, close });
 }
 
 export class Browser {

@@ -1,4 +1,5 @@
-// Pictures of a walkthrough: node shot.mjs FOLDER OUT.png [CAMERA [WIDTH HEIGHT [ui]]]. Without ui only the view.
+// Pictures of a walkthrough: node shot.mjs FOLDER OUT.png [CAMERA or camera=NAME&light=NAME=VALUE&time=SECONDS [WIDTH HEIGHT [ui]]].
+// Without ui only the view; without a time movers stand where they begin.
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { Browser, serve } from './chromium.mjs';
@@ -7,7 +8,8 @@ const [folder, out, camera = '', width = '640', height = '360', ui = ''] = proce
 const site = await serve(resolve(folder)), browser = await Browser.start(Number(width), Number(height));
 try {
   await browser.size(Number(width), Number(height), Number(width) < 500);
-  await browser.open(`${site.url}#camera=${encodeURIComponent(camera)}`);
+  const hash = camera.includes('=') ? camera : `camera=${encodeURIComponent(camera)}`;
+  await browser.open(`${site.url}#${hash.includes('time=') ? hash : `${hash}&time=0`}`);
   await browser.rest();
   if (!ui) await browser.evaluate(`for (const e of document.querySelectorAll('main > :not(canvas)')) e.style.display = 'none'`);
   await new Promise((done) => setTimeout(done, 300));

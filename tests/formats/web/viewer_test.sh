@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The viewer in headless Chromium, on a sample scene's folder. Skipped (77) where node or Chromium are absent.
+# The viewer in headless Chromium, on a sample scene's folder and on the pack with one of everything. Skipped (77) where node or
+# Chromium are absent.
 set -euo pipefail
 bin=$1 source=$2
 if ! command -v node >/dev/null || [ ! -x "${CHROMIUM:-/usr/bin/chromium}" ]; then
@@ -8,10 +9,38 @@ if ! command -v node >/dev/null || [ ! -x "${CHROMIUM:-/usr/bin/chromium}" ]; th
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+test=$source/web/test
+
+# Of everything a little: quick to load, again and again.
+"$bin/oriel-inspect" web "$source/tests/formats/pack/golden/whole-v1.oriel" -o "$work/whole" >/dev/null 2>&1
+node "$test/robust_test.mjs" "$work/whole"
+node "$test/fuzz_pieces.mjs" "$work/whole" 3000 || [ $? = 77 ]
+
 "$bin/oriel-scenes" gallery -o "$work/a.glb" >/dev/null
-"$bin/oriel-bake" "$work/a.glb" -o "$work/a.oriel" --texel 40cm --error 20% --accept-partial >/dev/null 2>&1
-"$bin/oriel-inspect" web "$work/a.oriel" -o "$work/web" >/dev/null
-node "$source/web/test/walk_test.mjs" "$work/web" 100
+"$bin/oriel-bake" "$work/a.glb" -o "$work/a.oriel" --texel 40cm --error 20% --accept-partial --light-groups each >/dev/null 2>&1
+
+# Shown by the program's own server, which ends by SIGINT as by Ctrl-C.
+mkfifo "$work/told"
+"$bin/oriel-inspect" web "$work/a.oriel" -o "$work/web" --serve >"$work/told" 2>/dev/null &
+server=$!
+address=$(grep -om1 'http://127.0.0.1:[0-9]*/' "$work/told")
+node -e "fetch(process.argv[1]).then((r) => r.text()).then((t) => process.exit(t.includes('<canvas') ? 0 : 1))" "$address"
+kill -INT "$server"
+wait "$server"
+
+node "$test/walk_test.mjs" "$work/web" 100
+
+# Lamps as on the desktop. The limit is that of all frames with reflections; other lamps are far beyond it.
+node "$test/shot.mjs" "$work/web" "$work/dimmed.png" 'camera=entrance&light=*%3Doff&light=A luminaire 2 panel%3D0.6 2700K' 640 360
+compare() {
+  "$bin/oriel-play" "$work/a.oriel" --offscreen --size 640x360 --camera entrance "$@" -o "$work/difference.png" --compare "$work/dimmed.png"
+}
+compare --light '*=off' --light 'A luminaire 2 panel=0.6 2700K' --max-flip 0.04
+if compare --light '*=off' --light 'window sky=on' --max-flip 0.04; then
+  echo "other lamps are told from these by nothing"
+  exit 1
+fi
+
 if [ -d "$source/web/node_modules" ]; then
   node "$source/web/build.mjs" "$work/dist"
   diff -r "$source/web/dist" "$work/dist" || { echo "web/dist is not what web/ builds to: npm run build"; exit 1; }

@@ -62,15 +62,17 @@ TEST(WebFolder, NamesItsFilesByTheirHashes) {
   const testing::TemporaryFolder folder;
   const auto written = write_web_folder(folder.path() / "a" / "b", testing::tiny_pack(), {"<Our> \"house\"", {}});
   ASSERT_TRUE(written) << written.error().text();
-  std::string page, manifest;
+  std::string page, manifest, licences;
   for (const WebFile& file : written->files) {
     const auto bytes = read_file(folder.path() / "a" / "b" / file.name);
     ASSERT_TRUE(bytes) << file.name;
     EXPECT_EQ(bytes->size(), file.bytes);
     const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     if (file.name == "index.html") page = text;
+    if (file.name == "licences.txt") licences = text;
     if (file.name.ends_with(".json")) manifest = text;
   }
+  EXPECT_THAT(licences, HasSubstr("Arjun Barrett"));  // of what the script bundles
   EXPECT_THAT(page, HasSubstr("&lt;Our&gt; &quot;house&quot;"));
   EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'self'"));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
