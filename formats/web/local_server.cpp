@@ -22,11 +22,13 @@ constexpr std::size_t kMostRequest = 16384, kMostClients = 64;
 constexpr auto kPatience = std::chrono::seconds(30);  // with who neither asks nor takes
 
 std::string_view type_of(const std::filesystem::path& file) {
-  static const std::map<std::string, std::string_view, std::less<>> kTypes = {
-      {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
-      {".css", "text/css; charset=utf-8"},   {".json", "application/json"},
-      {".svg", "image/svg+xml"},             {".png", "image/png"},
-      {".txt", "text/plain; charset=utf-8"}};
+  static const std::map<std::string, std::string_view, std::less<>> kTypes = {{".html", "text/html; charset=utf-8"},
+                                                                              {".js", "text/javascript; charset=utf-8"},
+                                                                              {".css", "text/css; charset=utf-8"},
+                                                                              {".json", "application/json"},
+                                                                              {".svg", "image/svg+xml"},
+                                                                              {".png", "image/png"},
+                                                                              {".txt", "text/plain; charset=utf-8"}};
   const auto found = kTypes.find(file.extension().string());
   return found == kTypes.end() ? "application/octet-stream" : found->second;
 }

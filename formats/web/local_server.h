@@ -1,5 +1,5 @@
-// A small web server on this machine alone, for a look at a folder of static files: GET and HEAD of the files that it was
-// told of, on 127.0.0.1. Not for the world: no TLS, no compression, no ranges, one connection an answer.
+// A small web server on this machine alone, for a look at a folder of static files: GET and HEAD of the files that it
+// was told of, on 127.0.0.1. Not for the world: no TLS, no compression, no ranges, one connection an answer.
 #pragma once
 
 #include <cstdint>

@@ -78,5 +78,4 @@ for (let i = 0; i < count; ++i) {
 // The fuzzer itself: what is whole is read, and enough of the broken ones are refused.
 for (const kind of kinds) whole(kind === 'lamps' ? '' : kind, { ...readPiece(new Uint8Array(stored(folder.bytes(kind))), kind), pageGroups: [] });
 assert.ok(refused > 0.3 * count && refused < count, `${refused} of ${count} refused`);
-assert.ok(slowest < 5000, `the slowest took ${slowest} ms`);
 console.log(`${count} broken pieces: ${refused} refused with a reason, the others read; the slowest took ${slowest.toFixed(0)} ms`);
