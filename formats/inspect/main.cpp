@@ -152,8 +152,7 @@ void add_web(CLI::App& app, Arguments& a) {
             a.web.serve = static_cast<std::uint16_t>(port.empty() ? 0 : std::stoi(port));
           },
           "Then show the folder to browsers on this machine, and to nobody else, until Ctrl-C; on this port, or on a "
-          "free "
-          "one")
+          "free one")
       ->type_name("[PORT]")
       ->expected(0, 1)
       ->check(CLI::Range(0, 65535));
