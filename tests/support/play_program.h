@@ -72,12 +72,11 @@ class PlayWindow : public Play {
 
 // Opens the window, and waits until all is loaded: input of half a second may fall into one frame before that.
 inline constexpr const char* kStart = R"(
-trap 'cat shown' EXIT
-"$PLAY" tiny.oriel --size 160x90 >shown 2>&1 & pid=$!
+"$PLAY" tiny.oriel --size 160x90 & pid=$!
 window=$(timeout 30 xdotool search --sync --onlyvisible --pid $pid --name Oriel | head -1)
 [ -n "$window" ] || { echo "no window"; kill $pid; exit 99; }
 xdotool windowfocus "$window"
-for i in $(seq 100); do grep -q "all images" shown && break; sleep 0.1; done
+for i in $(seq 100); do grep -q "all images" log && break; sleep 0.1; done
 sleep 0.5
 )";
 
