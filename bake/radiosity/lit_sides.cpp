@@ -182,7 +182,7 @@ LitSides lit_sides(const Transport& t, const Onlookers& onlookers, std::span<con
 }  // namespace
 
 Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Vec3> eyes, Context& context) {
-  const Onlookers onlookers(transport.accel, eyes);
+  const Onlookers onlookers(transport, eyes);
   const Hash128 where = context.units ? hash_of(std::vector<Vec3>(eyes.begin(), eyes.end())) : Hash128();
   const Parts parts = in_patches(transport.accel.scene(), find_parts(transport.accel.scene()));
   const std::size_t points = std::clamp(kAllPoints / std::max<std::size_t>(1, parts.count()), kFewPoints, kPoints);

@@ -8,23 +8,44 @@ namespace oriel {
 namespace {
 
 constexpr int kProbes = 12, kEscapes = 2;  // rays, and those that leave a gap by chance, less than which make it one
+constexpr int kLampSamples = 4;            // of lamps, bright and near ones first
 constexpr std::size_t kNearest = 16;       // eyes that are asked
 constexpr std::uint64_t kSeed = 0x0e1e5;
 
 }  // namespace
 
-bool Onlookers::in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
-                       std::uint32_t sample, std::uint64_t& rays) const {
-  Sampler sampler(mix64(seed + kSeed), stream, sample);
+bool is_lamp(const Scene& scene, std::uint32_t triangle, bool front) {
+  const SceneMaterial& m = scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
+  return !m.unlit && max_component(m.emission) > 0 && (front || m.double_sided);
+}
+
+bool Onlookers::in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const {
+  if (is_lamp(accel_.scene(), surface.triangle, surface.front)) return false;
   const Mat3 frame = frame_from_normal(surface.geometric_normal);
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
   int escaped = 0;
   for (int probe = 0; probe < kProbes; ++probe) {
     const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
     ++rays;
-    if (!accel_.intersect({origin, direction, reach_m}) && ++escaped == kEscapes) return false;
+    const Hit hit = accel_.intersect({origin, direction, reach_m});
+    if ((!hit && ++escaped == kEscapes) || (hit && is_lamp(accel_.scene(), hit.triangle, hit.front))) return false;
   }
-  return true;
+  return !is_lit_from_near(surface, reach_m, sampler, rays);
+}
+
+// Lamps too small for the probes.
+bool Onlookers::is_lit_from_near(const SurfacePoint& surface, float reach_m, Sampler& sampler,
+                                 std::uint64_t& rays) const {
+  const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
+  for (int i = 0; i < kLampSamples; ++i) {
+    const float u = sampler.next1();
+    const LightSample s = lights_.sample(origin, u, sampler.next2());
+    if (!(max_component(s.estimate) > 0) || s.distance > reach_m) continue;
+    if (glm::dot(s.direction, surface.geometric_normal) <= 0) continue;
+    ++rays;
+    if (max_component(accel_.transmittance({origin, s.direction, s.distance})) > 0) return true;
+  }
+  return false;
 }
 
 std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal) const {
@@ -40,7 +61,9 @@ std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal) c
 
 bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
                     std::uint32_t sample, Nearest& nearest, std::uint64_t& rays) const {
-  if (eyes_.empty() || !in_gap(surface, reach_m, seed, stream, sample, rays)) return true;
+  if (eyes_.empty()) return true;
+  Sampler sampler(mix64(seed + kSeed), stream, sample);
+  if (!in_dark_gap(surface, reach_m, sampler, rays)) return true;
   return in_sight(spawn_origin(surface, surface.geometric_normal), surface.geometric_normal, nearest, rays);
 }
 

@@ -1,5 +1,6 @@
 // Whether anybody can see a point of a surface: what lies in the gap behind a panel, under a plinth or a carpet nobody
-// looks at, and its darkness must not show where the gap ends.
+// looks at, and its darkness must not show where the gap ends. A gap with a lamp in it counts as seen: its light leaves
+// it.
 #pragma once
 
 #include <optional>
@@ -10,16 +11,21 @@
 
 namespace oriel {
 
+// Whether that side of a triangle is a lamp's.
+bool is_lamp(const Scene& scene, std::uint32_t triangle, bool front);
+
 class Onlookers {
  public:
   // eyes: where people look from, scene space; none: every point counts as seen. Both must outlive it.
-  Onlookers(const Accel& accel, std::span<const Vec3> eyes) : accel_(accel), eyes_(eyes) {}
+  Onlookers(const Transport& transport, std::span<const Vec3> eyes)
+      : accel_(transport.accel), lights_(transport.lights), eyes_(eyes) {}
 
   // The nearest eyes before a texel, found when first asked for.
   using Nearest = std::optional<std::vector<Vec3>>;
 
-  // False where all but one of a dozen rays from a texel's point end within reach_m, as in a gap, and none of the
-  // nearest eyes has a line of sight to it. Most points take two rays. The same for the same seed, stream and sample.
+  // False where all but one of a dozen rays from a texel's point end within reach_m, as in a gap, no lamp is in there,
+  // and none of the nearest eyes has a line of sight to it. Most points take two rays. The same for the same seed,
+  // stream and sample.
   bool see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample,
            Nearest& nearest, std::uint64_t& rays) const;
   // Whether one of the nearest eyes has a line of sight to a point off the surface, of that normal.
@@ -27,12 +33,12 @@ class Onlookers {
   bool any() const { return !eyes_.empty(); }
 
  private:
-  bool in_gap(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
-              std::uint32_t sample, std::uint64_t& rays) const;
-
+  bool in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const;
+  bool is_lit_from_near(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const;
   std::vector<Vec3> nearest_to(const Vec3& point, const Vec3& normal) const;
 
   const Accel& accel_;
+  const LightSet& lights_;
   std::span<const Vec3> eyes_;
 };
 

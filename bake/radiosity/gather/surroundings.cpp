@@ -52,8 +52,8 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     }
     const Kind kind = kinds_[hit.triangle];
     if (kind == Kind::kMatt && !hit.front) continue;  // texels hold the light of fronts
-    const std::uint32_t texel = hit.front ? texels_.find(hit.triangle, hit.barycentric) : kNoTexel;
-    if (kind == Kind::kOther || is_near(about[i], hit.distance, texel) ||
+    const auto [texel, in_lit_gap] = hit.front ? texels_.place(hit.triangle, hit.barycentric) : Texels::Place();
+    if (kind == Kind::kOther || in_lit_gap || is_near(about[i], hit.distance, texel) ||
         (kind == Kind::kLayered && texel == kNoTexel)) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
@@ -93,8 +93,8 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
 
 std::optional<float> Surroundings::link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
                                            Answers& answers) const {
-  const std::uint32_t texel = v.front ? texels_.find(v.triangle, v.barycentric) : kNoTexel;
-  if (is_near(about, v.distance, texel)) return std::nullopt;
+  const auto [texel, in_lit_gap] = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
+  if (in_lit_gap || is_near(about, v.distance, texel)) return std::nullopt;
   if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
   return survival_of(v.triangle);
 }

@@ -37,7 +37,7 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
   const auto cut = texels_.cut.find(i);
   const bool divided = cut != texels_.cut.end();
   const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap
-  const Onlookers onlookers(t_.accel, texels_.eyes);
+  const Onlookers onlookers(t_, texels_.eyes);
   Onlookers::Nearest eyes;
   const std::uint32_t first = crowded ? 1 : 0;  // those of the first attempt are kept already
   for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {

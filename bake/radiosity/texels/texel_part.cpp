@@ -52,6 +52,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     return is_buried(transport, p, ~seeds::kWalls, map.texel[texel], k, rays);
   };
   const SurfacePoint middle = point(Vec3(0.5f));
+  look_for_lamp(*corners, middle.geometric_normal, rays);
   const Vec3 up = lift_ * middle.geometric_normal;
   if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
       !is_covered(middle, kPoints))
@@ -79,6 +80,28 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   anchors_ = std::move(best.anchors);
 }
 
+bool TexelPart::is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std::uint64_t& rays) const {
+  ++rays;
+  const Hit hit = accel_.intersect({p + 1e-3f * reach_m * up, up, reach_m});
+  return hit && is_lamp(accel_.scene(), hit.triangle, hit.front);
+}
+
+// The corners tell whether a lamp hangs over a part of the texel.
+void TexelPart::look_for_lamp(const std::array<Vec3, 4>& corners, const Vec3& up, std::uint64_t& rays) {
+  const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
+  const float reach = std::min(kGapReach_m, kGapTexels * std::sqrt(glm::length(glm::cross(u, v))));
+  const auto under = [&](const Vec3& p) { return is_under_lamp(p, up, reach, rays); };
+  const auto count = std::ranges::count_if(corners, under);
+  if (count == 0 || count == 4) return;
+  for (const IVec2& step :
+       {IVec2(1, 0), IVec2(-1, 0), IVec2(0, 1), IVec2(0, -1), IVec2(1, 1), IVec2(1, -1), IVec2(-1, 1), IVec2(-1, -1)}) {
+    const Vec3 off = static_cast<float>(step.x) * u + static_cast<float>(step.y) * v;
+    if (!std::ranges::all_of(corners, [&](const Vec3& p) { return under(p + off); })) continue;
+    gap_m_ = reach, towards_lamp_ = step;
+    return;
+  }
+}
+
 // Points that see one another, directly or by way of others (around a corner of the wall), stand on one side.
 TexelPart::Side TexelPart::take_side(std::vector<Vec3>& left, std::uint64_t& rays) const {
   Side side;
@@ -97,7 +120,10 @@ TexelPart::Side TexelPart::take_side(std::vector<Vec3>& left, std::uint64_t& ray
 
 bool TexelPart::holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const {
   if (whole()) return true;
-  const Vec3 point = lifted(point_on_side(accel_.scene(), triangle, barycentric));
+  const SurfacePoint on = point_on_side(accel_.scene(), triangle, barycentric);
+  if (gap_m_ > 0 && is_under_lamp(on.position, on.geometric_normal, gap_m_, rays)) return false;
+  if (anchors_.empty()) return true;
+  const Vec3 point = lifted(on);
   return std::any_of(anchors_.begin(), anchors_.end(), [&](const Vec3& a) { return is_free(a, point, rays); });
 }
 

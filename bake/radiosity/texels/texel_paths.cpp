@@ -9,7 +9,7 @@ void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, s
                      TexelSums& sums, std::uint64_t& rays) const {
   const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
   const bool mixed = any_buried(map, i, stream, rays);
-  const TexelPart part(t_, atlas_, map, i, Onlookers(t_.accel, eyes_), rays);
+  const TexelPart part(t_, atlas_, map, i, Onlookers(t_, eyes_), rays);
   if (part.covered()) return;
   for (std::uint32_t k = first; k < last; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away

@@ -27,7 +27,7 @@ class SiteFinder {
  public:
   SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const TexelUse& use,
              std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), onlookers_(t.accel, use.eyes), seed_(seed) {}
+      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), onlookers_(t, use.eyes), seed_(seed) {}
 
   struct Found {
     TexelPart part;  // what a wall leaves of the texel
@@ -153,20 +153,23 @@ std::uint32_t Texels::at(std::uint32_t page_number, int px, int py) const {
   return p.first + static_cast<std::uint32_t>(found - p.place.begin());
 }
 
-std::uint32_t Texels::find(std::uint32_t triangle, const Vec2& b) const {
-  const Placement& place = placement[triangle];
-  if (place.page < 0) return kNoTexel;
-  const Vec2 p = place.corner + b.x * place.edge1 + b.y * place.edge2;
+Texels::Place Texels::place(std::uint32_t triangle, const Vec2& b) const {
+  const Placement& where = placement[triangle];
+  if (where.page < 0) return {};
+  const Vec2 p = where.corner + b.x * where.edge1 + b.y * where.edge2;
   const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
-  const auto page_number = static_cast<std::uint32_t>(place.page);
+  const auto page_number = static_cast<std::uint32_t>(where.page);
   if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
     std::uint64_t rays = 0;
-    return !is_cut[texel] || cut.at(texel).holds(triangle, b, rays) ? texel : nearest_neighbour(texel, p);
+    if (!is_cut[texel]) return {texel};
+    const TexelPart& part = cut.at(texel);
+    if (part.holds(triangle, b, rays)) return {texel};
+    return {across(texel, part, p), part.has_lamp()};
   }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-    if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return texel;
-  return kNoTexel;
+    if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return {texel};
+  return {};
 }
 
 bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
@@ -178,12 +181,14 @@ bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
   return texel != kNoTexel && is_cut[texel] && !cut.at(texel).holds(triangle, b, rays);
 }
 
-// Across the border next to p, in texels of the page; the texel itself where none lies there.
-std::uint32_t Texels::nearest_neighbour(std::uint32_t texel, const Vec2& p) const {
+// Under the lamp, or across the border next to p, in texels of the page; the texel itself where none lies there.
+std::uint32_t Texels::across(std::uint32_t texel, const TexelPart& part, const Vec2& p) const {
   const Vec2 off = p - Vec2(x[texel], y[texel]) - 0.5f;
   const bool level = std::abs(off.x) > std::abs(off.y);
-  const int dx = level ? (off.x > 0 ? 1 : -1) : 0, dy = level ? 0 : (off.y > 0 ? 1 : -1);
-  const std::uint32_t beside = at(page[texel], static_cast<int>(x[texel]) + dx, static_cast<int>(y[texel]) + dy);
+  IVec2 step(level ? (off.x > 0 ? 1 : -1) : 0, level ? 0 : (off.y > 0 ? 1 : -1));
+  if (part.has_lamp()) step = part.towards_lamp();
+  const std::uint32_t beside =
+      at(page[texel], static_cast<int>(x[texel]) + step.x, static_cast<int>(y[texel]) + step.y);
   return beside != kNoTexel && chart[beside] == chart[texel] ? beside : texel;
 }
 

@@ -34,10 +34,6 @@ inline constexpr int kHalves = 2;
 inline constexpr int kSitesPerHalf = 4;
 inline constexpr int kSites = kHalves * kSitesPerHalf;
 
-// Gaps behind panels and under plinths are narrower than texels; rays in them end within so many of these, and within
-// so many metres: closets are no gaps, however large the texels of what nobody sees.
-inline constexpr float kGapTexels = 4, kGapReach_m = 0.2f;
-
 struct Texels {
   // By texel.
   std::vector<std::uint32_t> page, index;           // into the texel map: page, and TexelMapPage::texel[index]
@@ -81,9 +77,18 @@ struct Texels {
   std::unordered_map<std::uint32_t, TexelPart> cut;  // texels on which a wall stands
   std::vector<char> is_cut;                          // whether it is in `cut`
 
-  // The texel under a point of a triangle, or the one beside it where a wall parts it from the point; kNoTexel where it
-  // takes no lightmap.
-  std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const;
+  // The texel under a point of a triangle, or the one beside it where a wall or a lamp parts it from the point;
+  // kNoTexel where it takes no lightmap.
+  std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const {
+    return place(triangle, barycentric).texel;
+  }
+  // in_lit_gap: the point lies under a lamp, its texel is beside it. From afar nothing but the gap's rim is seen, where
+  // its light ends within centimetres: no texel tells of it.
+  struct Place {
+    std::uint32_t texel = kNoTexel;
+    bool in_lit_gap = false;
+  };
+  Place place(std::uint32_t triangle, const Vec2& barycentric) const;
   // Whether a wall parts that point from the texel on which it lies.
   bool parts(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel at a place of a page; kNoTexel where none is.
@@ -103,7 +108,7 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
-  std::uint32_t nearest_neighbour(std::uint32_t texel, const Vec2& p) const;
+  std::uint32_t across(std::uint32_t texel, const TexelPart& part, const Vec2& p) const;
 };
 
 struct TexelUse {

@@ -197,6 +197,31 @@ TEST(Cached, TellsTheLightOfAGapNarrowerThanATexel) {
   EXPECT_LT(std::sqrt(squares / dark), 0.1) << "looked up in texels it is 0.96";
 }
 
+// Exporters write panels that shine to both sides. What one sends into the gap of 2 cm above it comes out again by the
+// rim, though nobody looks in there.
+TEST(Cached, HasTheLightThatALampSendsIntoTheGapAboveIt) {
+  SceneParts parts;
+  parts.box("room", parts.diffuse(Vec3(0.7f)), Vec3(0), {2, 2, 2}, true);
+  const auto panel = parts.diffuse(Vec3(0.7f), Vec3(10));
+  parts.scene().materials[panel].double_sided = true;
+  parts.quad("panel", panel, {0.73f, 1.98f, 0.75f}, {0.5f, 0, 0}, {0, 0, 0.5f});
+  const Scene scene = parts.finish();
+  RadiosityOptions o = to_error(0.02);
+  for (int i = 0; i < 9; ++i)
+    o.eyes.emplace_back(0.5f + 0.5f * static_cast<float>(i % 3), 1.5f, 0.5f + 0.5f * static_cast<float>(i / 3));
+  const auto floor_lux = [](const Baked& b) {
+    double light = 0, area = 0;
+    b.each_texel([&](const LightmapPage& page, std::uint32_t t, std::uint32_t triangle) {
+      if (b.scene.positions[b.scene.triangles[triangle].x].y > 0 || geometric_normal(b.scene, triangle).y < 0.5f)
+        return;
+      light += page.irradiance[t].g, ++area;
+    });
+    return light / area;
+  };
+  const double truth = floor_lux(bake(scene, 0.5f, {.samples = 4096}));
+  EXPECT_NEAR(floor_lux(bake(scene, 0.08f, o)), truth, 0.015 * truth) << "without that light it is a tenth less";
+}
+
 // A closed shaft stands on a lit floor, all of it on one texel, most of which lies outside. The shaft is as black as a
 // closed room, though rays in it meet that texel, and from far.
 TEST(Cached, NoLightComesThroughTexelsThatReachUnderAWall) {
