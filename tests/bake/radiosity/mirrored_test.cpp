@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, testing::Bool());
 // By paths and by the cached estimator alike.
 TEST(Mirrored, BothEstimatorsFindTheSame) {
   RadiosityOptions cached, reference;
-  cached.samples = 128;
+  cached.samples = 128, cached.estimator = Estimator::kCached;
   reference.samples = 256, reference.estimator = Estimator::kReference;
   double sums[2] = {};
   for (int k = 0; k < 2; ++k) {
