@@ -73,7 +73,7 @@ SampleScene make_glass() {
   place(scene, std::move(block), {0.85f, 1e-3f, 1.1f}, 0.35f);
   SampleMesh ball{"ball", glass(scene, "clear glass", 0.7f, Vec3(1)), {}, {}, {}, {}};
   add_sphere(ball, Vec3(0), 0.35f, 96, 48);
-  place(scene, std::move(ball), {1.65f, 0.351f, 1.9f});
+  place(scene, std::move(ball), {1.45f, 0.351f, 1.15f});
   SampleMesh screen{"screen", glass(scene, "frosted glass", 0.04f, {0.8f, 0.9f, 1}, 0.3f), {}, {}, {}, {}};
   add_box(screen, {1.75f, 1e-3f, 0.9f}, {2.65f, 1.6f, 0.94f});
   place(scene, std::move(screen));
