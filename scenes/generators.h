@@ -27,6 +27,9 @@ SampleScene make_colonnade();
 // A closed room with curved metal: a mirror ball and a brushed one, both on the floor, and a standing lamp.
 SampleScene make_studio();
 
+// A closed room of 3 m with bodies of glass before coloured posts: a green block, a clear ball, a frosted screen.
+SampleScene make_glass();
+
 // A furnished room, 6 m a side and 2.7 m high, diffuse, twelve thousand triangles. Closed, it has a ceiling panel
 // and no camera; a room in a landscape has a window instead, and a camera.
 struct RoomOptions {

@@ -34,6 +34,7 @@ oriel::Result<oriel::sample::SampleScene> make_scene(const Arguments& arguments)
   if (arguments.scene == "colonnade") return oriel::sample::make_colonnade();
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
+  if (arguments.scene == "glass") return oriel::sample::make_glass();
   if (arguments.scene == "panels") return oriel::sample::make_panels();
   if (arguments.scene == "room") return oriel::sample::make_room();
   if (arguments.scene == "dome")
@@ -126,10 +127,10 @@ int main(int argc, char** argv) {
   Arguments arguments;
   app.add_option("scene", arguments.scene,
                  "Which scene: a hall of 200 columns, the Cornell box, a room in a landscape under a sky dome, a "
-                 "museum of three rooms, a "
+                 "museum of three rooms, a room with glass bodies, a "
                  "two-storey house, a wall of panels and other things that stand little proud, a closed room without "
                  "a camera, a room with curved metal")
-      ->check(CLI::IsMember({"colonnade", "cornell", "dome", "gallery", "house", "panels", "room", "studio"}));
+      ->check(CLI::IsMember({"colonnade", "cornell", "dome", "gallery", "glass", "house", "panels", "room", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
   app.add_option("--unit", arguments.unit, "Of the file's numbers, which glTF says are metres: m, cm, mm, km")
       ->check(CLI::IsMember(kUnits_per_m))

@@ -7,6 +7,7 @@
 #include "bake/import/lighting.h"
 #include "bake/import/movers.h"
 #include "bake/import/repair.h"
+#include "bake/import/solids.h"
 #include "bake/import/viewpoints.h"
 #include "bake/import/warning_group.h"
 #include "bake/jobs/parallel.h"
@@ -43,6 +44,8 @@ std::uint32_t scale_document(double unit_m, const std::vector<std::uint32_t>& ro
   for (Light& light : document.lights)
     if (light.type != LightType::kDirectional)
       light.intensity *= static_cast<float>(unit_m * unit_m), light.color *= static_cast<float>(unit_m * unit_m);
+  for (SceneMaterial& material : document.materials)
+    material.absorption /= static_cast<float>(unit_m), material.thickness_m *= static_cast<float>(unit_m);
   for (gltf::CameraDesc& camera : document.cameras) camera.half_height *= unit_m;
   return unit;
 }
@@ -204,6 +207,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY_VOID(place_meshes(document, meshes, poses, movers.of_node, accessors, budget, out.scene, context));
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
+  find_solids(out.scene, context);
   std::vector<std::uint32_t> moving = movers.nodes;
   for (const NodePose& pose : poses)
     if (document.nodes[pose.node].camera >= 0) moving.push_back(pose.node);

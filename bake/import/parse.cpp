@@ -13,7 +13,7 @@ const std::set<std::string>& known_extensions() {
       "EXT_mesh_gpu_instancing",    "KHR_texture_transform",           "KHR_lights_punctual",
       "KHR_materials_ior",          "KHR_materials_specular",          "KHR_materials_unlit",
       "KHR_materials_transmission", "KHR_materials_emissive_strength", "KHR_materials_clearcoat",
-      "KHR_materials_anisotropy"};
+      "KHR_materials_volume",       "KHR_materials_anisotropy"};
   return names;
 }
 

@@ -1,13 +1,15 @@
 // Materials, textures and samplers.
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "bake/import/document.h"
 
 namespace oriel::gltf {
 namespace {
 
-constexpr double kMaxScale = 1e6;  // of normal maps: beyond it every texel that is not flat lies in the surface
+constexpr double kMaxScale = 1e6;   // of normal maps: beyond it every texel that is not flat lies in the surface
+constexpr double kDarkest = 1e-20;  // of attenuation colours, for a finite absorption
 
 struct SamplerDesc {
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
@@ -201,6 +203,33 @@ class MaterialParser {
     const Json transmission = value.extension("KHR_materials_transmission");
     m.transmission = unit(transmission["transmissionFactor"], transmission["transmissionFactor"].number(0));
     m.transmission_texture = slot(transmission["transmissionTexture"]);
+    parse_volume(value, m);
+  }
+
+  // Whether its surfaces are closed is found once they are placed (solids.h). The thickness itself is for those who
+  // cannot follow light through the mesh.
+  void parse_volume(const Json& value, SceneMaterial& m) {
+    const Json volume = value.extension("KHR_materials_volume");
+    const double thickness = volume["thicknessFactor"].number(0, 0);
+    slot(volume["thicknessTexture"]);
+    const Json distance = volume["attenuationDistance"];
+    double metres = distance.number(std::numeric_limits<double>::infinity());
+    if (distance.present() && !(metres > 0)) {
+      warn(distance, fmt::format("found {}, expected a distance above 0: the glass absorbs nothing", metres));
+      metres = std::numeric_limits<double>::infinity();
+    }
+    std::array<double, 3> color{1, 1, 1};
+    volume["attenuationColor"].numbers(color);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double left = std::max<double>(unit(volume["attenuationColor"], color[c]), kDarkest);
+      m.absorption[static_cast<int>(c)] = static_cast<float>(std::min(-std::log(left) / metres, 1e30));
+    }
+    m.thickness_m = static_cast<float>(std::min(thickness, 1e30));
+    m.solid = m.thickness_m > 0 && m.transmission > 0;
+    if (m.solid && m.ior == 0) {
+      warn(value.extension("KHR_materials_ior"), "found 0, which reflects all light: the solid lets none through");
+      m.solid = false;
+    }
   }
 
   void parse_coat(const Json& value, SceneMaterial& m) {

@@ -6,6 +6,7 @@
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/reproject.h"
+#include "bake/radiance/sun_emitter.h"
 #include "bake/trace/polygon_light.h"
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
@@ -266,7 +267,9 @@ Status bake_visibility(const Accel& accel, const FoundReflector& found,
 Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
                           Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
                           std::vector<std::string>& omitted) {
-  const std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
+  std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
+  for (const Light& light : accel.scene().lights)
+    if (auto sun = sun_polygon(accel.scene(), light)) lights.push_back(std::move(*sun));
   std::map<std::size_t, std::uint32_t> first_emitter;  // of a light that is listed
   for (FoundReflector& found : reflectors) {
     Reflector& r = found.reflector;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bake/trace/glass.h"
 #include "bake/trace/shading.h"
 #include "formats/core/color.h"
 
@@ -37,6 +38,7 @@ class ParticleTracer {
       const Hit hit = t_.accel.intersect(ray_);
       if (!hit) break;
       const SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
+      absorb(hit);
       tell_texel(surface);
       if (passes_ == kMaxPasses) return lose(fate_.lost_guard);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
@@ -57,6 +59,13 @@ class ParticleTracer {
   }
 
  private:
+  // What the glass takes that the particle came through.
+  void absorb(const Hit& hit) {
+    const double came = lumens(power_);
+    power_ *= medium_.passed(t_.accel.scene(), hit);
+    fate_.absorbed += came - lumens(power_);
+  }
+
   const Fate& lose(double& sink) {
     sink += lumens(power_);
     return fate_;
@@ -87,13 +96,21 @@ class ParticleTracer {
     if (sample->lobe == Lobe::kTransmission) {
       power_ *= sample->weight;
       ++passes_;
+    } else if (sample->lobe == Lobe::kRefraction) {
+      power_ *= sample->weight / sample->squeeze;
+      ray_.direction = shading.world(*sample);
+      ++bounces_;
+      passes_ = 0;
     } else {
       const Vec3 wo = shading.above(sample->wi);
-      power_ *= weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
+      // Facets within glass turn light and lose none.
+      const float turned = surface.shade.inside ? 1 : glm::dot(surface.geometric_normal, wo) / cos_i;
+      power_ *= weight(hit, *sample, shading, wi, wo) * turned;
       ray_.direction = wo;
       ++bounces_;
       passes_ = 0;
     }
+    medium_.leave(surface.shade, sample->lobe == Lobe::kRefraction);
     ray_.origin = spawn_origin(surface, ray_.direction);
     if (!is_usable(power_)) {
       t_.accel.dropped().add(surface.triangle);
@@ -124,6 +141,7 @@ class ParticleTracer {
   Ray ray_;
   Vec3 power_;
   float full_;
+  Medium medium_;
   int bounces_ = 0, passes_ = 0;
   Fate fate_;
 };

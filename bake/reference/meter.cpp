@@ -84,7 +84,8 @@ void Meter::sample_polygons(const Place& place, std::uint32_t r, std::uint64_t s
     rays += touching ? 0 : 1;
     tally.passed +=
         double{weight} *
-        (touching ? DVec3(1) : DVec3(t_.accel.transmittance({place.receiver.position, s->direction, s->distance})));
+        (touching ? DVec3(1)
+                  : DVec3(t_.accel.transmittance({place.receiver.position, s->direction, s->distance, false})));
   }
 }
 
@@ -124,7 +125,7 @@ Vec3 Meter::sample_sky(const Place& place, std::uint64_t stream, std::uint32_t k
   if (!(max_component(value) > 0)) return Vec3(0);
   ++rays;
   return value * (s.pdf / (s.pdf + cosine / kPi)) *
-         t_.accel.transmittance({place.receiver.position, s.direction, s.distance});
+         t_.accel.transmittance({place.receiver.position, s.direction, s.distance, false});
 }
 
 // All but the polygons' direct light.

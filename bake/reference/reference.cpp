@@ -1,6 +1,7 @@
 #include "bake/reference/reference.h"
 
 #include "bake/jobs/parallel.h"
+#include "bake/reference/glints.h"
 #include "bake/trace/albedo.h"
 #include "formats/metrics/relative_error.h"
 #include "formats/query/camera.h"
@@ -24,14 +25,25 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   const auto begin = [&](const char* what) {
     if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
   };
+  if (surface.shade.inside) {  // the eye is in glass
+    begin("radiance within glass, cd/m2");
+    const PathLight within = trace_path(t, ray, 0, sampler, rays);
+    light.emission = within.emitted + within.sky + within.scattered;
+    return light;
+  }
   const float coverage = surface.shade.coverage;
   const float cos_o = glm::dot(surface.normal, -ray.direction);
-  const Vec3 through = straight_transmittance(surface.shade, cos_o);
+  const bool solid = surface.shade.eta > 0;
+  const Vec3 through = solid ? Vec3(1 - coverage) : straight_transmittance(surface.shade, cos_o);
   if (max_component(through) > 0) {
     const Ray rest{spawn_origin(t.accel.scene(), hit.triangle, hit.barycentric, ray.direction), ray.direction};
     begin("radiance behind, cd/m2");
     const PathLight behind = trace_path(t, rest, 0, sampler, rays);
     light.emission += through * (behind.emitted + behind.sky + behind.scattered);
+  }
+  if (solid) {
+    begin("radiance refracted, cd/m2");
+    light.emission += coverage * refracted_light(t, surface, -ray.direction, sampler, rays);
   }
   if (surface.emits) light.emission += coverage * surface.shade.emission;
   if (!surface.reflects) return light;
@@ -138,7 +150,9 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
     ORIEL_TRY_VOID(round(done, next));
     done = next;
     ReferenceFrame frame = frame_of(sums, options, done);
-    if (done == most || frame.relative_noise <= options.error) return frame;
+    if (done < most && frame.relative_noise > options.error) continue;
+    add_glints(transport, camera, options, context.seed, frame);
+    return frame;
   }
 }
 

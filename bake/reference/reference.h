@@ -20,7 +20,7 @@ struct ReferenceFrame {
   FloatImage total;
   FloatImage direct;          // reflected by the diffuse lobe of the first surface, straight from emitters
   FloatImage indirect;        // and after bounces
-  FloatImage specular;        // S: reflected by its specular lobe
+  FloatImage specular;        // S: reflected by its specular lobe; glints of lamps and the sun in flat mirrors too
   FloatImage emission;        // of the first surface or the sky, and what shows through transmission and cut-outs
   FloatImage noise;           // standard error of total,
   FloatImage diffuse_noise;   // of D = direct + indirect

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/radiance/sun_emitter.h"
 #include "bake/scene/shade.h"
 #include "bake/scene/sky.h"
 #include "bake/trace/punctual.h"
@@ -68,7 +69,9 @@ std::uint32_t group_of_corners(const Scene& scene, std::span<const Vec3> corners
       same += std::ranges::find(corners, scene.positions[scene.triangles[t][k]]) != corners.end() ? 1 : 0;
     if (same > most) most = same, group = surface.light_group;
   }
-  return group;
+  if (group != kNone) return group;
+  const std::uint32_t sun = sun_of_corners(scene, {corners.begin(), corners.end()});
+  return sun == ~0u ? kNone : scene.lights[sun].light_group;
 }
 
 std::uint32_t group_of(const Scene& scene, const BrightLight& light) {

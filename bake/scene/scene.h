@@ -44,7 +44,10 @@ struct SceneMaterial {
   Vec3 specular_color{1};
   TextureSlot specular_texture;        // A: multiplies specular
   TextureSlot specular_color_texture;  // multiplies specular_color
-  float transmission = 0;              // KHR_materials_transmission, treated as thin
+  float transmission = 0;              // KHR_materials_transmission; thin unless solid
+  bool solid = false;                  // KHR_materials_volume: closed surfaces around glass of index ior
+  Vec3 absorption{0};                  // in it, 1/m: what is left after d is exp(-absorption d)
+  float thickness_m = 0;               // for who cannot follow light through the mesh
   TextureSlot transmission_texture;    // R: multiplies transmission
   TextureSlot normal_texture;          // RGB: 2 v - 1 in the tangent frame
   float normal_scale = 1;              // of its x and y

@@ -65,6 +65,7 @@ void make_metal(ShadePoint& p, Metal metal) {
   p.f90 = 1;
   p.curve = {.metal = metal};
   p.diffuse = p.transmission = Vec3(0);
+  p.eta = 0;
 }
 
 void add_coat(const Scene& scene, const SceneMaterial& m, std::uint32_t triangle, const Vec2& b, const Footprint& f,
@@ -118,12 +119,20 @@ ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b
   p.alpha = roughness * roughness;
   p.diffuse = (1 - metallic) * (1 - transmission) * p.base_color;
   p.transmission = (1 - metallic) * transmission * p.base_color;
+  if (m.solid && max_component(p.transmission) > 0) p.eta = m.ior, p.absorption = m.absorption;
   if (m.metal != Metal::kNone) make_metal(p, m.metal);
   add_coat(scene, m, triangle, b, f, p);
   add_anisotropy(scene, m, triangle, b, f, p);
   p.emission = m.emission;
   if (max_component(m.emission) > 0) p.emission *= Vec3(texture_at(scene, m.emission_texture, triangle, b, true, f));
   return p;
+}
+
+void turn_inside(ShadePoint& point) {
+  if (point.inside || !(point.eta > 0)) return;
+  point.eta = 1 / point.eta;
+  point.inside = true;
+  point.diffuse = point.emission = Vec3(0);
 }
 
 Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal,

@@ -20,7 +20,10 @@ struct ShadePoint {
   float anisotropy = 0;            // strength, [0,1]: the lobe is mix(alpha, 1, strength²) wide along wide_direction
   Vec2 wide_direction{1, 0};       // unit, in the tangent frame (tangent_at)
   float coat = 0, coat_alpha = 0;  // a clear coat over all the above: its share of the surface, its GGX width
-  Vec3 transmission{0};            // colour of thin, straight transmission; times what the specular lobe leaves
+  Vec3 transmission{0};            // colour of transmission; times what the specular lobe leaves
+  float eta = 0;                   // of solid glass: index beyond the surface over that before it; 0: thin and straight
+  bool inside = false;             // it is met from within the glass
+  Vec3 absorption{0};              // in the glass, 1/m
   Vec3 emission{0};                // cd/m², front side only unless double-sided
   float coverage = 1;              // alpha test or blend: 0 lets light pass as if nothing were there
 };
@@ -28,6 +31,9 @@ struct ShadePoint {
 // barycentric: weights of the triangle's second and third vertex. Textures are their means over the footprint.
 ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric,
                        const Footprint& footprint = {});
+
+// The same point of solid glass as it is met from within: only what reflects and refracts is left.
+void turn_inside(ShadePoint& point);
 
 // The unit normal on the front side that the material's normal map makes of `normal` (unit, front side); the same where
 // it has none. docs/conventions.md, "Normal maps".

@@ -6,17 +6,19 @@
 #include <array>
 
 #include "bake/scene/shade.h"
-#include "bake/trace/albedo.h"
+#include "bake/trace/glass.h"
 
 namespace oriel {
 namespace {
 
 constexpr unsigned kOpaqueMask = 1;
 constexpr unsigned kTransmittingMask = 2;
+constexpr unsigned kSolidMask = 4;  // solid glass
+constexpr unsigned kAnyMask = kOpaqueMask | kTransmittingMask | kSolidMask;
 constexpr int kPacket = 16;      // rays that Embree traces together
 constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ray: beyond it, it is taken as blocked
 
-// Triangles of one kind (opaque, or letting some light through) as one Embree geometry.
+// Triangles of one kind (opaque, letting some light through, solid glass) as one Embree geometry.
 struct Group {
   std::vector<UVec3> indices;           // empty: the scene's own, all of them
   std::vector<std::uint32_t> triangle;  // primitive → Scene triangle; empty: the same number
@@ -35,8 +37,8 @@ struct Accel::Impl {
   const Scene* scene = nullptr;
   float scale = 1;  // Embree's units per metre: a power of two, so that scaling is exact
   std::vector<Vec3> positions;
-  Group groups[2];
-  bool any_transmitting = false;
+  Group groups[3];
+  bool any_transmitting = false;  // solid glass too
   RTCDevice device = nullptr;
   RTCScene rtc_scene = nullptr;
 
@@ -64,13 +66,16 @@ struct Accel::Impl {
   bool is_second_twin(std::uint32_t t) const { return !scene->twin.empty() && scene->twin[t] < t; }
 
   void split_groups() {
-    std::vector<char> transmits(scene->materials.size());
-    for (std::size_t m = 0; m < transmits.size(); ++m)
-      any_transmitting |= transmits[m] = may_transmit(scene->materials[m]);
+    std::vector<std::uint8_t> kind(scene->materials.size());
+    for (std::size_t m = 0; m < kind.size(); ++m) {
+      const SceneMaterial& material = scene->materials[m];
+      any_transmitting |= kind[m] = may_transmit(material);
+      if (kind[m] && material.solid) kind[m] = 2;
+    }
     if (!any_transmitting && scene->twin.empty()) return;
     for (std::uint32_t t = 0; t < scene->triangles.size(); ++t) {
       if (is_second_twin(t)) continue;
-      Group& group = groups[transmits[scene->surfaces[scene->triangle_surface[t]].material] ? 1 : 0];
+      Group& group = groups[kind[scene->surfaces[scene->triangle_surface[t]].material]];
       group.indices.push_back(scene->triangles[t]);
       group.triangle.push_back(t);
     }
@@ -125,7 +130,7 @@ struct Accel::Impl {
     alignas(64) RTCRayHit16 query;
     for (int i = 0; i < kPacket; ++i) {
       active[i] = i < count ? -1 : 0;
-      load(query.ray, i, rays[std::min(i, count - 1)], kOpaqueMask | kTransmittingMask);
+      load(query.ray, i, rays[std::min(i, count - 1)], kAnyMask);
       query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     RTCIntersectContext context;
@@ -139,13 +144,17 @@ struct Accel::Impl {
                              {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}, rays[i].direction);
   }
 
+  // What stands in a shadow ray's way.
+  static unsigned blocking(const Ray& ray) { return ray.past_solids ? kOpaqueMask : kOpaqueMask | kSolidMask; }
+
   // Sets bit i where an opaque surface is in the way of ray i.
   unsigned occluded_packet(const Ray* rays, int count) const {
     alignas(64) std::array<int, kPacket> active;
     alignas(64) RTCRay16 query;
     for (int i = 0; i < kPacket; ++i) {
       active[i] = i < count ? -1 : 0;
-      load(query, i, rays[std::min(i, count - 1)], kOpaqueMask);
+      const Ray& ray = rays[std::min(i, count - 1)];
+      load(query, i, ray, blocking(ray));
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -172,7 +181,7 @@ struct Accel::Impl {
              ray.direction.z,
              0,
              ray.max_distance * scale,
-             kOpaqueMask,
+             blocking(ray),
              0,
              0};
     RTCIntersectContext context;
@@ -209,7 +218,8 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   rtcSetSceneBuildQuality(impl->rtc_scene, RTC_BUILD_QUALITY_MEDIUM);
   impl->split_groups();
   if (!impl->any_transmitting || !impl->groups[0].indices.empty()) impl->add_group(0, kOpaqueMask);
-  if (impl->any_transmitting && !impl->groups[1].indices.empty()) impl->add_group(1, kTransmittingMask);
+  if (!impl->groups[1].indices.empty()) impl->add_group(1, kTransmittingMask);
+  if (!impl->groups[2].indices.empty()) impl->add_group(2, kSolidMask);
   rtcCommitScene(impl->rtc_scene);
   if (const RTCError error = rtcGetDeviceError(impl->device); error != RTC_ERROR_NONE)
     return fail(ErrorCode::kRuntime, "Embree", "building the ray accelerator of {} triangles failed: {}",
@@ -219,7 +229,7 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
 }
 
 Hit Accel::intersect(const Ray& ray) const {
-  return impl_->intersect(ray, kOpaqueMask | kTransmittingMask);
+  return impl_->intersect(ray, kAnyMask);
 }
 
 Vec3 Accel::transmittance(const Ray& ray) const {
@@ -234,16 +244,18 @@ Vec3 Accel::transmittance_of_all(std::span<const Ray> legs, std::uint64_t& rays)
 }
 
 Vec3 Accel::Impl::through_layers(Ray ray) const {
+  const unsigned mask = ray.past_solids ? kTransmittingMask | kSolidMask : kTransmittingMask;
+  StraightGlass glass;
   Vec3 passed(1);
   for (int layer = 0; layer < kMaxLayers; ++layer) {
-    const Hit hit = intersect(ray, kTransmittingMask);
-    if (!hit) return passed;
-    const float cosine = glm::dot(geometric_normal(*scene, hit.triangle), ray.direction);
-    passed *= straight_transmittance(shade_point(*scene, hit.triangle, hit.barycentric), std::abs(cosine));
+    const Hit hit = intersect(ray, mask);
+    if (!hit) return passed * glass.end(ray.max_distance);
+    passed *= glass.meet(shade_point(*scene, hit.triangle, hit.barycentric), hit.front,
+                         geometric_normal(*scene, hit.triangle), ray.direction, hit.distance);
     if (max_component(passed) <= 0) return Vec3(0);
     ray.origin = spawn_origin(*scene, hit.triangle, hit.barycentric, ray.direction);
     ray.max_distance -= hit.distance;
-    if (!(ray.max_distance > 0)) return passed;
+    if (!(ray.max_distance > 0)) return passed * glass.end(0);
   }
   return Vec3(0);
 }

@@ -15,6 +15,9 @@ struct Ray {
   Vec3 origin{0};
   Vec3 direction{0, 0, 1};
   float max_distance = 3.0e38f;
+  // Of shadow rays: solid glass lets light through unbent, as of lights that no path meets. False: it stands in the
+  // way, and paths find what it bends.
+  bool past_solids = true;
 };
 
 struct Hit {
@@ -47,7 +50,7 @@ class Accel {
   // The nearest surface, whatever its material.
   Hit intersect(const Ray& ray) const;
   // Share of light, per channel, that passes along the ray: 0 where an opaque surface is in the way, else the product
-  // of what alpha-masked and transmissive surfaces let through.
+  // of what alpha-masked and transmissive surfaces and solid glass let through.
   Vec3 transmittance(const Ray& ray) const;
 
   // The product for rays that light must pass one after the other; `rays` counts those that were traced.

@@ -24,13 +24,13 @@ inline SpecularLayers specular_layers(const ShadePoint& point) {
   return {specular_lobe(point), point.coat, point.coat_alpha};
 }
 
-// R of the coat alone times its share, [0,1].
+// R of the coat alone times its share, [0,1]; 0 from within solid glass.
 float coat_reflectance(const ShadePoint& point, float cos_theta);
-// R of all specular layers per channel, [0,1].
+// R of all specular layers per channel, [0,1]; 1 beyond the critical angle from within solid glass.
 Vec3 reflectance(const ShadePoint& point, float cos_theta);
 
 // Share of light that passes straight through a surface at that incidence: what coverage leaves open, and thin
-// transmission after Fresnel.
+// transmission after Fresnel. Of solid glass one of its surfaces, as if light went on unbent.
 Vec3 straight_transmittance(const ShadePoint& point, float cos_theta);
 
 }  // namespace oriel

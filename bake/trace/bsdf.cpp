@@ -1,5 +1,6 @@
 #include "bake/trace/bsdf.h"
 
+#include "bake/trace/glass.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
@@ -71,8 +72,43 @@ Bsdf::LobeChoice Bsdf::choose_lobes(const ShadePoint& point, float cos_o) {
   return c;
 }
 
+DVec3 Bsdf::facet(const Vec2& v) const {
+  if (point_.alpha < kMirrorAlpha) return {0, 0, 1};
+  const Microfacet facets(FacetModel::kGgx, wide_alpha(point_), point_.alpha);
+  return facets.sample_visible_normal(glm::normalize(DVec3(wo_)), DVec2(v));
+}
+
+// What a facet turns the wrong way is mirrored to the right side, so that all of it comes through.
+std::optional<BsdfSample> Bsdf::refract_at(const DVec3& h, const Vec3& weight) const {
+  const auto wi = refract_about(DVec3(wo_), h, point_.eta);
+  if (!wi || !(wi->z != 0)) return std::nullopt;
+  const float squeeze = 1 / (point_.eta * point_.eta);
+  BsdfSample s = delta_sample(Lobe::kRefraction, Vec3(wi->x, wi->y, -std::abs(wi->z)), weight * squeeze);
+  s.squeeze = squeeze;
+  return s;
+}
+
+std::optional<BsdfSample> Bsdf::refracted(const Vec2& v) const {
+  if (wo_.z <= 0 || point_.inside || !(point_.eta > 0)) return std::nullopt;
+  return refract_at(facet(v), point_.transmission * lobes_.diffuse_scale);
+}
+
+// From within: one facet reflects or refracts all of its light, what its tint takes excepted. No lobe is left to light
+// sampling, since no shadow ray is bent.
+std::optional<BsdfSample> Bsdf::sample_inside(float u, const Vec2& v) const {
+  const DVec3 h = facet(v);
+  const auto cosine = static_cast<float>(glm::dot(DVec3(wo_), h));
+  const auto outside = refracted_cosine(point_.eta, cosine);
+  const Vec3 mirrored = outside ? specular_fresnel(specular_lobe(point_), *outside) : Vec3(1);
+  const float all = max_component(mirrored);
+  if (u >= all) return refract_at(h, point_.transmission);
+  const Vec3 wi(reflect_at(DVec3(wo_), h));
+  if (wi.z == 0) return std::nullopt;
+  return delta_sample(Lobe::kSpecular, Vec3(wi.x, wi.y, std::abs(wi.z)), mirrored / all);
+}
+
 Vec3 Bsdf::eval(const Vec3& wi) const {
-  if (wo_.z <= 0 || wi.z <= 0) return Vec3(0);
+  if (wo_.z <= 0 || wi.z <= 0 || point_.inside) return Vec3(0);
   Vec3 f = point_.diffuse * (lobes_.diffuse_scale / kPi * wi.z);
   if (lobes_.specular > 0) f += lobes_.under_coat * base_lobe(point_).eval(wo_, wi);
   if (lobes_.coat > 0) f += point_.coat * coat_lobe(point_).eval(wo_, wi);
@@ -80,7 +116,7 @@ Vec3 Bsdf::eval(const Vec3& wi) const {
 }
 
 float Bsdf::pdf(const Vec3& wi) const {
-  if (wo_.z <= 0 || wi.z <= 0) return 0;
+  if (wo_.z <= 0 || wi.z <= 0 || point_.inside) return 0;
   float pdf = lobes_.diffuse * cosine_hemisphere_pdf(wi.z);
   if (lobes_.specular > 0) pdf += lobes_.specular * base_lobe(point_).pdf(wo_, wi);
   if (lobes_.coat > 0) pdf += lobes_.coat * coat_lobe(point_).pdf(wo_, wi);
@@ -89,6 +125,7 @@ float Bsdf::pdf(const Vec3& wi) const {
 
 std::optional<BsdfSample> Bsdf::sample(float u, const Vec2& v) const {
   if (wo_.z <= 0) return std::nullopt;
+  if (point_.inside) return sample_inside(u, v);
   BsdfSample s;
   if (u < lobes_.diffuse) {
     s.wi = square_to_cosine_hemisphere(v);
@@ -100,6 +137,8 @@ std::optional<BsdfSample> Bsdf::sample(float u, const Vec2& v) const {
       return delta_sample(Lobe::kSpecular, Vec3(-wo_.x, -wo_.y, wo_.z), lobe.mirror_weight(wo_.z) * (share / chance));
     s.lobe = Lobe::kSpecular;
     s.wi = lobe.sample(wo_, v);
+  } else if (lobes_.transmission > 0 && point_.eta > 0) {
+    return refract_at(facet(v), point_.transmission * (lobes_.diffuse_scale / lobes_.transmission));
   } else if (lobes_.transmission > 0) {
     return delta_sample(Lobe::kTransmission, -wo_, point_.transmission * (lobes_.diffuse_scale / lobes_.transmission));
   } else {

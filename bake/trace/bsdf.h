@@ -1,6 +1,6 @@
-// The reflection of a shading point: Lambert, a GGX lobe with exact Fresnel, a clear coat and thin straight
-// transmission (docs/materials.md). Local space: z along the shading normal on the side that wo is on, x along the wide
-// direction of an anisotropic lobe; wo and wi point away from the surface.
+// The reflection of a shading point: Lambert, a GGX lobe with exact Fresnel, a clear coat, and transmission: thin and
+// straight, or refraction at the surface of solid glass (docs/materials.md). Local space: z along the shading normal on
+// the side that wo is on, x along the wide direction of an anisotropic lobe; wo and wi point away from the surface.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,14 @@
 
 namespace oriel {
 
-enum class Lobe : std::uint8_t { kDiffuse, kSpecular, kTransmission };
+enum class Lobe : std::uint8_t { kDiffuse, kSpecular, kTransmission, kRefraction };
 
 struct BsdfSample {
   Vec3 wi{0, 0, 1};
-  Vec3 weight{0};  // f * |cos θi| / pdf, lobe choice included
-  float pdf = 0;   // per steradian of all lobes together; 0 where delta
-  bool delta = false;
+  Vec3 weight{0};      // f * |cos θi| / pdf, lobe choice included
+  float pdf = 0;       // per steradian of all lobes together; 0 where delta
+  bool delta = false;  // no other strategy finds the direction
+  float squeeze = 1;   // in `weight`, of refracted light: radiance is n² times as dense in glass, power is not
   Lobe lobe = Lobe::kDiffuse;
 };
 
@@ -28,11 +29,17 @@ class Bsdf {
   Vec3 eval(const Vec3& wi) const;
   // Density of sample() choosing wi, delta lobes excluded.
   float pdf(const Vec3& wi) const;
-  // A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta.
-  // Nothing where the surface is black or the sample falls below the horizon.
+  // A direction in proportion to the lobes' albedo. u: lobe choice; v: direction. Transmission is wi = -wo, delta;
+  // refraction has wi below the horizon. Nothing where the surface is black or the sample falls below the horizon.
   std::optional<BsdfSample> sample(float u, const Vec2& v) const;
+  // Of solid glass, met from outside: what it refracts towards wo, alone and in full. Nothing where it refracts none.
+  std::optional<BsdfSample> refracted(const Vec2& v) const;
 
  private:
+  DVec3 facet(const Vec2& v) const;  // a normal of the base lobe that wo sees
+  std::optional<BsdfSample> refract_at(const DVec3& h, const Vec3& weight) const;
+  std::optional<BsdfSample> sample_inside(float u, const Vec2& v) const;
+
   // The lobes as wo sees them: probabilities in proportion to their albedo, sum 1 or all 0; and what each one leaves to
   // those below it.
   struct LobeChoice {

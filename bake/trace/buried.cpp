@@ -15,8 +15,7 @@ bool is_buried(const Transport& t, const SurfacePoint& surface, std::uint64_t se
     const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
     ++rays;
     const Hit hit = t.accel.intersect({origin, direction});
-    const bool back = hit && !hit.front &&
-                      !scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+    const bool back = hit && !geometry_at(scene, hit, direction).reflects;
     if (!back && (probe == 0 || ++missed > 1)) return false;
   }
   return true;

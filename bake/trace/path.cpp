@@ -1,6 +1,7 @@
 #include "bake/trace/path.h"
 
 #include "bake/trace/albedo.h"
+#include "bake/trace/glass.h"
 #include "bake/trace/shading.h"
 #include "bake/trace/warp.h"
 #include "formats/core/color.h"
@@ -40,7 +41,8 @@ FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampl
   }
   if (!(light.distance > 0)) return {value, light.near, light.group};  // touching
   ++rays;
-  return {value * t.accel.transmittance({origin, light.direction, light.distance}), light.near, light.group};
+  const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
+  return {value * t.accel.transmittance(ray), light.near, light.group};
 }
 
 // The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
@@ -78,6 +80,14 @@ class PathTracer {
   PathTracer(const Transport& t, Sampler& sampler, std::uint64_t& rays, const OnDiffuse* on_diffuse = nullptr)
       : t_(t), sampler_(sampler), rays_(rays), on_diffuse_(on_diffuse), mirrored_(on_diffuse != nullptr) {}
 
+  // The path goes on by a sample of a surface's lobes.
+  void leave(const SurfacePoint& surface, const BsdfSample& sample) {
+    const bool refracted = sample.lobe == Lobe::kRefraction;
+    mirrored_ = mirrored_ && !(is_frosted(surface.shade) && (refracted || surface.shade.inside));
+    medium_.leave(surface.shade, refracted);
+    squeeze_ *= sample.squeeze;
+  }
+
   PathLight follow(const Ray& ray, float bsdf_pdf, int bounce, const Vec3& throughput) {
     ++rays_;
     return follow_from(ray, t_.accel.intersect(ray), bsdf_pdf, bounce, throughput);
@@ -111,6 +121,7 @@ class PathTracer {
         break;
       }
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray.direction);
+      throughput_ *= medium_.passed(t_.accel.scene(), hit);
       if (t_.listener) t_.listener->meet(surface, throughput_);
       if (surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage) {
         ray.origin = spawn_origin(surface, ray.direction);
@@ -153,7 +164,7 @@ class PathTracer {
   // Lobes are sampled a little less often than they reflect: in a box of metal, where light dies out after hundreds of
   // bounces, few paths would bring it all. One that weighs as much as several goes on as so many.
   void split(const Ray& ray, int bounce, PathLight& light) {
-    const float weight = max_component(throughput_);
+    const float weight = max_component(throughput_) / squeeze_;
     if (!(weight >= 2) || !is_usable(throughput_)) return;
     const int paths = static_cast<int>(std::min(weight, kMostPaths));
     throughput_ /= static_cast<float>(paths);
@@ -202,7 +213,8 @@ class PathTracer {
     const auto sample = shading.sample(u, sampler_.next2());
     if (!sample) return Step::kEnd;
     const bool passes = sample->lobe == Lobe::kTransmission;
-    const Vec3 direction = passes ? ray.direction : shading.above(sample->wi);
+    const Vec3 direction = passes ? ray.direction : shading.world(*sample);
+    leave(surface, *sample);
     throughput_ *= sample->weight;
     if (!(max_component(throughput_) > 0)) return Step::kEnd;
     ray = {spawn_origin(surface, direction), direction};
@@ -228,7 +240,7 @@ class PathTracer {
   }
 
   bool survive() {
-    const float q = std::min(1.0f, max_component(throughput_));
+    const float q = std::min(1.0f, max_component(throughput_) / squeeze_);
     if (sampler_.next1() >= q) return false;
     throughput_ /= q;
     return true;
@@ -238,10 +250,12 @@ class PathTracer {
   Sampler& sampler_;
   std::uint64_t& rays_;
   const OnDiffuse* on_diffuse_;
-  bool mirrored_;  // no diffuse vertex so far was followed
+  bool mirrored_;  // no diffuse vertex so far was followed, nor light through frosted glass
   Vec3 throughput_{1};
   Vec3 from_{0};   // last vertex that chose a direction
   float pdf_ = 0;  // with this density
+  Medium medium_;
+  float squeeze_ = 1;  // in throughput_: BsdfSample::squeeze
 };
 
 // Light from lamps and by one sampled lobe; on_diffuse: may be null.
@@ -263,11 +277,13 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
       });
   const float u = sampler.next1();
   const auto sample = shading.sample(u, sampler.next2());
-  if (!sample || sample->lobe == Lobe::kTransmission) return light;
+  if (!sample || sample->lobe == Lobe::kTransmission || sample->lobe == Lobe::kRefraction) return light;
   const Vec3 direction = shading.above(sample->wi);
   const Ray ray{spawn_origin(surface, direction), direction};
   const float pdf = sample->delta ? 0 : shading.pdf(direction);
-  const PathLight rest = PathTracer(t, sampler, rays, on_diffuse).follow(ray, pdf, 1, sample->weight);
+  PathTracer path(t, sampler, rays, on_diffuse);
+  path.leave(surface, *sample);
+  const PathLight rest = path.follow(ray, pdf, 1, sample->weight);
   light.scattered += rest.scattered;
   light.lamps += rest.lamps;
   return light;
@@ -287,6 +303,17 @@ PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first,
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays) {
   return reflect_light(t, surface, wo, sampler, rays, nullptr).scattered;
+}
+
+Vec3 refracted_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                     std::uint64_t& rays) {
+  const Shading shading(surface, wo);
+  const auto sample = shading.refracted(sampler.next2());
+  if (!sample || !(max_component(sample->weight) > 0)) return Vec3(0);
+  const Vec3 direction = shading.world(*sample);
+  PathTracer path(t, sampler, rays);
+  path.leave(surface, *sample);
+  return path.follow({spawn_origin(surface, direction), direction}, 0, 1, sample->weight).scattered;
 }
 
 PathLight specular_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,

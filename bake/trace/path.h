@@ -42,7 +42,7 @@ struct SurfacePoint {
   ShadePoint shade;
   bool front = true;      // wo is on the triangle's front side
   bool emits = false;     // towards wo
-  bool reflects = false;  // towards wo: false for the back of a one-sided surface
+  bool reflects = false;  // towards wo: false for the back of a one-sided surface that is not solid glass
 };
 
 // Everything but the shading parameters: cheap, no texture is read.
@@ -125,13 +125,17 @@ using OnDiffuse = std::function<std::optional<float>(const DiffuseVertex&)>;
 PathLight trace_to_diffuse(const Transport& transport, const Ray& ray, const Hit& first, float bsdf_pdf,
                            Sampler& sampler, std::uint64_t& rays, const OnDiffuse& on_diffuse);
 
-// Light reflected by a surface towards wo (unit, world), all bounces; its own emission and straight transmission
+// Light reflected by a surface towards wo (unit, world), all bounces; its own emission and what it lets through
 // excluded.
 Vec3 reflected_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                      std::uint64_t& rays);
 
-// The part of it that leaves by specular lobes. Diffuse reflection met on the way is left to the caller as in
-// trace_to_diffuse(); the surface's own is not told. All of it is `scattered` or of `lamps`.
+// Light that solid glass refracts towards wo, outside of it, all bounces; 0 of other surfaces.
+Vec3 refracted_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
+                     std::uint64_t& rays);
+
+// The part of what reflected_light() has that leaves by specular lobes. Diffuse reflection met on the way is left to
+// the caller as in trace_to_diffuse(); the surface's own is not told. All of it is `scattered` or of `lamps`.
 PathLight specular_light(const Transport& transport, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,
                          std::uint64_t& rays, const OnDiffuse& on_diffuse);
 

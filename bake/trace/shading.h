@@ -37,6 +37,8 @@ class Shading {
   }
   // A local direction (Bsdf::sample).
   std::optional<BsdfSample> sample(float u, const Vec2& v) const { return bsdf().sample(u, v); }
+  // As Bsdf::refracted().
+  std::optional<BsdfSample> refracted(const Vec2& v) const { return bsdf().refracted(v); }
   static float cosine_of(const Vec3& w) { return std::max(0.0f, w.z); }
   float cosine(const Vec3& wi) const { return both(wi, cosine_of); }
 
@@ -45,6 +47,13 @@ class Shading {
   Vec3 above(const Vec3& w) const {
     const Vec3 world = glm::normalize(frame_ * w);
     return glm::dot(world, surface_.geometric_normal) < 0 ? fold(world) : world;
+  }
+
+  // The same of refracted light below it, and of any other above it.
+  Vec3 world(const BsdfSample& sample) const {
+    if (sample.lobe != Lobe::kRefraction) return above(sample.wi);
+    const Vec3 world = glm::normalize(frame_ * sample.wi);
+    return glm::dot(world, surface_.geometric_normal) > 0 ? fold(world) : world;
   }
 
  private:

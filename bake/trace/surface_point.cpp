@@ -38,7 +38,8 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
   s.front = hit.front;
-  s.reflects = hit.front || scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+  s.reflects = hit.front || material.double_sided || material.solid;
   return s;
 }
 
@@ -52,6 +53,10 @@ SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& directio
         facing(side * mapped_normal(scene, hit.triangle, hit.barycentric, side * s.normal, footprint), -direction);
   }
   s.shade = shade_point(scene, hit.triangle, hit.barycentric, footprint);
+  if (material.solid && !hit.front) {
+    turn_inside(s.shade);
+    s.reflects = s.shade.inside || material.double_sided;
+  }
   if (s.shade.anisotropy > 0)
     s.tangent = wide_direction(scene, hit, material, (hit.front ? 1.0f : -1.0f) * s.normal, s.shade.wide_direction);
   s.emits = s.reflects && max_component(s.shade.emission) > 0;

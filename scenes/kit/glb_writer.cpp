@@ -20,7 +20,7 @@ Json to_json(const Vec3& v) {
 struct Glb {
   Json json = Json::object();
   ByteWriter binary;
-  bool uses_emissive_strength = false, uses_specular = false;
+  bool uses_emissive_strength = false, uses_specular = false, uses_glass = false;
 };
 
 int add_view(Glb& glb, std::size_t bytes, int target) {
@@ -86,6 +86,16 @@ void add_textures(Glb& glb, const SampleScene& scene) {
   }
 }
 
+void add_glass(const SampleMaterial& material, Json& extensions, Glb& glb) {
+  extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
+  extensions["KHR_materials_ior"] = {{"ior", material.ior}};
+  glb.uses_glass = true;
+  if (material.thickness_m <= 0) return;
+  extensions["KHR_materials_volume"] = {{"thicknessFactor", material.thickness_m},
+                                        {"attenuationDistance", material.attenuation_distance_m},
+                                        {"attenuationColor", to_json(material.attenuation_color)}};
+}
+
 void add_materials(Glb& glb, const SampleScene& scene) {
   for (const SampleMaterial& material : scene.materials) {
     Json pbr = {
@@ -104,6 +114,7 @@ void add_materials(Glb& glb, const SampleScene& scene) {
       out["extensions"]["KHR_materials_specular"] = {{"specularFactor", material.specular}};
       glb.uses_specular = true;
     }
+    if (material.transmission > 0) add_glass(material, out["extensions"], glb);
     glb.json["materials"].push_back(std::move(out));
   }
 }
@@ -259,6 +270,9 @@ Result<Bytes> write_glb(const SampleScene& scene) {
   glb.json["scenes"].push_back({{"name", scene.name}, {"nodes", std::move(roots)}});
   if (glb.uses_emissive_strength) glb.json["extensionsUsed"].push_back("KHR_materials_emissive_strength");
   if (glb.uses_specular) glb.json["extensionsUsed"].push_back("KHR_materials_specular");
+  if (glb.uses_glass)
+    for (const char* name : {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"})
+      glb.json["extensionsUsed"].push_back(name);
   while (glb.binary.bytes().size() % 4 != 0) glb.binary.put(std::uint8_t{0});
   const Bytes binary = glb.binary.take();
   glb.json["buffers"].push_back({{"byteLength", binary.size()}});

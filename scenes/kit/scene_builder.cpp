@@ -34,6 +34,8 @@ void scale_scene(SampleScene& scene, double factor) {
   for (SampleMesh& mesh : scene.meshes)
     for (Vec3& p : mesh.positions) scale(p);
   for (Node& node : scene.nodes) scale(node.position);
+  for (SampleMaterial& m : scene.materials)
+    m.thickness_m *= static_cast<float>(factor), m.attenuation_distance_m *= static_cast<float>(factor);
   for (SampleCamera& camera : scene.cameras) {
     scale(camera.eye);
     scale(camera.target);

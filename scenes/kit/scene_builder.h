@@ -21,8 +21,12 @@ struct SampleMaterial {
   float metallic = 0;
   float roughness = 1;
   float specular = 0;  // KHR_materials_specular
-  Vec3 emission{0};    // cd/m²
-  int texture = -1;    // base colour, into SampleScene::textures; its meshes must have uvs
+  float transmission = 0, ior = 1.5f;
+  float thickness_m = 0;      // KHR_materials_volume; 0: thin
+  Vec3 attenuation_color{1};  // what is left of white light after attenuation_distance_m of it
+  float attenuation_distance_m = 1;
+  Vec3 emission{0};  // cd/m²
+  int texture = -1;  // base colour, into SampleScene::textures; its meshes must have uvs
 };
 
 // One primitive. positions and normals have one length, uvs that length or none.

@@ -54,6 +54,7 @@ test::Gltf quad() {
     "normalTexture":{"index":0,"scale":0.5},"emissiveTexture":{"index":0},"emissiveFactor":[1,1,1],
     "extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":5},"KHR_materials_ior":{"ior":1.4},
       "KHR_materials_specular":{"specularFactor":0.5},"KHR_materials_transmission":{"transmissionFactor":0.5},
+      "KHR_materials_volume":{"thicknessFactor":0.1,"attenuationDistance":2,"attenuationColor":[1,0.5,0]},
       "KHR_materials_clearcoat":{"clearcoatFactor":1},"KHR_materials_anisotropy":{"anisotropyStrength":0.5},
       "KHR_materials_sheen":{"sheenColorFactor":[0.1,0.1,0.1]}}})");
   return g;

@@ -111,6 +111,7 @@ TEST(Glb, AllScenesAreValidAndDeterministic) {
   expect_valid(one_quad());
   expect_valid(make_cornell());
   expect_valid(make_gallery());
+  expect_valid(make_glass());
   expect_valid(make_panels());
   expect_valid(make_room());
   expect_valid(make_room({.closed = false, .door = true}));

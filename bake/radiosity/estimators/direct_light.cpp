@@ -180,7 +180,7 @@ class DirectGroup {
       const auto s = view.sample(sampler.next2());
       const float weight = s ? incidence(receiver, s->direction) * s->solid_angle : 0;
       if (!(weight > 0)) continue;
-      shoot(p, {points_[p].site.origin, s->direction, s->distance}, Vec3(weight));
+      shoot(p, {points_[p].site.origin, s->direction, s->distance, false}, Vec3(weight));
       return;
     }
   }
@@ -300,7 +300,7 @@ class DirectGroup {
       const float cosine = incidence(point.site.receiver(), s.direction);
       const Vec3 value = s.estimate * (cosine * s.pdf / (s.pdf + cosine / kPi));
       if (max_component(value) > 0 && is_usable(point, value))
-        shoot(p, {point.site.origin, s.direction, s.distance}, value, s.group);
+        shoot(p, {point.site.origin, s.direction, s.distance, false}, value, s.group);
     }
     finish_sampled();
   }

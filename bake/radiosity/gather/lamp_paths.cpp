@@ -6,6 +6,7 @@
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/trace/emission.h"
+#include "bake/trace/glass.h"
 #include "bake/trace/shading.h"
 #include "formats/core/color.h"
 
@@ -76,6 +77,11 @@ class LampWalk {
       ++rays;
       if (!hit || (leaves_ != kNoTexel && around_.goes_on(hit.distance, leaves_))) break;
       leaves_ = kNoTexel;
+      if (punctual_ && bounces_ == 0 && passes_glass(hit)) {
+        ++passes;
+        continue;
+      }
+      power_ *= medium_.passed(t_.accel.scene(), hit);
       if (bounces_ > 0 && !arrive(hit)) break;
       SurfacePoint surface = surface_at(t_.accel.scene(), hit, ray_.direction);
       const bool passes_by = surface.shade.coverage < 1 && sampler_.next1() >= surface.shade.coverage;
@@ -89,6 +95,22 @@ class LampWalk {
       if (bounces_ > before) rays += split();
     }
     return rays;
+  }
+
+  // The light of points crosses solid glass unbent, as the shadow rays of paths from eyes do. Where its front is
+  // frosted they find what it reflects too: that is half of the particles.
+  bool passes_glass(const Hit& hit) {
+    const Scene& scene = t_.accel.scene();
+    if (!material_of(hit.triangle).solid) return false;
+    const ShadePoint point = shade_point(scene, hit.triangle, hit.barycentric);
+    if (!(point.eta > 0)) return false;
+    if (hit.front && is_frosted(point)) {
+      power_ *= 2;
+      if (sampler_.next1() < 0.5f) return false;
+    }
+    power_ *= glass_.meet(point, hit.front, geometric_normal(scene, hit.triangle), ray_.direction, hit.distance);
+    ray_.origin = spawn_origin(scene, hit.triangle, hit.barycentric, ray_.direction);
+    return true;
   }
 
   // As paths do: one that weighs as much as several goes on as so many.
@@ -148,11 +170,16 @@ class LampWalk {
       power_ = Vec3(0);
       return;
     }
+    const bool refracted = sample->lobe == Lobe::kRefraction;
+    if (is_frosted(surface.shade) && (refracted || surface.shade.inside)) power_ = Vec3(0);  // that is paths'
+    medium_.leave(surface.shade, refracted);
     if (sample->lobe == Lobe::kTransmission) {
       power_ *= sample->weight;
     } else {
-      const Vec3 wo = shading.above(sample->wi);
-      power_ *= weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
+      const Vec3 wo = shading.world(*sample);
+      power_ *= refracted || surface.shade.inside
+                    ? sample->weight / sample->squeeze
+                    : weight(hit, *sample, shading, wi, wo) * (glm::dot(surface.geometric_normal, wo) / cos_i);
       if (bounces_++ == 0) {
         first_ = max_component(power_);
         if (punctual_ && sample->delta) power_ = Vec3(0);
@@ -160,12 +187,18 @@ class LampWalk {
         survive();
       }
       ray_.direction = wo;
-      if (diffuse) leaves_ = texels_.find(surface.triangle, surface.barycentric);
+      if (refracted ? is_left_diffuse(surface) : diffuse) leaves_ = texels_.find(surface.triangle, surface.barycentric);
     }
     ray_.origin = spawn_origin(surface, ray_.direction);
     if (is_usable(power_)) return;
     t_.accel.dropped().add(surface.triangle);
     power_ = Vec3(0);
+  }
+
+  // Whether glass that the particle comes out of is diffuse as well, seen from where it goes.
+  bool is_left_diffuse(const SurfacePoint& surface) const {
+    return !surface.front &&
+           max_component(shade_point(t_.accel.scene(), surface.triangle, surface.barycentric).diffuse) > 0;
   }
 
   Vec3 weight(const Hit& hit, const BsdfSample& sample, const Shading& chosen, const Vec3& wi, const Vec3& wo) const {
@@ -191,6 +224,8 @@ class LampWalk {
   Vec3 power_{0};
   float first_ = 0;  // after the first reflection
   bool punctual_ = false;
+  Medium medium_;
+  StraightGlass glass_;
   int bounces_ = 0;
   std::uint32_t leaves_ = kNoTexel;  // of the diffuse surface that the particle just left
 };

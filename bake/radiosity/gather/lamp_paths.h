@@ -24,7 +24,8 @@ struct LampLight {
 // bright it is: in furnished rooms that was three quarters of a gather's squared error and more. The lamp's own light
 // finds the floor at once, and from there the texels (light tracing, Arvo 1986; the two ways add up to all light, path
 // for path: Veach 1997, section 9). What paths find that go on from near surfaces is theirs (Surroundings::goes_on). A
-// point light met by way of a mirror is found by no path from an eye, and so left out.
+// point light met by way of a mirror is found by no path from an eye, and so left out. What frosted glass spreads is
+// left to paths (is_frosted).
 //
 // Adds particles until each half has `per_half` of them. Does nothing where no lamp is near (LightSample::near): the
 // sun's and the sky's particles rarely come into a room. Error kStopped.

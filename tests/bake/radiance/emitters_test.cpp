@@ -5,6 +5,7 @@
 
 #include "bake/radiance/capture.h"
 #include "bake/radiance/reproject.h"
+#include "bake/radiance/sun_emitter.h"
 #include "bake/radiance/views.h"
 #include "tests/bake/support/scene_parts.h"
 
@@ -73,6 +74,40 @@ TEST(Emitters, ALampIsOneQuadrangleSeenFromEverywhere) {
   EXPECT_EQ(r.visibility.size(), std::size_t{r.visibility_x} * r.visibility_y);
   for (const std::uint8_t v : r.visibility) EXPECT_EQ(v, 255);
   EXPECT_TRUE(room.omitted.empty());
+}
+
+// No map shows it: the lobe of the floor does, as of a lamp far away.
+TEST(Emitters, TheSunIsOneOfThem) {
+  LampRoom room;
+  Light sun;
+  sun.type = LightType::kDirectional;
+  sun.direction = glm::normalize(Vec3(1, -1, 0.5f));
+  sun.intensity = {900, 800, 700};
+  for (const float radius : {0.0f, 0.00465f, 0.3f}) {
+    sun.angular_radius_rad = radius;
+    room.parts.scene().lights = {sun};
+    room.scene = room.parts.finish();
+    const auto accel = Accel::build(room.scene);
+    ASSERT_TRUE(accel);
+    room.emitters.clear();
+    room.run(*accel);
+    if (radius > 0.2f) {
+      EXPECT_EQ(room.emitters.size(), 1u) << "the lamp alone: it is too wide for a square";
+      continue;
+    }
+    ASSERT_EQ(room.emitters.size(), 2u);
+    const PolygonLight shown = *sun_polygon(room.scene, sun);
+    const Emitter& far = room.emitters[room.emitters[0].radiance == shown.radiance ? 0 : 1];
+    ASSERT_EQ(far.corners.size(), 4u);
+    const Vec3 n = glm::normalize(glm::cross(far.corners[1] - far.corners[0], far.corners[2] - far.corners[0]));
+    EXPECT_NEAR(glm::dot(n, sun.direction), 1, 1e-5) << "counter-clockwise seen from the bright side";
+    const Receiver floor{{0.3f, 0, -0.4f}, {0, 1, 0}, {0, 1, 0}};
+    EXPECT_NEAR(polygon_irradiance(shown, floor) * shown.radiance.g / (800 / 1.5), 1, 2e-3);
+    EXPECT_EQ(sun_of_corners(room.scene, far.corners), 0u);
+    // The lamp's shade lies on the floor where the sun comes from behind it.
+    const std::size_t e = &far - room.emitters.data();
+    EXPECT_GT(room.visibility(room.reflectors[0].reflector.emitters[0] == e ? 0 : 1, {-1.9f, -1.9f}), 0.99f);
+  }
 }
 
 TEST(Emitters, AMirrorKeepsThem) {

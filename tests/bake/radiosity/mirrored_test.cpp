@@ -4,6 +4,7 @@
 #include "bake/radiosity/ledger.h"
 #include "formats/core/color.h"
 #include "tests/bake/radiosity/baked.h"
+#include "tests/bake/support/glass_slab.h"
 
 namespace oriel {
 namespace {
@@ -32,17 +33,12 @@ Scene sunny(float albedo = 0) {
 }
 
 struct Patch {
-  double inside = 0, outside = 0, power = 0;  // largest error of a texel inside; largest light outside; lm
+  double inside = 0, outside = 0;  // largest error of a texel inside; largest light outside
 };
 
 Patch measure(const Baked& b, double expected, float texel) {
   Patch patch;
   const float shift = 2 / std::sqrt(3.0f);
-  b.each_texel([&](const LightmapPage& page, std::uint32_t texel_index, std::uint32_t triangle) {
-    if (b.scene.surfaces[b.scene.triangle_surface[triangle]].name != "ceiling") return;
-    patch.power += page.irradiance[texel_index].g;
-    (void)texel;
-  });
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
       const TexelPoint at = sample_texel(b.atlas, b.texel_map[p], i, Vec3(0.5f));
@@ -56,16 +52,79 @@ Patch measure(const Baked& b, double expected, float texel) {
   return patch;
 }
 
-TEST(Mirrored, TheSunsPatchOnTheCeilingIsTheClosedForm) {
+class MirroredSun : public testing::TestWithParam<Estimator> {};
+
+TEST_P(MirroredSun, ThePatchOnTheCeilingIsTheClosedForm) {
   constexpr float kTexel = 0.1f;
   const double sine = std::sqrt(0.75), reflectance = 0.9 + 0.1 * std::pow(1 - sine, 5);
   RadiosityOptions options;
-  options.error = 0.02;
+  options.estimator = GetParam();
   const Patch patch = measure(test::bake(sunny(), kTexel, options), 1000 * sine * reflectance, kTexel);
   RecordProperty("inside", std::to_string(patch.inside));
   EXPECT_LT(patch.inside, 0.005);
   EXPECT_LT(patch.outside, 0.5) << "of 780 lux";
 }
+INSTANTIATE_TEST_SUITE_P(Estimators, MirroredSun, testing::Values(Estimator::kCached, Estimator::kReference));
+
+// What else the sun may pass before it lights a floor.
+enum class Way : std::uint8_t { kTwoMirrors, kSlab, kPane };
+
+Scene sunny_floor(Way way) {
+  SceneParts parts;
+  float middle = 0;
+  if (way == Way::kTwoMirrors) {  // the upper one shades the floor where it throws the light of the lower one
+    const auto m = parts.add(mirror(0.9f));
+    middle = 2 / std::sqrt(3.0f);
+    parts.quad("lower", m, {-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1});
+    parts.quad("upper", m, {middle / 2 - 0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1});
+  } else if (way == Way::kSlab) {
+    parts.box("slab", parts.add(test::solid_glass(1.5f, {0, 1, 4})), {-0.6f, 0.1f, -0.6f}, {0.6f, 0.3f, 0.6f});
+  } else {
+    SceneMaterial pane = test::solid_glass();
+    pane.base_color = {0.9f, 0.5f, 0.1f}, pane.solid = false, pane.double_sided = true;
+    parts.quad("pane", parts.add(pane), {-0.6f, 0.1f, 0.6f}, {1.2f, 0, 0}, {0, 0, -1.2f});
+  }
+  parts.quad("floor", parts.diffuse(Vec3(0)), {middle - 0.4f, 0, 0.4f}, {0.8f, 0, 0}, {0, 0, -0.8f});
+  parts.scene().lights = sunny().lights;
+  return parts.finish();
+}
+
+DVec3 passed(Way way) {
+  const double sine = std::sqrt(0.75), reflected = fresnel_dielectric(1.5, sine);
+  if (way == Way::kTwoMirrors) return DVec3(std::pow(0.9 + 0.1 * std::pow(1 - sine, 5), 2));
+  if (way == Way::kPane) return DVec3(0.9, 0.5, 0.1) * (1 - reflected);
+  DVec3 slab;
+  for (int c = 0; c < 3; ++c) slab[c] = test::slab_transmittance(1.5, sine, std::array{0.0, 0.2, 0.8}[c]);
+  return slab;
+}
+
+class SunnyFloor : public testing::TestWithParam<std::tuple<Way, Estimator>> {};
+
+TEST_P(SunnyFloor, LightIsTheClosedFormAndTheLedgerCloses) {
+  const auto [way, estimator] = GetParam();
+  RadiosityOptions options;
+  options.samples = 64, options.estimator = estimator;
+  const Baked b = test::bake(sunny_floor(way), 0.1f, options);
+  const DVec3 expected = 1000 * std::sqrt(0.75) * passed(way);
+  DVec3 worst(0);
+  int texels = 0;
+  b.each_texel([&](const LightmapPage& page, std::uint32_t texel, std::uint32_t triangle) {
+    if (b.scene.surfaces[b.scene.triangle_surface[triangle]].name != "floor") return;
+    worst = glm::max(worst, glm::abs(DVec3(page.irradiance[texel]) / expected - 1.0)), ++texels;
+  });
+  for (int c = 0; c < 3; ++c) EXPECT_LT(worst[c], 0.01) << "channel " << c;
+  EXPECT_GE(texels, 64);
+  const Accel accel = *Accel::build(b.scene);
+  const LightSet lights(b.scene);
+  Context context;
+  const Ledger ledger = *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, 400'000, context);
+  EXPECT_LE(ledger.closure(), 4 * ledger.closure_error() + 1e-6);
+  EXPECT_LE(ledger.disagreement(), 0.01 + 3 * ledger.disagreement_error());
+  EXPECT_LE(ledger.disagreement_error(), 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(Ways, SunnyFloor,
+                         testing::Combine(testing::Values(Way::kTwoMirrors, Way::kSlab, Way::kPane),
+                                          testing::Values(Estimator::kCached, Estimator::kReference)));
 
 // A closed room with a lamp and a mirror: what texels keep is what particles bring.
 Scene room(std::uint32_t lights, bool pane) {
@@ -113,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, testing::Bool());
 // By paths and by the cached estimator alike.
 TEST(Mirrored, BothEstimatorsFindTheSame) {
   RadiosityOptions cached, reference;
-  cached.samples = 128;
+  cached.samples = 128, cached.estimator = Estimator::kCached;
   reference.samples = 256, reference.estimator = Estimator::kReference;
   double sums[2] = {};
   for (int k = 0; k < 2; ++k) {

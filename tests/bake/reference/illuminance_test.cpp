@@ -3,7 +3,7 @@
 
 #include "bake/reference/illuminance.h"
 #include "formats/core/color.h"
-#include "tests/bake/support/scene_parts.h"
+#include "tests/bake/support/glass_slab.h"
 
 namespace oriel {
 namespace {
@@ -134,6 +134,24 @@ TEST_F(BesideAnEmittingFace, StatedErrorCoversTheTruth) {
     all.squares += c.squares;
   });
   expect_honest(all);
+}
+
+// Shadow rays to lamps and skies end at solid glass, and paths find what comes through: all of it, once.
+TEST(Illuminance, LampsAndSkiesBehindGlassCountOnce) {
+  const double expected = test::slab_irradiance(1.5, 0.2);
+  for (const int above : {0, 1, 2}) {
+    SceneParts parts;
+    parts.box("slab", parts.add(test::solid_glass(1.5f, Vec3(1))), {-50, 0, -50}, {50, 0.2f, 50});
+    parts.quad("ground", parts.diffuse(Vec3(0)), {-50, -0.2f, 50}, {100, 0, 0}, {0, 0, -100});
+    if (above < 2) parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1)), {-50, 0.3f, -50}, {100, 0, 0}, {0, 0, 100});
+    if (above == 1) texture_emitters(parts);
+    if (above == 2) {
+      SkyImage& sky = parts.scene().sky_image = {2, 64, std::vector<Vec3>(128, Vec3(1))};
+      std::fill(sky.texels.begin() + 64, sky.texels.end(), Vec3(0.5f));  // below: one colour alone is not sampled
+    }
+    const PointIlluminance e = measure(parts.finish(), {{{0, -0.1, 0}, {0, 1, 0}}}, {0.002, 1u << 18})[0];
+    EXPECT_NEAR((e.direct.g + e.indirect.g) / expected, 1, 0.01) << above;
+  }
 }
 
 // Half of a lamp is hidden: its closed form times a sampled share.

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/reference/reference.h"
-#include "tests/bake/support/scene_parts.h"
+#include "tests/bake/support/glass_slab.h"
 
 namespace oriel {
 namespace {
@@ -49,6 +49,17 @@ TEST(Reference, SplitsAFurnaceIntoItsSeries) {
   expect_color(frame.indirect, all - kEmission - once, 0.01, "indirect");
   expect_color(frame.specular, Vec3(0), 0, "specular");
   expect_color(frame.total, all, 0.01, "total");
+}
+
+// Around the eye a ball of glass under an even sky: straight on and back, whatever the direction.
+TEST(Reference, AnEyeInGlassSeesThroughIt) {
+  constexpr float kAbsorption = 0.5f;
+  test::SceneParts parts;
+  parts.sphere("ball", parts.add(test::solid_glass(1.5f, {0, 0, kAbsorption})), {0, 0.2f, 0.9f}, 1, 4);
+  parts.scene().sky = Vec3(1);
+  const ReferenceFrame frame = render(parts.finish(), {.width = 16, .height = 9, .samples = 1024});
+  const float r = 0.04f, once = std::exp(-kAbsorption);
+  expect_color(frame.total, 2.25f * Vec3(1, 1, (1 - r) * once / (1 - r * once * once)), 0.005, "total");
 }
 
 TEST(Reference, PartsAddUp) {

@@ -40,6 +40,12 @@ int glass(Glb& glb, Random& random) {
   Json m = factors(random.chance(0.5f) ? Vec3(1) : random.in_box(Vec3(0), Vec3(1)), 0, any_roughness(random));
   m["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", random.chance(0.5f) ? 1 : random.unit()}};
   if (random.chance(0.3f)) m["extensions"]["KHR_materials_ior"] = {{"ior", random.between(1, 2.5f)}};
+  if (random.chance(0.4f)) {
+    Json volume = {{"thicknessFactor", random.unit()}};
+    if (random.chance(0.5f)) volume["attenuationDistance"] = random.between(0.01f, 10);
+    if (random.chance(0.5f)) volume["attenuationColor"] = {random.unit(), 1, random.unit()};
+    m["extensions"]["KHR_materials_volume"] = std::move(volume);
+  }
   if (random.chance(0.5f)) m["doubleSided"] = true;
   return glb.add_material(std::move(m));
 }

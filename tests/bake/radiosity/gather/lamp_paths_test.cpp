@@ -99,9 +99,13 @@ TEST(LampPaths, CostNothingWhereNoLampIsNear) {
   EXPECT_EQ(rays, 0u);
 }
 
-// Lamps, a plinth that the floor's texels see from nearer than paths leave off, a pane and a mirror: what rays
-// and particles find together is what rays find alone, nothing of it twice.
-TEST(LampPaths, AddUpWithRaysToAllLight) {
+enum class Glass : std::uint8_t { kThin, kSolid, kFrosted };
+
+class LampPathsBesideGlass : public testing::TestWithParam<Glass> {};
+
+// Lamps, a plinth that the floor's texels see from nearer than paths leave off, a pane or a block of glass and a
+// mirror: what rays and particles find together is what rays find alone, nothing of it twice.
+TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   SceneParts parts;
   const auto matt = parts.diffuse(Vec3(0.6f));
   SceneMaterial glass = polished(Vec3(1), 0, 0.3f);
@@ -111,7 +115,12 @@ TEST(LampPaths, AddUpWithRaysToAllLight) {
   parts.quad("wall", matt, {-1, 0, -1}, {2, 0, 0}, {0, 2, 0});
   parts.quad("side", parts.add(polished(Vec3(0.9f), 1, 0.4f)), {-1, 0, 1}, {0, 0, -2}, {0, 2, 0});
   parts.box("plinth", parts.add(polished(Vec3(0.7f), 0, 0.5f)), {0.1f, 0, -0.3f}, {0.6f, 0.25f, 0.2f});
-  parts.quad("pane", parts.add(glass), {0.2f, 0, 0.5f}, {0.5f, 0, 0}, {0, 0.6f, 0});
+  glass.solid = GetParam() != Glass::kThin;
+  if (GetParam() == Glass::kSolid) glass.roughness = 0;
+  if (glass.solid)
+    parts.box("block", parts.add(glass), {0.2f, 1e-3f, 0.4f}, {0.7f, 0.6f, 0.6f});
+  else
+    parts.quad("pane", parts.add(glass), {0.2f, 0, 0.5f}, {0.5f, 0, 0}, {0, 0.6f, 0});
   parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(500)), {-0.3f, 1.2f, -0.3f}, {0.3f, 0, 0}, {0, 0, 0.3f});
   Light bulb;
   bulb.type = LightType::kPoint;
@@ -152,6 +161,7 @@ TEST(LampPaths, AddUpWithRaysToAllLight) {
   EXPECT_GT(by_particles, 0.3) << "particles bring too little of it: the test shows nothing";
   EXPECT_LT(by_particles, 0.9) << "rays do";
 }
+INSTANTIATE_TEST_SUITE_P(All, LampPathsBesideGlass, testing::Values(Glass::kThin, Glass::kSolid, Glass::kFrosted));
 
 // A closed box of perfect metal fills with light until the lamp takes in what it sends: E = πL on every wall. What
 // comes straight from the lamp is no particle's.

@@ -1,0 +1,15 @@
+// Which glass is solid: light refracts at closed surfaces only.
+#pragma once
+
+#include "bake/jobs/context.h"
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+// Materials with a volume (SceneMaterial::solid) stay solid on surfaces that enclose a space and face outwards, each by
+// itself or all of a material and a mover together. Corners at the same place are one. Solids have one side, whatever
+// the file says. Other surfaces get a copy of the material that is a thin pane seen from both sides, with a warning; so
+// does glass of an alpha mode other than OPAQUE. Does nothing in a scene without such materials.
+void find_solids(Scene& scene, Context& context);
+
+}  // namespace oriel

@@ -1,0 +1,148 @@
+// Which glass is solid: KHR_materials_volume on closed surfaces.
+#include <gtest/gtest.h>
+
+#include "bake/scene/shade.h"
+#include "tests/bake/import/gltf_maker.h"
+
+namespace oriel::test {
+namespace {
+
+constexpr const char* kGlass = R"({"name":"glass","pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},
+  "extensions":{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.52},
+    "KHR_materials_volume":{"thicknessFactor":0.1,"attenuationDistance":0.5,"attenuationColor":[1,0.5,0.25]}}})";
+
+// Faces of the unit cube as quads of four own corners, counter-clockwise from outside.
+constexpr int kFaces[6][4][3] = {
+    {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}, {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}},
+    {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}},
+    {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+
+// Those faces of the cube, seen from outside or from inside, as one primitive.
+void add_faces(Gltf& g, int first, int count, bool inwards = false) {
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  for (int f = first; f < first + count; ++f) {
+    const auto base = static_cast<std::uint16_t>(positions.size() / 3);
+    for (const auto& corner : kFaces[f])
+      for (const int x : corner) positions.push_back(static_cast<float>(x));
+    for (const int k : {0, 1, 2, 0, 2, 3}) indices.push_back(static_cast<std::uint16_t>(base + k));
+    if (inwards)
+      for (std::size_t k = indices.size() - 6; k < indices.size(); k += 3) std::swap(indices[k + 1], indices[k + 2]);
+  }
+  const int p = g.floats("VEC3", positions), i = g.indices(indices);
+  g.add({{"attributes", {{"POSITION", p}}}, {"indices", i}, {"material", 0}});
+}
+Gltf with(const char* material) {
+  Gltf g;
+  g.material() = json::parse(material);
+  g.use("KHR_materials_volume", true);
+  return g;
+}
+const SceneMaterial& material_of(const Scene& scene, std::size_t surface) {
+  return scene.materials[scene.surfaces[surface].material];
+}
+
+TEST(Solids, AClosedBoxIsSolid) {
+  Gltf g = with(kGlass);
+  add_faces(g, 0, 6);
+  g.doc["materials"][0]["doubleSided"] = true;
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.warnings.size(), 0u) << (r.warnings.empty() ? "" : r.warnings[0]);
+  const SceneMaterial& m = material_of(r.scene(), 0);
+  EXPECT_TRUE(m.solid);
+  EXPECT_FALSE(m.double_sided) << "a solid has one side";
+  EXPECT_EQ(m.absorption.r, 0);
+  EXPECT_NEAR(m.absorption.g, std::log(2) / 0.5, 1e-6);
+  EXPECT_NEAR(m.absorption.b, std::log(4) / 0.5, 1e-6);
+  const ShadePoint p = shade_point(r.scene(), 0, Vec2(0.3f));
+  EXPECT_FLOAT_EQ(p.eta, 1.52f);
+  EXPECT_EQ(p.absorption, m.absorption);
+  ImportOptions feet;
+  feet.unit_m = 0.3048;
+  EXPECT_NEAR(material_of(import(g, feet).scene(), 0).absorption.g, std::log(2) / (0.5 * 0.3048), 1e-5);
+}
+
+TEST(Solids, PartsOfOneMaterialCloseEachOther) {
+  Gltf g = with(kGlass);
+  add_faces(g, 0, 2);
+  add_faces(g, 2, 4);
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_TRUE(r.warnings.empty());
+  EXPECT_TRUE(material_of(r.scene(), 0).solid && material_of(r.scene(), 1).solid);
+}
+
+TEST(Solids, WhatIsOpenOrInsideOutIsAPane) {
+  for (const bool inwards : {false, true}) {
+    Gltf g = with(kGlass);
+    add_faces(g, 0, inwards ? 6 : 5, inwards);
+    const Imported r = import(g);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_TRUE(r.warned("taken for a thin pane")) << inwards;
+    EXPECT_TRUE(r.warned(inwards ? "found its front inwards" : "found 4 open edges, expected a closed surface"));
+    EXPECT_FALSE(material_of(r.scene(), 0).solid);
+    EXPECT_TRUE(material_of(r.scene(), 0).double_sided);
+    EXPECT_EQ(shade_point(r.scene(), 0, Vec2(0.3f)).eta, 0);
+  }
+}
+
+TEST(Solids, ThinAndOpaqueAsBefore) {
+  for (const char* volume : {R"({"thicknessFactor":0})", R"({"attenuationDistance":2})"}) {
+    Gltf g = with(kGlass);
+    g.doc["materials"][0]["extensions"]["KHR_materials_volume"] = json::parse(volume);
+    add_faces(g, 0, 3);
+    const Imported r = import(g);
+    ASSERT_TRUE(r.ok()) << r.error();
+    EXPECT_TRUE(r.warnings.empty()) << volume;
+    EXPECT_FALSE(material_of(r.scene(), 0).solid);
+  }
+  Gltf g = with(kGlass);
+  g.doc["materials"][0]["extensions"].erase("KHR_materials_transmission");
+  add_faces(g, 0, 3);
+  EXPECT_FALSE(material_of(import(g).scene(), 0).solid) << "it transmits nothing";
+  g = with(kGlass);
+  g.doc["materials"][0]["alphaMode"] = "BLEND";
+  add_faces(g, 0, 6);
+  EXPECT_TRUE(import(g).warned("expected opaque glass"));
+}
+
+TEST(Solids, OddNumbersAreToldOf) {
+  const auto changed = [](const char* extension, const char* value) {
+    Gltf g = with(kGlass);
+    g.doc["materials"][0]["extensions"][extension] = json::parse(value);
+    add_faces(g, 0, 6);
+    return import(g);
+  };
+  const Imported none =
+      changed("KHR_materials_volume", R"({"thicknessFactor":1,"attenuationDistance":0,"attenuationColor":[0,0,0]})");
+  EXPECT_TRUE(none.warned("expected a distance above 0"));
+  EXPECT_EQ(material_of(none.scene(), 0).absorption, Vec3(0));
+  const Imported black = changed("KHR_materials_volume",
+                                 R"({"thicknessFactor":1,"attenuationDistance":1e-30,"attenuationColor":[0,2,-1]})");
+  EXPECT_TRUE(black.warned("found 2, expected 0 to 1"));
+  EXPECT_TRUE(is_finite(material_of(black.scene(), 0).absorption));
+  EXPECT_EQ(material_of(black.scene(), 0).absorption.g, 0);
+  const Imported thin_air = changed("KHR_materials_ior", R"({"ior":0.5})");
+  EXPECT_TRUE(thin_air.warned("expected 0 or at least 1: taken as 1"));
+  EXPECT_EQ(shade_point(thin_air.scene(), 0, Vec2(0.3f)).eta, 1);
+  const Imported mirror = changed("KHR_materials_ior", R"({"ior":0})");
+  EXPECT_TRUE(mirror.warned("the solid lets none through"));
+  EXPECT_FALSE(material_of(mirror.scene(), 0).solid);
+  for (const char* bad : {R"({"thicknessFactor":-1})", R"({"thicknessFactor":"x"})", R"({"attenuationColor":[1]})"})
+    EXPECT_NE(changed("KHR_materials_volume", bad).error().find("KHR_materials_volume"), std::string::npos) << bad;
+}
+
+TEST(Solids, PanesWithoutAreaAreDropped) {
+  Gltf g = with(kGlass);
+  add_faces(g, 0, 6);
+  const int p = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
+  g.add({{"attributes", {{"POSITION", p}}}, {"material", 0}});
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(r.scene().triangles.size(), 12u);
+  EXPECT_TRUE(material_of(r.scene(), 0).solid);
+}
+
+}  // namespace
+}  // namespace oriel::test
