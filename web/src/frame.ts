@@ -14,8 +14,10 @@ export const reflectorBits = 0x7f, seeThroughBit = 0x80;
 interface Frame { width: number; height: number; light: WebGLTexture; depth: WebGLTexture; target: WebGLFramebuffer; }
 interface Sum { texture: WebGLTexture; target: WebGLFramebuffer; }
 
+/** orders: of images in images, 0 is none; taps: of a kernel; largeOnly: no small reflectors, and no curved ones. */
 export interface FrameOptions { orders: number; taps: number; largeOnly: boolean; }
 export const wholeFrame: FrameOptions = { orders: 2, taps: 48, largeOnly: false };
+export const firstFrame: FrameOptions = { orders: 0, taps: 12, largeOnly: true };
 export const movingFrame: FrameOptions = { orders: 1, taps: 12, largeOnly: true };
 
 /** Where the samples of a pixel lie, as most devices have four. */
@@ -45,6 +47,15 @@ export class Renderer {
     this.transparent = make('transparent'), this.luminance = make('screen_luminance'), this.average = make('screen_average');
     this.none = gl.createVertexArray()!;
     this.reflections = new Reflections(device, this, this.none);
+  }
+
+  /** Begins to compile what the first frame needs. */
+  start(): void {
+    for (const p of [this.plainDepth, this.plain, this.luminance, this.average]) p.start();
+  }
+  /** And what the others need. */
+  startRest(): void {
+    for (const p of [...this.reflections.programs, this.reflected, this.opaque, this.depth, this.transparent]) p.start();
   }
 
   drawScreen(): void {
