@@ -7,7 +7,7 @@ import type { LightsPanel } from './lights_panel';
 import type { Panel } from './panel';
 import type { Walk } from './walk';
 
-const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25, kFirstScale = 0.5;
+const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25, kFirstScale = 0.5, kSettled = 0.002;
 const kLong = 200, kShare = 4;  // ms of a whole frame while pieces come: longer ones leave the device to the pieces for that many times as long
 
 export class Show {
@@ -29,8 +29,12 @@ export class Show {
   }
 
   /** Something else is to be seen. */
-  changed(): void { this.count = 0; }
+  changed(): void {
+    this.count = 0;
+    this.settled = false;
+  }
 
+  private settled = false;  // the exposure is that of all samples
   loading = true;         // pieces still come
   private came = false;   // some of them since the last frame
   private drawnAt = -1e9;
@@ -47,7 +51,7 @@ export class Show {
     const busy = this.loading && this.took > kLong && this.count > 0;
     if (this.came && (!busy || now - this.drawnAt > kShare * this.took)) {
       this.came = false;
-      this.count = 0;
+      this.changed();
       return false;
     }
     return busy || this.count >= kSamples;
@@ -83,12 +87,12 @@ export class Show {
     const height = Math.max(1, Math.round(this.canvas.clientHeight * Math.min(devicePixelRatio, 2)));
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width, this.canvas.height = height;
-      this.count = 0;
+      this.changed();
     }
     if (moved) {
       if (now - this.movedAt < 500) this.adapt(dt * 1000);
       this.movedAt = now;
-      this.count = 0;
+      this.changed();
       delete document.body.dataset['rest'];
     }
     if (!moved && now - this.movedAt > 500) this.hurries = false;
@@ -122,21 +126,33 @@ export class Show {
 
   private draw(moving: boolean, width: number, height: number, now: number): void {
     const scale = moving ? this.scale : 1, w = Math.max(1, Math.round(width * scale)), h = Math.max(1, Math.round(height * scale));
-    const begin = performance.now(), meters = moving ? now - this.meteredAt > 200 : this.count === 0;
+    const begin = performance.now(), meters = moving ? now - this.meteredAt > 200 : this.count === 0 && !this.settled;
     this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving && this.hurries ? movingFrame : wholeFrame);
     if (meters) this.meter(moving, now);
     if (meters && !moving) this.took = performance.now() - begin;  // the meter waits for the device
     this.drawnAt = performance.now();
-    this.renderer.show(this.scene, moving ? 0 : this.count, width, height);
+    if (!moving && !this.settled) this.renderer.addToMean(1 / kSamples, this.count === 0);
+    const last = this.count === kSamples - 1;
+    this.renderer.show(this.scene, moving ? 0 : this.count, width, height, moving || !this.settled || last);
     this.count = moving ? 0 : this.count + 1;
-    if (this.count === kSamples) {
-      document.body.dataset['rest'] = String(this.frames);
-      this.panel.lux(this.luxShown ? this.luxThere() : undefined);
-    }
+    if (this.count < kSamples) return;
+    if (!this.settled && this.settle(now)) return;
+    document.body.dataset['rest'] = String(this.frames);
+    this.panel.lux(this.luxShown ? this.luxThere() : undefined);
   }
 
-  private meter(moving: boolean, now: number): void {
-    const log = this.renderer.meter(this.scene);
+  /** The player meters the mean of a pixel's samples, which edges and noise make brighter than one of them: whether all are drawn once more. */
+  private settle(now: number): boolean {
+    const before = this.renderer.white;
+    this.settled = true;
+    this.meter(false, now, true);
+    if (Math.abs(Math.log2(this.renderer.white / before)) < kSettled) return false;
+    this.count = 0;
+    return true;
+  }
+
+  private meter(moving: boolean, now: number, mean = false): void {
+    const log = this.renderer.meter(this.scene, mean);
     this.meteredAt = now;
     if (log === undefined) return;
     const ev = Math.min(Math.max(log - Math.log2(1.2 * 0.18), -4), 17) + (this.byHand ?? 0);
