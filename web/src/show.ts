@@ -7,7 +7,8 @@ import type { LightsPanel } from './lights_panel';
 import type { Panel } from './panel';
 import type { Walk } from './walk';
 
-const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25, kFirstScale = 0.5, kSettled = 0.002;
+const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25, kFirstScale = 0.5;
+const kSettled = 0.002, kMostSettling = 5000;  // stops; ms of a frame that is worth drawing again for them
 const kLong = 200, kShare = 4;  // ms of a whole frame while pieces come: longer ones leave the device to the pieces for that many times as long
 
 export class Show {
@@ -146,7 +147,7 @@ export class Show {
     const before = this.renderer.white;
     this.settled = true;
     this.meter(false, now, true);
-    if (Math.abs(Math.log2(this.renderer.white / before)) < kSettled) return false;
+    if (this.took > kMostSettling || Math.abs(Math.log2(this.renderer.white / before)) < kSettled) return false;
     this.count = 0;
     return true;
   }

@@ -31,7 +31,7 @@ async function meanOf(browser, png) {
 async function show(site, browser, camera) {
   await browser.open('about:blank');
   await browser.open(`${site.url}#camera=${encodeURIComponent(camera)}&time=0`);
-  await browser.until(`document.body?.dataset.state === 'refused' || (document.body?.dataset.state === 'whole' && document.body.dataset.rest)`, 180);
+  await browser.until(`document.body?.dataset.state === 'refused' || (document.body?.dataset.state === 'whole' && document.body.dataset.rest)`, 300);
   if (await browser.evaluate(`document.body.dataset.state === 'refused'`)) throw new Error(await browser.evaluate(`document.getElementById('fallback-text').textContent`));
   await browser.evaluate(`for (const e of document.querySelectorAll('main > :not(canvas)')) e.style.display = 'none'`);
   await new Promise((done) => setTimeout(done, 300));
@@ -43,7 +43,7 @@ async function row(browser, site, pack, camera, at) {
   writeFileSync(web, await show(site, browser, camera));
   const wanted = [pack, '--offscreen', '--size', size.join('x'), ...(camera ? ['--camera', camera] : [])];
   run('oriel-play', ...wanted, '-o', desktop);
-  const flip = Number(/FLIP\D*([0-9.]+)/.exec(run('oriel-play', ...wanted, '-o', difference, '--compare', web))?.[1] ?? NaN);
+  const flip = Number(/FLIP\D*([0-9.e-]+)/.exec(run('oriel-play', ...wanted, '-o', difference, '--compare', web))?.[1] ?? NaN);
   await browser.open('about:blank');
   const [here, there] = [await meanOf(browser, readFileSync(web)), await meanOf(browser, readFileSync(desktop))];
   const wrong = [...browser.errors, ...(here < 0.002 && there > 0.004 ? ['the frame is black'] : [])];
