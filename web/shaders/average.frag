@@ -8,6 +8,7 @@ uniform float u_before_weight;
 uniform float u_exposure;    // 1 / (the luminance shown as white)
 uniform bool u_encode;       // the mean, sRGB-encoded
 uniform float u_count;
+uniform float u_share;       // above 0: that much of the light itself, for the meter
 uniform vec2 u_scale;        // pixels of the frame for one that is shown
 layout(location = 0) out vec4 o_color;
 
@@ -19,5 +20,9 @@ void main() {
     return;
   }
   vec4 light = texelFetch(u_frame, at, 0);
+  if (u_share > 0.0) {
+    o_color = light * u_share;
+    return;
+  }
   o_color = vec4(sum + (light.a > 1.5 ? tonemap_none(light.rgb) : tonemap_aces(light.rgb * u_exposure)), 1.0);
 }

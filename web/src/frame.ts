@@ -14,8 +14,10 @@ export const reflectorBits = 0x7f, seeThroughBit = 0x80;
 interface Frame { width: number; height: number; light: WebGLTexture; depth: WebGLTexture; target: WebGLFramebuffer; }
 interface Sum { texture: WebGLTexture; target: WebGLFramebuffer; }
 
+/** orders: of images in images, 0 is none; taps: of a kernel; largeOnly: no small reflectors, and no curved ones. */
 export interface FrameOptions { orders: number; taps: number; largeOnly: boolean; }
 export const wholeFrame: FrameOptions = { orders: 2, taps: 48, largeOnly: false };
+export const firstFrame: FrameOptions = { orders: 0, taps: 12, largeOnly: true };
 export const movingFrame: FrameOptions = { orders: 1, taps: 12, largeOnly: true };
 
 /** Where the samples of a pixel lie, as most devices have four. */
@@ -26,6 +28,7 @@ const kBlock = 16;
 export class Renderer {
   private frame?: Frame;
   private sums?: [Sum, Sum];
+  private mean?: Sum;  // of the samples' light
   private blocks?: { width: number; height: number; texture: WebGLTexture; target: WebGLFramebuffer };
   private readonly depth: Program;
   private readonly plainDepth: Program;
@@ -47,6 +50,15 @@ export class Renderer {
     this.reflections = new Reflections(device, this, this.none);
   }
 
+  /** Begins to compile what the first frame needs. */
+  start(): void {
+    for (const p of [this.plainDepth, this.plain, this.luminance, this.average]) p.start();
+  }
+  /** And what the others need. */
+  startRest(): void {
+    for (const p of [...this.reflections.programs, this.reflected, this.opaque, this.depth, this.transparent]) p.start();
+  }
+
   drawScreen(): void {
     const { gl } = this.device;
     gl.bindVertexArray(this.none);
@@ -56,14 +68,14 @@ export class Renderer {
   private ensure(width: number, height: number): Frame {
     if (this.frame?.width === width && this.frame.height === height) return this.frame;
     const { gl, color } = this.device;
-    for (const old of [this.frame?.light, this.frame?.depth, ...(this.sums ?? []).map((s) => s.texture)]) if (old) gl.deleteTexture(old);
-    for (const old of [this.frame?.target, ...(this.sums ?? []).map((s) => s.target)]) if (old) gl.deleteFramebuffer(old);
+    for (const old of [this.frame?.light, this.frame?.depth, ...[...(this.sums ?? []), this.mean].map((s) => s?.texture)]) if (old) gl.deleteTexture(old);
+    for (const old of [this.frame?.target, ...[...(this.sums ?? []), this.mean].map((s) => s?.target)]) if (old) gl.deleteFramebuffer(old);
     const light = makeTexture(gl, { width, height, format: color }), depth = makeTexture(gl, { width, height, format: gl.DEPTH24_STENCIL8 });
-    const sum = (): Sum => {
-      const texture = makeTexture(gl, { width, height, format: gl.RGBA16F });
+    const sum = (format: number): Sum => {
+      const texture = makeTexture(gl, { width, height, format });
       return { texture, target: makeTarget(gl, texture) };
     };
-    this.sums = [sum(), sum()];
+    this.sums = [sum(gl.RGBA16F), sum(gl.RGBA16F)], this.mean = sum(color);
     this.frame = { width, height, light, depth, target: makeTarget(gl, light, depth) };
     return this.frame;
   }
@@ -192,8 +204,25 @@ export class Renderer {
 
   white = 1.2;  // cd/m2 shown as white
 
-  /** Adds the frame, tone-mapped, to `count` that were drawn before; shows their mean. */
-  show(scene: GpuScene, count: number, width: number, height: number): void {
+  /** Adds a share of the frame's light to the mean of those before, if there are some. */
+  addToMean(share: number, first: boolean): void {
+    const { gl } = this.device, frame = this.frame!;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.mean!.target);
+    gl.viewport(0, 0, frame.width, frame.height);
+    apply(gl, first ? {} : { blend: 'add' });
+    if (!first) gl.blendFunc(gl.ONE, gl.ONE);  // alpha too: what is unlit does not count
+    this.average.use();
+    this.average.set('u_share', share);
+    this.average.set('u_encode', false);
+    this.average.set('u_before_weight', 0);
+    this.average.set('u_scale', [1, 1]);
+    bind(gl, 'u_frame', frame.light);
+    this.drawScreen();
+    this.average.set('u_share', 0);
+  }
+
+  /** Adds the frame, tone-mapped, to `count` that were drawn before; shows their mean, if that is to be seen. */
+  show(scene: GpuScene, count: number, width: number, height: number, seen = true): void {
     const scaled = this.frame!.width !== width || this.frame!.height !== height;
     const { gl } = this.device, frame = this.frame!, [a, b] = this.sums!;
     apply(gl, {});
@@ -209,6 +238,7 @@ export class Renderer {
     gl.viewport(0, 0, frame.width, frame.height);
     this.drawScreen();
     this.sums = [b, a];
+    if (!seen) return;
     bind(gl, 'u_before', b.texture);
     this.average.set('u_scale', scaled ? [frame.width / width, frame.height / height] : [1, 1]);
     this.average.set('u_before_weight', 1);
@@ -218,8 +248,8 @@ export class Renderer {
     this.drawScreen();
   }
 
-  /** Log2 luminance that the frame's look asks for (player/passes/display_pass.cpp); nothing where all is black. */
-  meter(scene: GpuScene): number | undefined {
+  /** Log2 luminance that the look of the frame, or of the samples' mean, asks for (player/passes/display_pass.cpp); nothing where all is black. */
+  meter(scene: GpuScene, mean = false): number | undefined {
     const { gl } = this.device, frame = this.frame!, width = Math.ceil(frame.width / kBlock), height = Math.ceil(frame.height / kBlock);
     if (this.blocks?.width !== width || this.blocks.height !== height) {
       const texture = makeTexture(gl, { width, height, format: this.device.color });
@@ -229,7 +259,7 @@ export class Renderer {
     gl.viewport(0, 0, width, height);
     apply(gl, {});
     this.luminance.use();
-    bind(gl, 'u_frame', frame.light);
+    bind(gl, 'u_frame', mean ? this.mean!.texture : frame.light);
     this.luminance.set('u_frame_size', [frame.width, frame.height]);
     this.luminance.set('u_block', kBlock);
     this.drawScreen();

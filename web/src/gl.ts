@@ -9,37 +9,51 @@ const units: Record<string, number> = {
   u_codes: 6, u_table: 7, u_light: 9, u_inverse_distance: 10, u_places: 12, u_normals: 13, u_shaded: 15,
 };
 
+/** Compiled from when it is started or first used, and waited for when it is used: meanwhile others compile beside it. */
 export class Program {
   private readonly at = new Map<string, { place: WebGLUniformLocation; type: number }>();
-  private constructor(private readonly gl: WebGL2RenderingContext, private readonly program: WebGLProgram) {}
+  private program?: WebGLProgram;
+  private linked = false;
+  private constructor(private readonly gl: WebGL2RenderingContext, private readonly name: string, private readonly define: string) {}
 
-  static make(gl: WebGL2RenderingContext, name: string, define = ''): Program {
-    const program = gl.createProgram()!;
-    const vertex = name.startsWith('screen_') ? 'screen_fullscreen' : name;
+  static make(gl: WebGL2RenderingContext, name: string, define = ''): Program { return new Program(gl, name, define); }
+
+  start(): void {
+    if (this.program) return;
+    const { gl, name } = this, vertex = name.startsWith('screen_') ? 'screen_fullscreen' : name;
+    this.program = gl.createProgram()!;
     for (const [type, file] of [[gl.VERTEX_SHADER, `${vertex}.vert`], [gl.FRAGMENT_SHADER, `${name}.frag`]] as const) {
       const shader = gl.createShader(type)!;
-      gl.shaderSource(shader, assembleShader(`passes/${file}`, define));
+      gl.shaderSource(shader, assembleShader(`passes/${file}`, this.define));
       gl.compileShader(shader);
-      gl.attachShader(program, shader);
+      gl.attachShader(this.program, shader);
     }
-    gl.linkProgram(program);
+    gl.linkProgram(this.program);
+  }
+
+  private finish(): void {
+    this.start();
+    this.linked = true;
+    const { gl } = this, program = this.program!;
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
       const logs = gl.getAttachedShaders(program)!.map((s) => gl.getShaderInfoLog(s)).join('');
-      throw new Error(`shader ${name} ${define}: ${logs}${gl.getProgramInfoLog(program)}`);
+      throw new Error(`shader ${this.name} ${this.define}: ${logs}${gl.getProgramInfoLog(program)}`);
     }
-    const out = new Program(gl, program);
     gl.useProgram(program);
     const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) as number;
     for (let i = 0; i < count; ++i) {
       const info = gl.getActiveUniform(program, i)!, place = gl.getUniformLocation(program, info.name)!;
-      out.at.set(info.name, { place, type: info.type });
+      this.at.set(info.name, { place, type: info.type });
       const unit = units[info.name];
       const sampler = [gl.SAMPLER_2D, gl.INT_SAMPLER_2D, gl.UNSIGNED_INT_SAMPLER_2D].includes(info.type as 35678);  // u_cells is a size elsewhere
       if (sampler && unit !== undefined) gl.uniform1i(place, unit);
     }
-    return out;
   }
-  use(): void { this.gl.useProgram(this.program); }
+
+  use(): void {
+    if (!this.linked) this.finish();
+    this.gl.useProgram(this.program!);
+  }
   set(name: string, value: number | boolean | ArrayLike<number>): void {
     const found = this.at.get(name), gl = this.gl;
     if (!found) return;

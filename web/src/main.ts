@@ -22,6 +22,7 @@ function sayNo(text: string): void {
   state('refused');
 }
 
+const kAhead = 3;    // pieces that are fetched at once, in the order that they are needed
 let begun = false;  // a scene is there to be shown
 
 const canvas = element('view') as HTMLCanvasElement;
@@ -40,10 +41,9 @@ class Walkthrough {
     this.lights = new LightsPanel(scene.groups, () => this.show?.dim());
   }
 
-  begin(): void {
-    const device = makeDevice(this.gl), pages = this.scene.pages.slice();
-    const gpu = new GpuScene(device, { ...this.scene, pages });
-    this.show = new Show(canvas, new Renderer(device), gpu, this.walk, panel, this.lights);
+  begin(renderer = new Renderer(makeDevice(this.gl))): void {
+    const gpu = new GpuScene(renderer.device, { ...this.scene, pages: this.scene.pages.slice() });
+    this.show = new Show(canvas, renderer, gpu, this.walk, panel, this.lights);
     for (const [name, sections] of this.pieces) this.take(name, sections);
   }
 
@@ -58,7 +58,7 @@ class Walkthrough {
     if (kind === 'field' && sections.field) show.scene.movers.setField(sections.field);
     if (kind === 'mover' && sections.movers[0]) show.scene.movers.add(at, sections.movers[0]);
     if (kind === 'lamps' && sections.pageGroups[0]) show.scene.setPageGroups(sections.pageGroups[0]);
-    show.changed();
+    show.pieceCame();
   }
 }
 
@@ -80,18 +80,23 @@ async function run(): Promise<void> {
   const manifest = await loadManifest(document.body.dataset['pieces']!, document.body.dataset['integrity']!);
   const all = manifest.pieces.reduce((sum, p) => sum + p.bytes, 0), first = manifest.pieces.find((p) => p.kind === 'scene');
   if (!first) throw new PieceError('found no scene among the pieces');
+  // While the scene comes the device wakes up, and compiles what the first frame needs.
+  const coming = loadPiece(first);
+  coming.catch(() => { /* told where it is awaited */ });
   const gl = contextOf();
   if (!gl) return sayNo('This page shows a building in three dimensions. Your browser cannot draw it: it lacks WebGL 2.');
+  const renderer = new Renderer(makeDevice(gl));
+  renderer.start();
   let done = first.bytes;
   panel.progress(0.05);
-  const scene = readPiece(await loadPiece(first), first.file);
+  const scene = readPiece(await coming, first.file);
   const most = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
   checkSizes(scene, first.file, most);
   const count = (kind: string): number => manifest.pieces.filter((p) => p.kind === kind).length;
   checkScene(scene, count('texture'), count('normal'), count('surround'));
   const walk = new Walk(scene);
   const walkthrough = new Walkthrough(gl, scene, walk);
-  walkthrough.begin();
+  walkthrough.begin(renderer);
   begun = true;
   panel.begin(walk, walkthrough.lights, () => walkthrough.show);
   const input = new Input(canvas, {
@@ -106,6 +111,7 @@ async function run(): Promise<void> {
   canvas.addEventListener('webglcontextrestored', () => {
     lost = false;
     walkthrough.begin();
+    if (document.body.dataset['state'] === 'whole') walkthrough.show!.allCame();
   });
   const tick = (now: number): void => {
     requestAnimationFrame(tick);
@@ -115,14 +121,20 @@ async function run(): Promise<void> {
     walkthrough.show?.frame(input, dt, now);
     if (walkthrough.show?.frames && document.body.dataset['state'] === 'loading') {
       gl.finish();
+      performance.mark('first frame');
       state('first');
     }
   };
-  requestAnimationFrame(tick);
+  const rest = manifest.pieces.filter((p) => p !== first), fetched: Promise<Uint8Array>[] = [];
+  const fetchTo = (end: number): void => {
+    for (let i = fetched.length; i < Math.min(end, rest.length); ++i) (fetched[i] = loadPiece(rest[i]!)).catch(() => { /* told where it is awaited */ });
+  };
+  fetchTo(kAhead);
+  tick(last);
   panel.progress(done / all);
-  for (const piece of manifest.pieces) {
-    if (piece === first) continue;
-    const sections = readPiece(await loadPiece(piece), piece.file);
+  for (const [i, piece] of rest.entries()) {
+    fetchTo(i + kAhead);
+    const sections = readPiece(await fetched[i]!, piece.file);
     checkPiece(sections, piece, most);
     if (piece.kind === 'mover') checkMover(sections.movers[0]!, scene);
     if (piece.kind === 'field') checkField(sections.field!, scene);
@@ -130,6 +142,7 @@ async function run(): Promise<void> {
     walkthrough.take(nameOf(piece), sections);
     panel.progress((done += piece.bytes) / all);
   }
+  walkthrough.show?.allCame();
   state('whole');
   panel.progress(1);
   panel.sizes(all, walkthrough.show?.scene.bytes ?? 0);

@@ -45,10 +45,13 @@ export class Reflections {
     this.pull = Program.make(gl, 'screen_pull'), this.blur = Program.make(gl, 'screen_convolve');
   }
 
+  get programs(): Program[] { return [this.mask, this.compose, this.convolve, this.emitters, this.pull, this.blur]; }
+
   /** Marks the reflectors that are seen in the target, whose depth is there. */
   drawMasks(scene: GpuScene, target: Target, options: FrameOptions): Marked[] {
     const out: Marked[] = [], { gl } = this.device, view = target.view;
     target.values = 0;
+    if (options.orders === 0) return out;
     for (const reflector of scene.reflectors) {
       const eye = v.transform(reflector.reflectorFromPack, view.eye);
       if (reflector.count === 0 || eye[2] <= (view.ortho ? kEdgeOn : kEdgeOn * reflector.size)) continue;

@@ -1,5 +1,5 @@
 // Which frame is drawn, how large, and how bright: moving ones keep up, and once nothing moves the whole frame is drawn.
-import { Renderer, movingFrame, wholeFrame } from './frame';
+import { Renderer, firstFrame, movingFrame, wholeFrame } from './frame';
 import { pick, rayThrough } from './pick';
 import type { GpuScene } from './scene';
 import type { Input } from './input';
@@ -7,7 +7,9 @@ import type { LightsPanel } from './lights_panel';
 import type { Panel } from './panel';
 import type { Walk } from './walk';
 
-const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25;
+const kSamples = 4, kRest = 120, kSlow = 50, kQuick = 25, kLeastScale = 0.25, kFirstScale = 0.5;
+const kSettled = 0.002, kMostSettling = 5000;  // stops; ms of a frame that is worth drawing again for them
+const kLong = 200, kShare = 4;  // ms of a whole frame while pieces come: longer ones leave the device to the pieces for that many times as long
 
 export class Show {
   private count = 0;        // samples that are shown
@@ -15,6 +17,7 @@ export class Show {
   private scale = 1;
   private hurries = false;  // whole frames take too long while something moves
   private began = false;
+  private presented = false;
   private meteredAt = -1e9;
   private byHand?: number;  // stops over what the meter finds
   private luxShown = false;
@@ -27,7 +30,33 @@ export class Show {
   }
 
   /** Something else is to be seen. */
-  changed(): void { this.count = 0; }
+  changed(): void {
+    this.count = 0;
+    this.settled = false;
+  }
+
+  private settled = false;  // the exposure is that of all samples
+  loading = true;         // pieces still come
+  private came = false;   // some of them since the last frame
+  private drawnAt = -1e9;
+  private took = 0;       // ms that the last whole frame took
+  pieceCame(): void { this.came = true; }
+  allCame(): void {
+    this.loading = false;
+    delete document.body.dataset['rest'];
+    this.changed();
+  }
+
+  /** Whether a frame at rest can wait, while pieces come to a device that draws slowly. */
+  private waits(now: number): boolean {
+    const busy = this.loading && this.took > kLong && this.count > 0;
+    if (this.came && (!busy || now - this.drawnAt > kShare * this.took)) {
+      this.came = false;
+      this.changed();
+      return false;
+    }
+    return busy || this.count >= kSamples;
+  }
 
   private dimmed = false;
   /** Lamps are to shine as the panel says, from the next frame on. */
@@ -59,20 +88,23 @@ export class Show {
     const height = Math.max(1, Math.round(this.canvas.clientHeight * Math.min(devicePixelRatio, 2)));
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width, this.canvas.height = height;
-      this.count = 0;
+      this.changed();
     }
     if (moved) {
       if (now - this.movedAt < 500) this.adapt(dt * 1000);
       this.movedAt = now;
-      this.count = 0;
+      this.changed();
       delete document.body.dataset['rest'];
     }
     if (!moved && now - this.movedAt > 500) this.hurries = false;
     const moving = this.began && now - this.movedAt < kRest;
-    if (!moving && this.count >= kSamples) return;
-    if (moving && !moved) return;
-    this.draw(moving, width, height, now);
-    this.began = true;
+    if (this.frames === 1 && !this.presented) {  // the next frame may take long: the first one is to be seen meanwhile
+      this.presented = true;
+      return;
+    }
+    if (moving ? !moved : this.waits(now)) return;
+    if (this.began) this.draw(moving, width, height, now);
+    else this.drawFirst(width, height, now);
     ++this.frames;
   }
 
@@ -82,20 +114,46 @@ export class Show {
     else if (ms < kQuick) this.scale = Math.min(this.scale * 1.05, 1);
   }
 
-  private draw(moving: boolean, width: number, height: number, now: number): void {
-    const scale = moving ? this.scale : 1, w = Math.max(1, Math.round(width * scale)), h = Math.max(1, Math.round(height * scale));
-    this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving && this.hurries ? movingFrame : wholeFrame);
-    if (moving ? now - this.meteredAt > 200 : this.count === 0) this.meter(moving, now);
-    this.renderer.show(this.scene, moving ? 0 : this.count, width, height);
-    this.count = moving ? 0 : this.count + 1;
-    if (this.count === kSamples) {
-      document.body.dataset['rest'] = String(this.frames);
-      this.panel.lux(this.luxShown ? this.luxThere() : undefined);
-    }
+  /** What is there soonest: the baked light alone, coarsely. What reflects follows. */
+  private drawFirst(width: number, height: number, now: number): void {
+    const half = (n: number): number => Math.max(1, Math.round(n * kFirstScale));
+    this.renderer.draw(this.scene, this.walk.camera, half(width), half(height), undefined, firstFrame);
+    this.meter(false, now);
+    this.renderer.show(this.scene, 0, width, height);
+    this.renderer.startRest();
+    this.began = true;
+    this.changed();
   }
 
-  private meter(moving: boolean, now: number): void {
-    const log = this.renderer.meter(this.scene);
+  private draw(moving: boolean, width: number, height: number, now: number): void {
+    const scale = moving ? this.scale : 1, w = Math.max(1, Math.round(width * scale)), h = Math.max(1, Math.round(height * scale));
+    const begin = performance.now(), meters = moving ? now - this.meteredAt > 200 : this.count === 0 && !this.settled;
+    this.renderer.draw(this.scene, this.walk.camera, w, h, moving ? undefined : this.count, moving && this.hurries ? movingFrame : wholeFrame);
+    if (meters) this.meter(moving, now);
+    if (meters && !moving) this.took = performance.now() - begin;  // the meter waits for the device
+    this.drawnAt = performance.now();
+    if (!moving && !this.settled) this.renderer.addToMean(1 / kSamples, this.count === 0);
+    const last = this.count === kSamples - 1;
+    this.renderer.show(this.scene, moving ? 0 : this.count, width, height, moving || !this.settled || last);
+    this.count = moving ? 0 : this.count + 1;
+    if (this.count < kSamples) return;
+    if (!this.settled && this.settle(now)) return;
+    document.body.dataset['rest'] = String(this.frames);
+    this.panel.lux(this.luxShown ? this.luxThere() : undefined);
+  }
+
+  /** The player meters the mean of a pixel's samples, which edges and noise make brighter than one of them: whether all are drawn once more. */
+  private settle(now: number): boolean {
+    const before = this.renderer.white;
+    this.settled = true;
+    this.meter(false, now, true);
+    if (this.took > kMostSettling || Math.abs(Math.log2(this.renderer.white / before)) < kSettled) return false;
+    this.count = 0;
+    return true;
+  }
+
+  private meter(moving: boolean, now: number, mean = false): void {
+    const log = this.renderer.meter(this.scene, mean);
     this.meteredAt = now;
     if (log === undefined) return;
     const ev = Math.min(Math.max(log - Math.log2(1.2 * 0.18), -4), 17) + (this.byHand ?? 0);

@@ -53,7 +53,8 @@ export class Floors {
 
   /** Where an eye is that walks from one place to another within dt seconds. fall: how fast it falls, kept by the caller. */
   walk(from: Vec3, to: Vec3, dt: number, state: { fall: number }): Vec3 {
-    const standing = this.stand(from[0], from[2], from[1])?.eye[1] ?? this.stand(from[0], from[2], from[1] + this.eyeHeight)?.eye[1];
+    // A camera near the floor stands on the one below it: it rises as it walks.
+    const standing = (this.stand(from[0], from[2], from[1]) ?? this.stand(from[0], from[2], from[1] + this.eyeHeight, 0))?.eye[1];
     if (standing === undefined) {
       const distance = this.distance(from);
       state.fall = 0;
