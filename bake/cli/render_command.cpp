@@ -118,6 +118,9 @@ ToolCommand render_command(BakeSession& session) {
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) -> Status {
     if (given.has("--error")) args->frame.samples = kMostSamples;
+    if (args->output.extension() != ".exr")
+      return fail(ErrorCode::kUsage, "-o " + args->output.string(),
+                  "found '{}', expected .exr: light in cd/m2, by component", args->output.extension().string());
     return {};
   };
   out.run = [args, &session] { return run_render(*args, session); };

@@ -4,6 +4,7 @@
 
 #include "bake/trace/lobe_fit.h"
 #include "formats/core/check.h"
+#include "formats/core/half.h"
 
 namespace oriel {
 namespace {
@@ -60,6 +61,25 @@ class Distribution {
   std::vector<std::pair<double, double>> values_;
 };
 
+float as_half(double value) {
+  return float_from_half(half_from_float(static_cast<float>(value)));
+}
+
+// Halves whose sum is 1 but for rounding, as a pack holds them: what they miss goes to the heaviest of the middle
+// column, which has no twin.
+void make_whole(std::vector<float>& weights, std::uint32_t size) {
+  std::vector<float*> middle;
+  for (std::uint32_t y = 0; y < size; ++y) middle.push_back(&weights[y * size + size / 2]);
+  std::ranges::sort(middle, [](const float* a, const float* b) { return *a > *b; });
+  double missing = 1;
+  for (const float w : weights) missing -= w;
+  for (float* weight : middle) {
+    const float before = *weight;
+    *weight = as_half(std::max(0.0, before + missing));
+    missing -= *weight - before;
+  }
+}
+
 std::vector<float> integrate_pixels(const LobeFunction& lobe, const MirrorFrame& frame, const KernelSlice& slice,
                                     std::uint32_t size) {
   std::vector<double> sums(std::size_t{size} * size);
@@ -83,7 +103,8 @@ std::vector<float> integrate_pixels(const LobeFunction& lobe, const MirrorFrame&
   ORIEL_CHECK(total > 0 && std::isfinite(total));
   std::vector<float> weights;
   weights.reserve(sums.size());
-  for (const double sum : sums) weights.push_back(static_cast<float>(sum / total));
+  for (const double sum : sums) weights.push_back(as_half(sum / total));
+  make_whole(weights, size);
   return weights;
 }
 

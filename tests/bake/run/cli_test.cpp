@@ -346,6 +346,7 @@ TEST_F(BakeCli, RenderExitCodesAndMessages) {
   EXPECT_EQ(run("oriel-bake render missing.glb -o a.exr"), 2);
   EXPECT_EQ(run("oriel-bake render cornell.glb -o nowhere/a.exr"), 2);
   EXPECT_EQ(run("oriel-bake render cornell.glb -o cornell.glb"), 1);
+  EXPECT_EQ(run("oriel-bake render cornell.glb -o cornell.png"), 1) << "light is written, as OpenEXR";
   EXPECT_FALSE(fs::exists(folder_ / "a.exr"));
 }
 
