@@ -20,12 +20,6 @@ vec3 shown(vec4 light) {
   return u_curve == 1 ? tonemap_aces(exposed) : tonemap_none(exposed);
 }
 
-// Walls lit by a far lamp change by less than a step of the display over a metre: rounded alone they show contours.
-// Between -1/2 and 1/2 of a step; Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare".
-float dither(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5;
-}
-
 void main() {
   ivec2 at = min(ivec2(gl_FragCoord.xy), u_frame_size - 1);
   vec3 sum = vec3(0.0);

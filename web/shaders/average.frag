@@ -16,7 +16,7 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy * u_scale);
   vec3 sum = u_before_weight > 0.0 ? texelFetch(u_before, at, 0).rgb : vec3(0.0);
   if (u_encode) {
-    o_color = vec4(srgb_from_linear(sum / u_count), 1.0);
+    o_color = vec4(srgb_from_linear(sum / u_count) + dither(gl_FragCoord.xy) / 255.0, 1.0);
     return;
   }
   vec4 light = texelFetch(u_frame, at, 0);
