@@ -10,23 +10,15 @@ constexpr Vec3 kHall{40, 6, 20};  // from the origin
 constexpr int kAlong = 20, kAcross = 10;
 constexpr Vec2 kPanel{2.4f, 0.6f};  // of the ceiling, 5 cm below it
 
-std::uint32_t paint(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-  SampleMaterial m;
-  m.name = std::move(name);
-  m.base_color = color;
-  m.emission = emission;
-  return add_material(scene, std::move(m));
-}
-
 void add_hall(SampleScene& scene) {
   const Vec3 x(kHall.x, 0, 0), y(0, kHall.y, 0), z(0, 0, kHall.z);
-  const std::uint32_t plaster = paint(scene, "plaster", Vec3(0.7f));
+  const std::uint32_t plaster = add_diffuse(scene, "plaster", Vec3(0.7f));
   const auto side = [&](std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
     SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
     add_quad(mesh, origin, u, v);
     place(scene, std::move(mesh));
   };
-  side("floor", paint(scene, "flags", Vec3(0.4f, 0.36f, 0.3f)), Vec3(0), z, x);
+  side("floor", add_diffuse(scene, "flags", Vec3(0.4f, 0.36f, 0.3f)), Vec3(0), z, x);
   side("ceiling", plaster, y, x, z);
   side("north wall", plaster, Vec3(0), x, y);
   side("south wall", plaster, z, y, x);
@@ -54,12 +46,12 @@ SampleScene make_colonnade() {
   SampleScene scene;
   scene.name = "Colonnade";
   add_hall(scene);
-  const std::uint32_t stone = paint(scene, "stone", Vec3(0.6f, 0.57f, 0.5f));
+  const std::uint32_t stone = add_diffuse(scene, "stone", Vec3(0.6f, 0.57f, 0.5f));
   for (int i = 0; i < kAlong; ++i)
     for (int j = 0; j < kAcross; ++j)
       add_column(scene, stone, Vec3(static_cast<float>(i) * 2 + 1, 0, static_cast<float>(j) * 2 + 1),
                  "column " + std::to_string(i + 1) + "." + std::to_string(j + 1));
-  const std::uint32_t lamp = paint(scene, "lamp", Vec3(0.8f), Vec3(9000, 8600, 8000));
+  const std::uint32_t lamp = add_diffuse(scene, "lamp", Vec3(0.8f), Vec3(9000, 8600, 8000));
   for (int k = 0; k < 8; ++k) {
     SampleMesh mesh{"lamp " + std::to_string(k + 1), lamp, {}, {}, {}, {}};
     const Vec3 middle(static_cast<float>(k % 4) * 10 + 5, kHall.y - 0.05f, static_cast<float>(k / 4) * 10 + 5);

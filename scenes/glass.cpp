@@ -7,14 +7,6 @@ namespace {
 constexpr Vec3 kRoom{3, 2.6f, 3};  // from the origin; open towards +z
 constexpr float kPanel = 0.7f;     // side of the ceiling panel
 
-std::uint32_t paint(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-  SampleMaterial m;
-  m.name = std::move(name);
-  m.base_color = color;
-  m.emission = emission;
-  return add_material(scene, std::move(m));
-}
-
 std::uint32_t glass(SampleScene& scene, std::string name, float thickness_m, const Vec3& left_after_1m,
                     float roughness = 0) {
   SampleMaterial m;
@@ -25,33 +17,26 @@ std::uint32_t glass(SampleScene& scene, std::string name, float thickness_m, con
   return add_material(scene, std::move(m));
 }
 
-void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
-                const Vec3& v) {
-  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
-  add_quad(mesh, origin, u, v);
-  place(scene, std::move(mesh));
-}
-
 void add_walls(SampleScene& scene) {
-  const std::uint32_t white = paint(scene, "white", Vec3(0.73f));
+  const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.73f));
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   place_quad(scene, "floor", white, Vec3(0), z, x);
   place_quad(scene, "back wall", white, Vec3(0), x, y);
   place_quad(scene, "front wall", white, z, y, x);
-  place_quad(scene, "left wall", paint(scene, "red", Vec3(0.61f, 0.06f, 0.06f)), Vec3(0), y, z);
-  place_quad(scene, "right wall", paint(scene, "green", Vec3(0.12f, 0.44f, 0.11f)), x, z, y);
+  place_quad(scene, "left wall", add_diffuse(scene, "red", Vec3(0.61f, 0.06f, 0.06f)), Vec3(0), y, z);
+  place_quad(scene, "right wall", add_diffuse(scene, "green", Vec3(0.12f, 0.44f, 0.11f)), x, z, y);
   const float low = 0.5f * (kRoom.x - kPanel), share = kPanel / kRoom.x;
   SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
   add_quad_around(ceiling, y, x, z, Vec2(0.5f - share / 2), Vec2(0.5f + share / 2));
   place(scene, std::move(ceiling));
-  place_quad(scene, "panel", paint(scene, "panel", Vec3(0.8f), Vec3(4000)), {low, kRoom.y, low}, {kPanel, 0, 0},
+  place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(4000)), {low, kRoom.y, low}, {kPanel, 0, 0},
              {0, 0, kPanel});
 }
 
 // What is seen bent, shifted or blurred behind the glass.
 void add_posts(SampleScene& scene) {
-  const std::uint32_t colors[] = {paint(scene, "blue", Vec3(0.08f, 0.15f, 0.5f)),
-                                  paint(scene, "yellow", Vec3(0.7f, 0.5f, 0.08f))};
+  const std::uint32_t colors[] = {add_diffuse(scene, "blue", Vec3(0.08f, 0.15f, 0.5f)),
+                                  add_diffuse(scene, "yellow", Vec3(0.7f, 0.5f, 0.08f))};
   for (int i = 0; i < 9; ++i) {
     SampleMesh post{"post " + std::to_string(i), colors[i % 2], {}, {}, {}, {}};
     const float x = 0.25f + 0.3f * static_cast<float>(i);

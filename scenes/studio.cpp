@@ -19,30 +19,15 @@ std::uint32_t metal(SampleScene& scene, std::string name, const Vec3& color, flo
   return add_material(scene, std::move(m));
 }
 
-std::uint32_t paint(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-  SampleMaterial m;
-  m.name = std::move(name);
-  m.base_color = color;
-  m.emission = emission;
-  return add_material(scene, std::move(m));
-}
-
-void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
-                const Vec3& v) {
-  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
-  add_quad(mesh, origin, u, v);
-  place(scene, std::move(mesh));
-}
-
 void add_walls(SampleScene& scene) {
-  const std::uint32_t white = paint(scene, "white", Vec3(0.75f));
-  const std::uint32_t floor = paint(scene, "oak", Vec3(0.42f, 0.28f, 0.16f));
+  const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.75f));
+  const std::uint32_t floor = add_diffuse(scene, "oak", Vec3(0.42f, 0.28f, 0.16f));
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   place_quad(scene, "floor", floor, Vec3(0), z, x);
   place_quad(scene, "north wall", white, Vec3(0), x, y);
-  place_quad(scene, "south wall", paint(scene, "yellow", Vec3(0.7f, 0.55f, 0.15f)), z, y, x);
-  place_quad(scene, "west wall", paint(scene, "red", Vec3(0.6f, 0.1f, 0.08f)), Vec3(0), y, z);
-  place_quad(scene, "east wall", paint(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), x, z, y);
+  place_quad(scene, "south wall", add_diffuse(scene, "yellow", Vec3(0.7f, 0.55f, 0.15f)), z, y, x);
+  place_quad(scene, "west wall", add_diffuse(scene, "red", Vec3(0.6f, 0.1f, 0.08f)), Vec3(0), y, z);
+  place_quad(scene, "east wall", add_diffuse(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), x, z, y);
   // The ceiling around its panel: four strips, and the panel in the hole.
   const Vec3 low = 0.5f * (kRoom - kPanel), high = low + kPanel;
   SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
@@ -54,7 +39,7 @@ void add_walls(SampleScene& scene) {
   strip(0, low.z, low.x, high.z);
   strip(high.x, low.z, kRoom.x, high.z);
   place(scene, std::move(ceiling));
-  place_quad(scene, "panel", paint(scene, "panel", Vec3(0.8f), Vec3(2500)), Vec3(low.x, kRoom.y, low.z),
+  place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(2500)), Vec3(low.x, kRoom.y, low.z),
              Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel));
 }
 
@@ -66,7 +51,7 @@ void add_balls(SampleScene& scene) {
   };
   ball("mirror ball", metal(scene, "chrome", Vec3(0.9f), 0), Vec3(1.3f, 0.4f, 2), 0.4f);
   ball("brushed ball", metal(scene, "brass", Vec3(0.9f, 0.7f, 0.35f), 0.25f), Vec3(2.4f, 0.3f, 2.5f), 0.3f);
-  SampleMesh block{"block", paint(scene, "green", Vec3(0.15f, 0.45f, 0.18f)), {}, {}, {}, {}};
+  SampleMesh block{"block", add_diffuse(scene, "green", Vec3(0.15f, 0.45f, 0.18f)), {}, {}, {}, {}};
   add_box(block, Vec3(1.75f, 0, 1.2f), Vec3(2.15f, 0.7f, 1.6f), kSides | kTop);
   place(scene, std::move(block));
 }
@@ -79,7 +64,7 @@ void add_lamp(SampleScene& scene) {
       {{0.16f, 0}, {0.16f, 0.02f}, {0.12f, 0.035f}, {0.02f, 0.05f}, {0.02f, 1.42f}, {0, 1.42f}}};
   add_lathe(stand, foot, profile, 32);
   place(scene, std::move(stand));
-  SampleMesh globe{"lamp globe", paint(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500)), {}, {}, {}, {}};
+  SampleMesh globe{"lamp globe", add_diffuse(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500)), {}, {}, {}, {}};
   add_sphere(globe, foot + Vec3(0, 1.54f, 0), 0.12f, 32, 16);
   place(scene, std::move(globe));
 }

@@ -22,10 +22,11 @@ void place(SampleScene& scene, std::uint32_t mesh, std::string name, const Vec3&
   scene.nodes.push_back({std::move(name), mesh, position, yaw_rad});
 }
 
-std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color) {
+std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission) {
   SampleMaterial material;
   material.name = std::move(name);
   material.base_color = color;
+  material.emission = emission;
   return add_material(scene, std::move(material));
 }
 

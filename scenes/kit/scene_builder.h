@@ -81,8 +81,8 @@ void place(SampleScene& scene, SampleMesh mesh, const Vec3& position = Vec3(0), 
 // One more use of a mesh.
 void place(SampleScene& scene, std::uint32_t mesh, std::string name, const Vec3& position, float yaw_rad = 0);
 
-// A purely diffuse material; its index.
-std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color);
+// A purely diffuse material, which may emit (cd/m²); its index.
+std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission = Vec3(0));
 
 // Everything `factor` times as large about the origin, cameras and walks too. Radiance stays: light falls as before.
 void scale_scene(SampleScene& scene, double factor);

@@ -74,6 +74,13 @@ void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, 
   add_triangle(mesh, j, j + 1, j + 2);
 }
 
+void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
+                const Vec3& v) {
+  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+  add_quad(mesh, origin, u, v);
+  place(scene, std::move(mesh));
+}
+
 void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
                      const Vec2& high) {
   const auto at = [&](float s, float t) { return origin + s * u + t * v; };

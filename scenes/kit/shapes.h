@@ -22,6 +22,9 @@ enum BoxFace : unsigned {
 
 // The rectangle origin, +u, +u+v, +v; its front is the side that u × v points to.
 void add_quad(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
+// One alone, as a mesh used once.
+void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
+                const Vec3& v);
 // Four corners, counter-clockwise from the front; flat shaded, also where they are not quite in a plane.
 void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // The rectangle of add_quad around a hole from low to high, both shares of u and v in (0, 1); four faces without

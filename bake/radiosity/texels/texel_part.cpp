@@ -52,7 +52,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     return is_buried(transport, p, ~seeds::kWalls, map.texel[texel], k, rays);
   };
   const SurfacePoint middle = point(Vec3(0.5f));
-  look_for_lamp(*corners, middle.geometric_normal, rays);
+  if (transport.lights.power() != DVec3(0)) look_for_lamp(*corners, middle.geometric_normal, rays);
   const Vec3 up = lift_ * middle.geometric_normal;
   if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
       !is_covered(middle, kPoints))
