@@ -24,6 +24,8 @@ struct LightPatch {
   std::vector<DVec3> booked;          // the same by group of lamps, if asked
   Vec3 unreflected{0};                // of it what comes straight from sky and emitters
   double area_m2 = 0;
+  std::uint32_t rays = 0;
+  bool follows_near = false;          // GatherRay::near of its rays
   std::uint32_t x = 0, y = 0;         // of its block
   std::uint64_t stream = 0;           // of its random numbers: its block's, which no other block's shape changes
   std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it

@@ -9,17 +9,20 @@
 #include "bake/jobs/units.h"
 #include "bake/radiosity/estimators/patch_list.h"
 #include "bake/radiosity/texels/seeds.h"
+#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kGroup = 64;   // patches whose rays of one number are traced together
-constexpr double kWhole = 1 + 1e-6;  // of the light, and what rounding adds
-constexpr double kRounding = 1e-5;   // of a patch's light: no growth yet
-constexpr double kDim = 1e-4;        // of the mean: what is darker need not be done
-constexpr int kPatience = 24;        // sweeps over which light may spread before a growth is one
-constexpr int kHasty = 200;          // sweeps that are taken however little time there is: they are cheap
-constexpr double kEndless = 0.1;     // a bound on further bounces from which light is said not to die away
+constexpr std::size_t kGroup = 64;    // patches whose rays of one number are traced together
+constexpr double kWhole = 1 + 1e-6;   // of the light, and what rounding adds
+constexpr double kRounding = 1e-5;    // of a patch's light: no growth yet
+constexpr double kDim = 1e-4;         // of the mean: what is darker need not be done
+constexpr int kPatience = 24;         // sweeps over which light may spread before a growth is one
+constexpr int kHasty = 200;           // sweeps that are taken however little time there is: they are cheap
+constexpr double kEndless = 0.1;      // a bound on further bounces from which light is said not to die away
+constexpr double kMuch = 2;           // of what patches hand on of direct light on the mean
+constexpr std::uint32_t kOfMuch = 8;  // times as many rays for those that hand on so much, out of a gap or a corner
 
 class Solver {
  public:
@@ -50,6 +53,7 @@ class Solver {
       std::sort(patch.beside.begin(), patch.beside.end());
       patch.beside.erase(std::unique(patch.beside.begin(), patch.beside.end()), patch.beside.end());
     }
+    share_rays();
   }
 
   Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
@@ -63,7 +67,7 @@ class Solver {
     };
     loop.compute = [&](std::size_t g) {
       std::uint64_t traced = 0;
-      for (std::uint32_t k = 0; k < options_.rays_per_patch; ++k)
+      for (std::uint32_t k = 0; k < kOfMuch * options_.rays_per_patch; ++k)
         traced += trace_sample(g * kGroup, group_end(g), k, seed);
       for (std::size_t p = g * kGroup; p < group_end(g); ++p) join_links(patches_[p].links);
       return traced;
@@ -106,41 +110,64 @@ class Solver {
   std::size_t group_end(std::size_t g) const { return std::min(patches_.size(), (g + 1) * kGroup); }
   // Texels take turns in proportion to the surface that they show.
   std::uint32_t texel_for(const LightPatch& patch, std::uint32_t turn) const {
-    const double target = (turn + 0.5) / (options_.rays_per_patch / kSites) * patch.area_m2;
+    const double target = (turn + 0.5) / (patch.rays / kSites) * patch.area_m2;
     double sum = 0;
     for (const std::uint32_t t : patch.texels)
       if ((sum += shown_m2(t)) >= target) return t;
     return patch.texels.back();
   }
+  // The rim of a gap with a lamp in it lights a whole room, and is a few patches: 64 rays told its light to a half, and
+  // what is near of the lamp's back, to half as much again, as texels there are wider than the gap.
+  void share_rays() {
+    std::vector<double> handed_on(patches_.size(), 0);
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      for (const std::uint32_t t : patches_[p].texels)
+        handed_on[p] += shown_m2(t) * luminance(texels_.albedo[t] * direct_[t]);
+    const double mean = std::accumulate(handed_on.begin(), handed_on.end(), 0.0) / static_cast<double>(patches_.size());
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+      LightPatch& patch = patches_[p];
+      const bool much = !options_.most && handed_on[p] > kMuch * mean;  // paths from what is near count no bounces
+      const bool crowded = std::ranges::any_of(patch.texels, [&](auto t) { return texels_.has_many[t]; });
+      patch.follows_near = much;
+      patch.rays = options_.rays_per_patch * (much && crowded ? kOfMuch : 1);
+    }
+  }
   double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
 
   std::uint64_t trace_sample(std::size_t first, std::size_t end, std::uint32_t k, std::uint64_t seed) {
     std::vector<Ray> batch;
-    std::vector<GatherRay> about(end - first);
+    std::vector<GatherRay> about;
+    std::vector<std::size_t> asks;
     for (std::size_t p = first; p < end; ++p) {
+      if (k >= patches_[p].rays) continue;
+      asks.push_back(p);
       const std::uint32_t t = texel_for(patches_[p], k / kSites);
-      GatherRay& ray = about[p - first];
+      GatherRay& ray = about.emplace_back();
       const GatherSite site(texels_.site_for(t, static_cast<int>(k % kHalves), k / kHalves));
       batch.push_back(site.ray(Sampler(seed, patches_[p].stream, k).next2()));
       if (around_.weighs()) ray.incidence = site.incidence(batch.back().direction);
       ray.stream = ~patches_[p].stream;
+      ray.near = patches_[p].follows_near;
       ray.sample = k;
     }
+    if (batch.empty()) return 0;
     Answers answers;
     around_.answer(batch, about, answers);
-    const float share = 1.0f / static_cast<float>(options_.rays_per_patch);
     const auto link_to = [&](std::uint32_t ray, std::uint32_t texel, const Vec3& weight) {
-      LightPatch& patch = patches_[first + ray];
+      LightPatch& patch = patches_[asks[ray]];
+      const float share = 1.0f / static_cast<float>(patch.rays);
       patch.source += DVec3(weight * direct_[texel] * share);
       for (std::size_t g = 0; g < patch.booked.size(); ++g)
         patch.booked[g] += DVec3(weight * options_.booked->of(texel)[g] * share);
       if (patch_of_[texel] != ~0u) patch.links.push_back({patch_of_[texel], weight * share});
     };
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
-      patches_[first + i].source += DVec3(answers.light[i] * (kPi * share));
-      for (std::size_t g = 0; g < patches_[first + i].booked.size(); ++g)
-        patches_[first + i].booked[g] += DVec3(answers.booked[i * around_.groups() + g] * (kPi * share));
-      patches_[first + i].unreflected += answers.unreflected[i] * (kPi * share);
+      LightPatch& patch = patches_[asks[i]];
+      const float share = kPi / static_cast<float>(patch.rays);
+      patch.source += DVec3(answers.light[i] * share);
+      for (std::size_t g = 0; g < patch.booked.size(); ++g)
+        patch.booked[g] += DVec3(answers.booked[i * around_.groups() + g] * share);
+      patch.unreflected += answers.unreflected[i] * share;
       if (const std::uint32_t texel = answers.texel[i]; texel != kNoTexel)
         link_to(i, texel, answers.share[i] * texels_.albedo[texel]);
     }
