@@ -35,42 +35,51 @@ uniform samplerCube u_around;       // light, a 1 / distance, 0 for the sky
 uniform vec3 u_around_centre;
 uniform float u_around_size;        // texels a side
 
-layout(location = 0) out vec4 o_light;  // a: 1
+layout(location = 0) out vec4 o_light;  // a: 1; 2 where the lobe is wider than 4 x 4 pixels everywhere
 
 const int kCrossings = 6;       // surfaces that a clear ray meets within
 const int kFrostedCrossings = 3;
 const float kLeast = 0.004;     // of the light: what brings less is not followed
+const float kSmooth = 1.5;      // pixels between rays
+const int kDoublings = 8;
 const float kFaint = 0.1;       // of it: less is seen from the body's middle
-const int kSteps = 48;          // of a ray over the screen
+const int kSteps = 64;          // of a ray over the screen
 const int kFrostedSteps = 8;
 const float kThickness = 0.05;  // of its distance: a surface this far before a ray is not met
 
+// As it is seen from the middle of the body: first how far the ray comes before it passes what is seen there, in steps that double,
+// then where it leaves the sphere on which that lies.
 vec3 light_around(vec3 origin, vec3 direction, float spread) {
   vec3 from = origin - u_around_centre;
   float along = dot(from, direction), apart = dot(from, from) - along * along, inverse = 0.0;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kDoublings; ++i) {
+    float way = 0.25 * u_radius * exp2(float(i));
+    vec3 at = from + way * direction;
+    if (textureLod(u_around, at, 0.0).a * length(at) < 1.0) continue;
+    inverse = 1.0 / way;
+    break;
+  }
+  for (int i = 0; i < 3; ++i) {
     float seen = textureLod(u_around, direction + inverse * from, 0.0).a;
-    if (!(seen > 1e-12)) {
-      inverse = 0.0;
-      break;
-    }
-    inverse = 1.0 / max(sqrt(max(1.0 / (seen * seen) - apart, 0.0)) - along, 1e-3 / seen);
+    if (seen > 1e-12) inverse = 1.0 / max(sqrt(max(1.0 / (seen * seen) - apart, 0.0)) - along, 1e-3 / seen);
   }
   return textureLod(u_around, direction + inverse * from, log2(max(0.5 * spread * u_around_size, 1.0))).rgb;
 }
 
 float depth_at(vec2 ndc) { return 2.0 * textureLod(u_behind, (0.5 * ndc + 0.5) * u_behind_size / vec2(textureSize(u_behind, 0)), 0.0).a - 1.0; }
 
-bool is_near(float depth, float surface) { return depth - surface <= kThickness * max(1.0 - surface, 1e-7); }
+// The sky is met behind everything.
+bool is_near(float depth, float surface) { return surface >= 1.0 || depth - surface <= kThickness * max(1.0 - surface, 1e-7); }
 
 // Along the screen from a to b, normalised device coordinates: the share of the way at which the ray meets what is seen there; -1
-// where it leaves the screen without, -2 where something nearer hides it there. frosted: in few steps, that grow with the way.
+// where it leaves the screen without, -2 where something nearer hides it there. Steps of a pixel; frosted: few, that
+// grow with the way.
 float meet(vec3 a, vec3 b, bool frosted) {
   vec2 way = b.xy - a.xy;
   float end = 1.0;
   for (int c = 0; c < 2; ++c)
     if (abs(way[c]) > 1e-9) end = min(end, max((sign(way[c]) - a[c]) / way[c], 0.0));
-  int steps = clamp(int(0.25 * length(end * way * u_behind_size)), 2, frosted ? kFrostedSteps : kSteps);
+  int steps = clamp(int(0.5 * length(end * way * u_behind_size)), 2, frosted ? kFrostedSteps : kSteps);
   float before = 0.0;
   bool in_front = a.z <= depth_at(a.xy);
   for (int i = 1; i <= steps; ++i) {
@@ -96,20 +105,25 @@ float meet(vec3 a, vec3 b, bool frosted) {
   return in_front ? -1.0 : -2.0;
 }
 
-// Coarser levels are means of near and far: where a level's depth is not that of what was met, a finer one is taken.
+// Coarser levels are means of near and far: as far as a level's depth is not that of what was met, a finer one tells.
 vec3 light_behind(vec2 ndc, float depth, float pixels) {
-  float level = u_levels ? log2(max(0.7 * pixels, 1.0)) : 0.0;
-  vec4 found = vec4(0.0);
-  for (int i = 0; i < 3; ++i) {
+  float level = u_levels ? log2(max(0.7 * pixels, 1.0)) : 0.0, left = 1.0;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 5 && left > 0.02; ++i) {
     float margin = 0.5 * exp2(level);
     vec2 at = clamp((0.5 * ndc + 0.5) * u_behind_size, min(vec2(margin), 0.5 * u_behind_size),
                     max(u_behind_size - margin, 0.5 * u_behind_size));
-    found = textureLod(u_behind, at / vec2(textureSize(u_behind, 0)), level);
-    if (level <= 0.0 || abs(2.0 * found.a - 1.0 - depth) <= kThickness * max(1.0 - depth, 1e-7)) break;
-    level = max(level - 1.5, 0.0);
+    vec4 found = textureLod(u_behind, at / vec2(textureSize(u_behind, 0)), level);
+    float off = abs(2.0 * found.a - 1.0 - depth) / (kThickness * max(1.0 - depth, 1e-7));
+    float share = level <= 0.0 ? 1.0 : 1.0 - smoothstep(0.3, 1.5, off);
+    sum += left * share * found.rgb;
+    left *= 1.0 - share;
+    level = i < 3 ? max(level - 1.5, 0.0) : 0.0;
   }
-  return found.rgb;
+  return sum / max(1.0 - left, 1e-3);
 }
+
+float g_least_pixels = 1e9;  // between rays of the lobe where they meet something
 
 // Light from along a ray that has left the glass; a: 0 where something hides what a frosted ray would see, so that others tell.
 // spread: of the bundle, radians.
@@ -125,6 +139,7 @@ vec4 look(vec3 origin, vec3 direction, float spread, bool frosted) {
     if (at >= 0.0) {
       float along = perspective ? at / max(1.0 - at, 1e-6) * from.w / way.w : at * u_far;
       float pixels = spread * along * u_pixels_per_tangent / (perspective ? from.w + along * way.w : 1.0);
+      g_least_pixels = min(g_least_pixels, pixels);
       vec3 met = mix(a, b, at);
       return vec4(light_behind(met.xy, met.z, pixels), 1.0);
     }
@@ -195,19 +210,21 @@ void main() {
   float spread = pixel_spread(origin, clear);
   if (place.a == 0.0) discard;
   vec4 sum = vec4(0.0);
+  // Each of 4 x 4 neighbours looks elsewhere in the lobe.
+  float turn = float(pixel.x % 4 * 4 + pixel.y % 4) / 16.0;
   for (int i = 0; i < u_looks; ++i) {
-    float share = (float(i) + 0.5) / float(u_looks), wide = spread;
+    float share = (float(i) + fract(turn * 7.0 + 1.0 / 32.0)) / float(u_looks), wide = spread;
     vec3 d = clear;
     if (u_width > 0.0 && !u_inside) {
-      vec3 facet = visible_facet(normal, to_eye, u_width, vec2(fract(0.618034 * float(i)), share));
+      vec3 facet = visible_facet(normal, to_eye, u_width, vec2(fract(0.618034 * float(i) + turn), share));
       d = on_side(refracted(to_eye, facet, u_ior, refracted_cosine(u_ior, dot(to_eye, facet))), -normal);
       wide = max(spread, 1.5 * (u_ior - 1.0) * facet_step(u_width, dot(facet, normal), float(u_looks)));
     }
-    sum += light_within(origin, d, vec2(fract(0.754878 * float(i)), fract(0.569840 * float(i) + 0.5)), wide);
+    sum += light_within(origin, d, fract(vec2(0.754878, 0.569840) * float(i) + vec2(turn, 5.0 * turn)), wide);
   }
   // Radiance is n^2 times as dense in glass.
   vec3 entered = u_inside ? vec3(u_ior * u_ior)
                           : u_tint * texelFetch(u_tints, pixel, 0).rgb * (1.0 - max_channel(reflected_at(cos_theta)));
   vec3 light = sum.a > 0.02 * float(u_looks) ? sum.rgb / sum.a : light_around(origin, -to_eye, 0.5);
-  o_light = vec4(entered * light, 1.0);
+  o_light = vec4(entered * light, u_width > 0.0 && g_least_pixels > kSmooth ? 2.0 : 1.0);
 }

@@ -117,19 +117,27 @@ def block(cornell):
     return scene
 
 
-BOARDS = [(0.06, 0.01), (0.2, 0.06), (0.34, 0.15)]  # left edge, metres behind the screen
 SCREEN = 0.05
 
 
 def frosted(cornell):
-    """The Cornell box behind a frosted screen, with black boards at three distances behind it."""
+    """The Cornell box behind a frosted screen."""
     scene = Scene(cornell)
     scene.box("frosted screen", (0.275, 0.2, SCREEN), (0.5, 0.38, 0.006), scene.glass_of(0.006, 0.3), 0, True)
-    dark, pale = scene.diffuse((0.02, 0.02, 0.02)), scene.diffuse((0.8, 0.8, 0.8))
+    return scene
+
+
+BOARDS = [(0.09, 0.01), (0.24, 0.04), (0.39, 0.15)]  # left edge, metres behind the screen
+
+
+def boards(cornell):
+    """Black boards at three distances behind a frosted screen, before a bright wall."""
+    scene = Scene(cornell)
+    scene.box("frosted screen", (0.275, 0.2, SCREEN), (0.5, 0.38, 0.006), scene.glass_of(0.006, 0.3), 0, True)
+    scene.box("bright", (0.275, 0.25, 0.218), (0.54, 0.5, 0.004), scene.diffuse((0, 0, 0), 100))
+    black = scene.diffuse((0, 0, 0))
     for left, behind in BOARDS:
-        z = SCREEN + 0.003 + behind
-        scene.box("dark", (left + 0.03, 0.2, z + 0.004), (0.06, 0.3, 0.004), dark)
-        scene.box("pale", (left + 0.09, 0.2, z + 0.004), (0.06, 0.3, 0.004), pale)
+        scene.box("board", (left + 0.035, 0.2, SCREEN + 0.005 + behind), (0.07, 0.36, 0.004), black)
     return scene
 
 
