@@ -178,8 +178,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       });
     }
     ORIEL_TRY(const float white, white_for(scene, options));
-    ORIEL_TRY_VOID(clock_.time(
-        Pass::kTransparent, [&] { return draw_see_through(scene, view, weights, white, options, stats); }));
+    ORIEL_TRY_VOID(
+        clock_.time(Pass::kTransparent, [&] { return draw_see_through(scene, view, weights, white, options, stats); }));
   }
   for (const MarkedReflector& m : marked)
     if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));

@@ -21,11 +21,11 @@ enum GlassUnit {
 };
 
 constexpr int kShapeSize = 128, kAroundSize = 256;  // texels a side of a face
-constexpr std::ptrdiff_t kMostAround = 16;             // bodies that the scene is drawn around; others use the nearest one's
-constexpr float kLeastOfPicture = 1e-4f;            // of it, that a body covers for that
-constexpr float kClear = 0.02f;                     // roughness below which glass does not blur
-constexpr float kMostIor = 10;                      // beyond it numbers run out
-constexpr int kLooks = 32, kCoarseLooks = 8;        // of a lobe
+constexpr std::ptrdiff_t kMostAround = 16;    // bodies that the scene is drawn around; others use the nearest one's
+constexpr float kLeastOfPicture = 1e-4f;      // of it, that a body covers for that
+constexpr float kClear = 0.02f;               // roughness below which glass does not blur
+constexpr float kMostIor = 10;                // beyond it numbers run out
+constexpr int kLooks = 32, kCoarseLooks = 8;  // of a lobe
 
 // As OpenGL has the faces of a cube.
 Camera face_camera(const Vec3& eye, int face) {
@@ -179,9 +179,9 @@ Status GlassPass::make_canvas(const IVec2& size) {
   nearest_ = gpu::Texture2d(gpu::kDepthStencil, size.x, size.y, nullptr);
   ORIEL_TRY_VOID(gpu::check_gl("making the images of glass"));
   ORIEL_TRY(behind_framebuffer_, gpu::Framebuffer::create("the image behind glass", &behind_, nullptr));
-  ORIEL_TRY(surfaces_framebuffer_, gpu::Framebuffer::create("surfaces of glass",
-                                                            std::array<const gpu::Texture2d*, 3>{&places_, &normals_, &tints_},
-                                                            nearest_));
+  ORIEL_TRY(surfaces_framebuffer_,
+            gpu::Framebuffer::create("surfaces of glass",
+                                     std::array<const gpu::Texture2d*, 3>{&places_, &normals_, &tints_}, nearest_));
   ORIEL_TRY(shaded_framebuffer_, gpu::Framebuffer::create("light of glass", &shaded_, nullptr));
   return {};
 }

@@ -55,7 +55,8 @@ class ScenePass {
   // for an orthographic view 1 / its depth, at least kClosest.
   void draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
-  // which has no stencil, everywhere. white: as FrameOptions. glass: of bodies; none: they are drawn thin. Errors of it.
+  // which has no stencil, everywhere. white: as FrameOptions. glass: of bodies; none: they are drawn thin. Errors of
+  // it.
   Status draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
                           FrameStats& stats, const DrawGlass& glass = {}) const;
 

@@ -11,9 +11,9 @@
 namespace oriel {
 namespace {
 
-constexpr float kOnPlane = 1e-4f;      // of a body's radius
-constexpr float kSameNormal = 1e-6f;   // 1 - cosine
-constexpr double kHidden = 1e-3;       // of a body's area, that its middle may not see
+constexpr float kOnPlane = 1e-4f;     // of a body's radius
+constexpr float kSameNormal = 1e-6f;  // 1 - cosine
+constexpr double kHidden = 1e-3;      // of a body's area, that its middle may not see
 
 struct Triangle {
   std::array<std::uint32_t, 3> corners;  // into Mesh::positions

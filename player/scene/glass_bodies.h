@@ -16,16 +16,16 @@ struct GlassBody {
   std::uint32_t material = 0;  // into Pack::materials
   std::uint32_t solid = 0;     // into Pack::solids
   Bounds bounds;
-  Vec3 centre{0};     // inside; all of the surface is seen from there
-  float radius = 0;   // of the sphere around the centre that holds it
+  Vec3 centre{0};    // inside; all of the surface is seen from there
+  float radius = 0;  // of the sphere around the centre that holds it
   // Convex polyhedra: xyz the outward normal, inside where dot(xyz, p) + w <= 0. None: curved.
   std::vector<Vec4> planes;
   std::vector<DrawRange> ranges;  // a lightmap page each
 };
 
 // Connected surfaces of `ranges`' triangles that are of solid materials become bodies where they are star-shaped about
-// their middle, of any lightmap pages. Their indices are appended, and `ranges` keeps what is none: other materials, and
-// hollow or branched glass.
+// their middle, of any lightmap pages. Their indices are appended, and `ranges` keeps what is none: other materials,
+// and hollow or branched glass.
 std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
                                          std::vector<DrawRange>& ranges);
 

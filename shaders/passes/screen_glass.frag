@@ -66,7 +66,11 @@ vec3 light_around(vec3 origin, vec3 direction, float spread) {
   return textureLod(u_around, direction + inverse * from, log2(max(0.5 * spread * u_around_size, 1.0))).rgb;
 }
 
-float depth_at(vec2 ndc) { return 2.0 * textureLod(u_behind, (0.5 * ndc + 0.5) * u_behind_size / vec2(textureSize(u_behind, 0)), 0.0).a - 1.0; }
+// Of the nearest pixel: between near and far ones there is nothing.
+float depth_at(vec2 ndc) {
+  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * u_behind_size), ivec2(0), ivec2(u_behind_size) - 1);
+  return 2.0 * texelFetch(u_behind, pixel, 0).a - 1.0;
+}
 
 // The sky is met behind everything.
 bool is_near(float depth, float surface) { return surface >= 1.0 || depth - surface <= kThickness * max(1.0 - surface, 1e-7); }
@@ -96,8 +100,8 @@ float meet(vec3 a, vec3 b, bool frosted) {
         if (m.z >= depth_at(m.xy)) high = middle;
         else low = middle;
       }
-      vec3 m = mix(a, b, high);
-      if (is_near(m.z, depth_at(m.xy))) return high;
+      // What begins nearer than the ray was in front is beside it.
+      if (is_near(mix(a, b, low).z, depth_at(mix(a, b, high).xy))) return high;
     }
     in_front = !behind;
     before = at;
