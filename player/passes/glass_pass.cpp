@@ -25,7 +25,7 @@ constexpr std::ptrdiff_t kMostAround = 16;    // bodies that the scene is drawn 
 constexpr float kLeastOfPicture = 1e-4f;      // of it, that a body covers for that
 constexpr float kClear = 0.02f;               // roughness below which glass does not blur
 constexpr float kMostIor = 10;                // beyond it numbers run out
-constexpr int kLooks = 32, kCoarseLooks = 8;  // of a lobe
+constexpr int kLooks = 32, kCoarseLooks = 4;  // of a lobe
 
 // As OpenGL has the faces of a cube.
 Camera face_camera(const Vec3& eye, int face) {
