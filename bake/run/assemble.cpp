@@ -123,9 +123,12 @@ void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack
     Material m;
     m.name = in.name;
     m.base_color = in.base_color;
-    // The player draws a solid's front faces only, straight: they have the tint of the back ones and of the glass too.
-    if (in.solid)
+    // Who does not know of solids draws their front faces only, straight: they have the tint of the back ones and of
+    // the glass too.
+    if (in.solid) {
+      pack.solids.push_back({static_cast<std::uint32_t>(i), in.base_color, in.absorption});
       m.base_color *= glm::mix(Vec3(1), in.base_color * glm::exp(-in.absorption * in.thickness_m), mean.transmission);
+    }
     m.alpha = in.alpha;
     m.alpha_mode = in.alpha_mode;
     m.alpha_cutoff = in.alpha_cutoff;

@@ -68,11 +68,12 @@ void remove_walk_grids(Pack& pack) {
   pack.reflected_sets = {};
 }
 
-const std::array<Removable, 12>& removables() {
-  static const std::array<Removable, 12> kAll = {{
+const std::array<Removable, 13>& removables() {
+  static const std::array<Removable, 13> kAll = {{
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
+      {"solid glass", {kSolidSection}, [](Pack& pack) { pack.solids.clear(); }},
       {"radiance maps", {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection}, remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
       {"kernels", {kKernelSection}, remove_kernels},

@@ -40,4 +40,12 @@ struct Material {
   float normal_scale = 1;            // of the map's x and y, within ±1e6
 };
 
+// What a material's surfaces enclose: glass that light refracts at and is absorbed in (KHR_materials_volume). They are
+// closed and face outwards. Without it transmission is thin and straight.
+struct SolidGlass {
+  std::uint32_t material = 0;  // into Pack::materials, whose index of refraction it has
+  Vec3 tint{1};                // [0,1]: what one surface leaves of light; multiplies the base colour's texture
+  Vec3 absorption{0};          // 1/m, >= 0: Beer and Lambert's law
+};
+
 }  // namespace oriel

@@ -77,6 +77,7 @@ inline constexpr std::uint32_t kPlanSection = fourcc("PLAN");
 inline constexpr std::uint32_t kSceneSection = fourcc("SCNE");
 inline constexpr std::uint32_t kMeshSection = fourcc("MESH");
 inline constexpr std::uint32_t kMaterialSection = fourcc("MATL");
+inline constexpr std::uint32_t kSolidSection = fourcc("GLAS");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
@@ -100,12 +101,13 @@ inline constexpr std::uint32_t kLightGroupSection = fourcc("LGRP");
 inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 26> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
     {kMeshSection, "mesh", false, true, false},
     {kMaterialSection, "materials", false, false, false},
+    {kSolidSection, "solid glass", true, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
     {kNormalTextureSection, "normal texture", true, false, true},

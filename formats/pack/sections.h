@@ -10,6 +10,7 @@ namespace oriel {
 // The members of one element. Writing relies on a pack that validate() finds nothing wrong with.
 void describe(Serial& s, Mesh& mesh);
 void describe(Serial& s, Material& material);
+void describe(Serial& s, SolidGlass& solid);
 void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
@@ -76,6 +77,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.one(kSceneSection, pack.sky, true);
   v.one(kMeshSection, pack.mesh, true);
   v.list(kMaterialSection, pack.materials);
+  v.list(kSolidSection, pack.solids);
   v.each(kTextureSection, pack.textures);
   v.each(kLightmapSection, pack.lightmaps);
   v.each(kNormalTextureSection, pack.normal_textures);

@@ -165,6 +165,21 @@ void validate_materials(const Pack& pack, IssueList& list) {
   }
 }
 
+void validate_solids(const Pack& pack, IssueList& list) {
+  list.in_section(kSolidSection);
+  for (std::size_t i = 0; i < pack.solids.size(); ++i) {
+    const SolidGlass& solid = pack.solids[i];
+    if (solid.material >= pack.materials.size())
+      list.error(208, "solid {}: found material {}, expected less than {}", i, solid.material, pack.materials.size());
+    if (i > 0 && solid.material <= pack.solids[i - 1].material)
+      list.error(208, "solid {}: found material {} after {}, expected rising ones", i, solid.material,
+                 pack.solids[i - 1].material);
+    if (!not_negative(solid.tint) || max_component(solid.tint) > 1 || !not_negative(solid.absorption))
+      list.error(209, "solid {}: found tint {}, expected 0 to 1, absorption {}, expected finite numbers from 0 up", i,
+                 text_of(solid.tint), text_of(solid.absorption));
+  }
+}
+
 void validate_cameras(const Pack& pack, IssueList& list) {
   list.in_section(kCameraSection);
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) validate_camera(i, pack.cameras[i], list);
@@ -198,6 +213,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_texts(pack, list);
   validate_mesh(pack, list);
   validate_materials(pack, list);
+  validate_solids(pack, list);
   validate_textures(pack, pixels, list);
   validate_lightmaps(pack, pixels, list);
   validate_reflectors(pack, list);

@@ -111,4 +111,9 @@ void Framebuffer::attach_color_level(const Texture2d& color, int level) const {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), level);
 }
 
+void Framebuffer::attach_color_face(const CubeTexture& color, int face) const {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
+                         GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), color.name(), 0);
+}
+
 }  // namespace oriel::gpu

@@ -41,6 +41,8 @@ class Framebuffer {
   void stretch_over_window(const IVec2& size, const IVec2& window) const;
   // Draws into a level of a texture from now on.
   void attach_color_level(const Texture2d& color, int level) const;
+  // Draws into a face of a cube, 0 to 5, from now on.
+  void attach_color_face(const CubeTexture& color, int face) const;
   // Draws depth, and nothing else, into a layer of an array from now on. To be bound before.
   void attach_depth_layer(const TextureArray& depth, int layer) const;
   explicit operator bool() const { return static_cast<bool>(handle_); }

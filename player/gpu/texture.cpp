@@ -128,4 +128,39 @@ void TextureArray::bind(int unit) const {
   glBindTexture(GL_TEXTURE_2D_ARRAY, handle_.name());
 }
 
+void Texture2d::make_mipmaps() const {
+  glBindTexture(GL_TEXTURE_2D, handle_.name());
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+CubeTexture::CubeTexture(const TextureFormat& format, int size, int levels) : size_(size) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  handle_ = Handle<ObjectKind::kTexture>(name);
+  glBindTexture(GL_TEXTURE_CUBE_MAP, name);
+  for (int level = 0; level < levels; ++level) {
+    const int side = std::max(1, size >> level);
+    for (GLenum face = 0; face < 6; ++face)
+      glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, static_cast<GLint>(format.internal), side, side, 0,
+                   format.format, format.type, nullptr);
+    bytes_ += std::size_t{6} * side * side * format.bytes_per_texel;
+  }
+  TextureOptions options;
+  options.levels = levels;
+  options.mag_filter = GL_LINEAR;
+  options.min_filter = levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR;
+  set_sampling(GL_TEXTURE_CUBE_MAP, options);
+  if (epoxy_is_desktop_gl()) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);  // OpenGL ES always is
+}
+
+void CubeTexture::bind(int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_CUBE_MAP, handle_.name());
+}
+
+void CubeTexture::make_mipmaps() const {
+  glBindTexture(GL_TEXTURE_CUBE_MAP, handle_.name());
+  glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
+}
+
 }  // namespace oriel::gpu

@@ -58,6 +58,8 @@ class Texture2d {
   void bind(int unit) const;
   // From now on all of its levels are looked at, or the finest at one place alone.
   void use_mipmaps(bool on) const;
+  // Fills the coarser levels from the finest.
+  void make_mipmaps() const;
   GLuint name() const { return handle_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -108,6 +110,26 @@ class TextureArray {
  private:
   Handle<ObjectKind::kTexture> handle_;
   TextureFormat format_;
+  std::size_t bytes_ = 0;
+};
+
+// Six square faces, which look along +x, -x, +y, -y, +z, -z as OpenGL has it; filtered across their edges.
+class CubeTexture {
+ public:
+  CubeTexture() = default;
+  // Contents are undefined. The caller keeps size within the device's.
+  CubeTexture(const TextureFormat& format, int size, int levels);
+  void bind(int unit) const;
+  // Fills the coarser levels from the finest.
+  void make_mipmaps() const;
+  GLuint name() const { return handle_.name(); }
+  int size() const { return size_; }
+  std::size_t bytes() const { return bytes_; }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+ private:
+  Handle<ObjectKind::kTexture> handle_;
+  int size_ = 0;
   std::size_t bytes_ = 0;
 };
 

@@ -48,4 +48,23 @@ NdcRect project_polygon(const Mat4& clip_from_pack, const std::array<Vec3, 4>& c
   return rect;
 }
 
+NdcRect project_box(const Mat4& clip_from_pack, const Bounds& box) {
+  NdcRect all;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<Vec3, 4> corners;
+    for (int c = 0; c < 4; ++c) {
+      Vec3 p = side % 2 == 0 ? box.lower : box.upper;
+      p[u] = c == 1 || c == 2 ? box.upper[u] : box.lower[u];
+      p[v] = c >= 2 ? box.upper[v] : box.lower[v];
+      corners[static_cast<std::size_t>(c)] = p;
+    }
+    const NdcRect face = project_polygon(clip_from_pack, corners);
+    if (face.empty) continue;
+    if (all.empty) all = face;
+    all.lower = glm::min(all.lower, face.lower), all.upper = glm::max(all.upper, face.upper);
+  }
+  return all;
+}
+
 }  // namespace oriel

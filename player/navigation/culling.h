@@ -43,5 +43,7 @@ struct NdcRect {
   bool empty = true;
 };
 NdcRect project_polygon(const Mat4& clip_from_pack, const std::array<Vec3, 4>& corners);
+// The same around a box, of which what is before the eye counts.
+NdcRect project_box(const Mat4& clip_from_pack, const Bounds& box);
 
 }  // namespace oriel

@@ -72,6 +72,7 @@ std::vector<T> flipped(const std::vector<T>& rgba, int width, int height) {
 Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   std::unique_ptr<Renderer> renderer(new Renderer);
   renderer->device_ = device;
+  renderer->glass_pass_ = GlassPass(device.dialect);
   renderer->clock_ = PassClock(device.pass_timers);
   ORIEL_TRY(renderer->scene_pass_, ScenePass::create(device.dialect));
   ORIEL_TRY(renderer->mover_pass_, MoverPass::create(device.dialect));
@@ -116,6 +117,17 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
   frame_->drawn().bind();
   glViewport(0, 0, frame_->light.width(), frame_->light.height());
   return white_of_exposure(ev100.value_or(0.0f));
+}
+
+Status Renderer::draw_see_through(GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                                  const FrameOptions& options, FrameStats& stats) {
+  if (scene.glass().empty()) return scene_pass_.draw_transparent(scene, view, weights, white, stats);
+  ORIEL_TRY_VOID(glass_pass_.prepare(scene, view, scene_pass_, options, stats));
+  frame_->drawn().bind();
+  glViewport(0, 0, view.width, view.height);
+  return scene_pass_.draw_transparent(scene, view, weights, white, stats, [&](const GlassBody&, std::size_t body) {
+    return glass_pass_.draw(scene, view, *frame_, body, options, stats);
+  });
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
@@ -166,7 +178,8 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
       });
     }
     ORIEL_TRY(const float white, white_for(scene, options));
-    clock_.time(Pass::kTransparent, [&] { scene_pass_.draw_transparent(scene, view, weights, white, stats); });
+    ORIEL_TRY_VOID(
+        clock_.time(Pass::kTransparent, [&] { return draw_see_through(scene, view, weights, white, options, stats); }));
   }
   for (const MarkedReflector& m : marked)
     if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));

@@ -8,6 +8,7 @@
 #include "formats/image/image.h"
 #include "player/movers/bright_pass.h"
 #include "player/passes/display_pass.h"
+#include "player/passes/glass_pass.h"
 #include "player/passes/pass_clock.h"
 #include "player/passes/reflection_renderer.h"
 #include "player/passes/scene_pass.h"
@@ -49,6 +50,9 @@ class Renderer {
   Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
                                                   std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,
                                                   const FrameOptions& options, FrameStats& stats);
+  // See-through surfaces and bodies of glass.
+  Status draw_see_through(GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                          const FrameOptions& options, FrameStats& stats);
   Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
 
   gpu::Device device_;
@@ -56,6 +60,7 @@ class Renderer {
   MoverPass mover_pass_;
   BrightPass bright_pass_;
   ReflectionRenderer reflections_;
+  GlassPass glass_pass_;
   SurveyPass survey_pass_;
   DisplayPass display_;
   std::optional<FrameTarget> frame_, spare_;  // spare_: the one before of another size, which often comes back

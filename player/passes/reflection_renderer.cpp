@@ -253,8 +253,7 @@ Status ReflectionRenderer::draw_mirrored(ReflectionWork& work, const ReflectionT
     mover_pass.draw_depth(scene, view, movers, stats);
     mover_pass.draw_reflected(scene, view, movers, stats);
   }
-  scene_pass.draw_transparent(scene, view, {}, options.white, stats);
-  return {};
+  return scene_pass.draw_transparent(scene, view, {}, options.white, stats);
 }
 
 // The opaque scene in a mirror, with what its own reflectors show.

@@ -46,6 +46,31 @@ bool is_plain(const Material& m) {
   return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit;
 }
 
+// A see-through part, or a body of glass.
+struct SeeThrough {
+  float depth = 0;  // along the view, less is farther
+  std::span<const DrawRange> ranges;
+  const GlassBody* body = nullptr;
+  std::size_t index = 0;
+};
+
+// What of it is in view, from far to near.
+std::vector<SeeThrough> see_through(const GpuScene& scene, const View& view) {
+  const Frustum frustum = make_frustum(view.clip_from_pack);
+  std::vector<SeeThrough> sorted;
+  const auto add = [&](const Bounds& bounds, SeeThrough one) {
+    if (!may_be_visible(frustum, bounds)) return;
+    one.depth = (view.view_from_pack * Vec4(bounds.center(), 1)).z;
+    sorted.push_back(one);
+  };
+  for (const DrawRange& range : scene.transparent()) add(range.bounds, {0, {&range, 1}, nullptr, 0});
+  for (std::size_t i = 0; i < scene.glass().size(); ++i)
+    add(scene.glass()[i].bounds, {0, scene.glass()[i].ranges, &scene.glass()[i], i});
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const SeeThrough& a, const SeeThrough& b) { return a.depth < b.depth; });
+  return sorted;
+}
+
 }  // namespace
 
 Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
@@ -165,38 +190,42 @@ void ScenePass::draw_reflected(const GpuScene& scene, const MirroredScene& mirro
     for (const DrawBatch& batch : visible_batches(scene.emitter(emitter), frustum)) draw(batch, 1, 0);
 }
 
-void ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                                 FrameStats& stats) const {
-  const Frustum frustum = make_frustum(view.clip_from_pack);
-  std::vector<std::pair<float, const DrawRange*>> sorted;
-  for (const DrawRange& range : scene.transparent()) {
-    if (!may_be_visible(frustum, range.bounds)) continue;
-    sorted.emplace_back((view.view_from_pack * Vec4(range.bounds.center(), 1)).z, &range);
-  }
-  if (sorted.empty()) return;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  set_frame(transparent_, scene, view);
-  transparent_.set("u_unlit_scale", white);
+Status ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                                   FrameStats& stats, const DrawGlass& glass) const {
+  std::vector<SeeThrough> sorted = see_through(scene, view);
+  if (sorted.empty()) return {};
+  const auto start = [&] {
+    set_frame(transparent_, scene, view);
+    transparent_.set("u_unlit_scale", white);
+  };
+  start();
   gpu::RasterState state;
   state.depth_test = true;
   state.alpha_write = false;
   state.mirrored = view.mirrored;
   state.stencil_read = kSeeThroughBit;
-  for (const auto& [depth, range] : sorted) {
-    state.cull = cull_of(scene.pack().materials[range->material]);
-    set_material(transparent_, scene, range->material, range->lightmap_page);
-    const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
-      state.blend = blend;
-      state.stencil_func = func;
-      gpu::apply(state);
-      transparent_.set("u_dimming", dimming ? 1 : 0);
-      transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
-      draw_indices(range->first_index, range->index_count, stats);
-    };
-    draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
-    draw(gpu::Blend::kAdd, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
-    if (!view.mirrored) draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
+  for (const SeeThrough& one : sorted) {
+    if (glass && one.body) {
+      ORIEL_TRY_VOID(glass(*one.body, one.index));
+      start();
+    }
+    for (const DrawRange& range : one.ranges) {
+      state.cull = cull_of(scene.pack().materials[range.material]);
+      set_material(transparent_, scene, range.material, range.lightmap_page);
+      const auto draw = [&](gpu::Blend blend, bool dimming, GLenum func, float undirected) {
+        state.blend = blend;
+        state.stencil_func = func;
+        gpu::apply(state);
+        transparent_.set("u_dimming", dimming ? 1 : 0);
+        transparent_.set("u_weights", Vec3(weights.diffuse, undirected, weights.emission));
+        draw_indices(range.first_index, range.index_count, stats);
+      };
+      if (!glass || !one.body) draw(gpu::Blend::kMultiply, true, GL_ALWAYS, 0);
+      draw(gpu::Blend::kAdd, false, view.mirrored ? GL_ALWAYS : GL_EQUAL, weights.undirected);
+      if (!view.mirrored) draw(gpu::Blend::kAdd, false, GL_NOTEQUAL, 0);
+    }
   }
+  return {};
 }
 
 bool needs_white(const GpuScene& scene) {

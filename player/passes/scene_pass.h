@@ -1,6 +1,7 @@
 // The scene itself: depth first, then the light of opaque surfaces, then see-through ones from far to near.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <span>
 
@@ -33,6 +34,9 @@ struct MirroredScene {
   std::set<std::uint32_t> reflective;
 };
 
+// Draws what is seen through one of GpuScene::glass(), in place of what lies behind it; may bind what it likes.
+using DrawGlass = std::function<Status(const GlassBody& body, std::size_t index)>;
+
 class ScenePass {
  public:
   static Result<ScenePass> create(gpu::Dialect dialect);
@@ -51,9 +55,10 @@ class ScenePass {
   // for an orthographic view 1 / its depth, at least kClosest.
   void draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
-  // which has no stencil, everywhere. white: as FrameOptions.
-  void draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                        FrameStats& stats) const;
+  // which has no stencil, everywhere. white: as FrameOptions. glass: of bodies; none: they are drawn thin. Errors of
+  // it.
+  Status draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
+                          FrameStats& stats, const DrawGlass& glass = {}) const;
 
  private:
   void draw_depths(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, FrameStats& stats) const;

@@ -38,21 +38,7 @@ gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
 
 // Only the pixels around the box, for what is drawn over the whole image.
 void scissor_to(const Bounds& box, const View& view) {
-  NdcRect all;
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::array<Vec3, 4> corners;
-    for (int c = 0; c < 4; ++c) {
-      Vec3 p = side % 2 == 0 ? box.lower : box.upper;
-      p[u] = c == 1 || c == 2 ? box.upper[u] : box.lower[u];
-      p[v] = c >= 2 ? box.upper[v] : box.lower[v];
-      corners[static_cast<std::size_t>(c)] = p;
-    }
-    const NdcRect face = project_polygon(view.clip_from_pack, corners);
-    if (face.empty) continue;
-    if (all.empty) all = face;
-    all.lower = glm::min(all.lower, face.lower), all.upper = glm::max(all.upper, face.upper);
-  }
+  const NdcRect all = project_box(view.clip_from_pack, box);
   const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
   const IVec2 lower(glm::floor((glm::clamp(all.lower, -1.0f, 1.0f) * 0.5f + 0.5f) * size));
   const IVec2 upper(glm::ceil((glm::clamp(all.upper, -1.0f, 1.0f) * 0.5f + 0.5f) * size));

@@ -67,7 +67,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
                                                    const LoadingOptions& loading) {
   ORIEL_TRY_VOID(check_drawable(pack.pack, device));
   std::unique_ptr<GpuScene> scene(new GpuScene);
-  scene->serial_ = next_serial();
+  scene->serial_ = scene->geometry_serial_ = next_serial();
   scene->pack_ = std::move(pack.pack);
   scene->baked_ = BakedLamps(scene->pack_);
   scene->lights_.assign(scene->pack_.light_groups.size(), Vec3(1));
@@ -114,6 +114,7 @@ void GpuScene::upload_geometry() {
     bounds_.extend(range.bounds);
     (is_transparent(range.material) ? transparent_ : opaque_).push_back(range);
   }
+  glass_ = take_glass_bodies(pack_, indices, transparent_);
   make_reflectors(indices, known && !pack_.reflected_sets.empty() &&
                                pack_.reflected_sets.made_for == reflected_hash(pack_.visible_sets, pack_.reflectors));
   make_emitters(indices);
@@ -297,6 +298,7 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   const auto as_it_is = [](const Bounds& bounds) { return bounds; };
   add_uses(pack_, opaque_, as_it_is, uses);
   add_uses(pack_, transparent_, as_it_is, uses);
+  for (const GlassBody& body : glass_) add_uses(pack_, body.ranges, as_it_is, uses);
   // Movers may be anywhere.
   for (const GpuMover& mover : movers_)
     add_uses(

@@ -12,6 +12,7 @@
 #include "player/images/scene_images.h"
 #include "player/navigation/view.h"
 #include "player/scene/fewer_triangles.h"
+#include "player/scene/glass_bodies.h"
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_map_meshes.h"
 #include "player/scene/gpu_mesh.h"
@@ -73,6 +74,7 @@ class GpuScene {
   // background all of that is there afterwards, but for maps. Errors of images.
   Status aim(const View& view);
   SceneImages& images() { return *images_; }
+  const SceneImages& images() const { return *images_; }
   // In the background, between frames: brings images to the device for about so long. Errors, each once.
   std::vector<Error> advance(SceneImages::Clock::duration budget);
   // All that is wanted, or what is there by then.
@@ -81,10 +83,17 @@ class GpuScene {
   const Pack& pack() const { return pack_; }
   // Of this scene alone, and of its lamps as they shine now, for what others keep of it.
   std::uint64_t serial() const { return serial_; }
+  // The same however its lamps shine.
+  std::uint64_t geometry_serial() const { return geometry_serial_; }
   const Bounds& bounds() const { return bounds_; }
   // Sorted by material and page.
   const std::vector<DrawRange>& opaque() const { return opaque_; }
+  // See-through surfaces, without those of glass bodies.
   const std::vector<DrawRange>& transparent() const { return transparent_; }
+  const std::vector<GlassBody>& glass() const { return glass_; }
+  bool is_inside_glass(const GlassBody& body, const Vec3& point) const {
+    return is_inside(body, pack_.mesh, indices_, point);
+  }
   const std::vector<GpuReflector>& reflectors() const { return reflectors_; }
   const std::vector<GpuCurvedReflector>& curved_reflectors() const { return curved_reflectors_; }
   // What an eye there may see of groups of opaque triangles; nothing where the pack does not know.
@@ -163,10 +172,11 @@ class GpuScene {
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
   Pack pack_;
-  std::uint64_t serial_ = 0;
+  std::uint64_t serial_ = 0, geometry_serial_ = 0;
   SeenGroups seen_groups_;
   Bounds bounds_;
   std::vector<DrawRange> opaque_, transparent_;
+  std::vector<GlassBody> glass_;
   std::vector<std::vector<DrawRange>> emitters_;
   std::vector<GpuReflector> reflectors_;
   std::vector<GpuCurvedReflector> curved_reflectors_;

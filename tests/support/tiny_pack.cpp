@@ -273,6 +273,7 @@ void add_tiny_groups(Pack& pack) {
 
 Pack tiny_mapped_pack() {
   Pack pack = tiny_pack();
+  pack.solids = {{1, Vec3(0.9f, 0.95f, 1), Vec3(0.5f, 0, 12)}};
   LightmapPage& page = pack.lightmaps[0];
   for (std::size_t i = 0; i < page.irradiance.size(); ++i) {
     const auto v = static_cast<float>(i);

@@ -40,8 +40,8 @@ def unpacked(block, size):
     return whole.tobytes()
 
 
-def read(path):
-    """Rows of red, green and blue, float64."""
+def read(path, layer=""):
+    """Rows of red, green and blue, float64. layer: before the channels' names, with its dot."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, at = header_of(data)
@@ -59,7 +59,7 @@ def read(path):
             for name, kind in channels:
                 planes[name][row] = numpy.frombuffer(raw, kind, width, used)
                 used += width * numpy.dtype(kind).itemsize
-    return numpy.stack([planes[c] for c in "RGB"], -1)
+    return numpy.stack([planes[layer + c] for c in "RGB"], -1)
 
 
 def write(path, image):

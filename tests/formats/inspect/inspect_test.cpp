@@ -137,7 +137,7 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["visible_sets"]["eye_cells"], 3);
   EXPECT_NEAR(json["visible_sets"]["seen_share"].get<double>(), 4.0 / 6, 1e-12);
   EXPECT_EQ(json["visible_sets"]["made_for_this"], true);
-  EXPECT_EQ(json["sections"].size(), 31u);
+  EXPECT_EQ(json["sections"].size(), 32u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 

@@ -39,6 +39,17 @@ void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expect
       EXPECT_LE(std::abs(found[i][c] - expected[i][c]), relative * std::abs(expected[i][c])) << i << " channel " << c;
 }
 
+TEST(Pack, SolidGlassComesBack) {
+  Pack pack = tiny_pack();
+  EXPECT_TRUE(round_trip(pack).solids.empty());
+  pack.solids = {{0, Vec3(0.9f, 0.8f, 0.7f), Vec3(0, 1.5f, 1e20f)}};
+  const Pack out = round_trip(pack);
+  ASSERT_EQ(out.solids.size(), 1u);
+  EXPECT_EQ(out.solids[0].material, 0u);
+  EXPECT_EQ(out.solids[0].tint, pack.solids[0].tint);
+  EXPECT_EQ(out.solids[0].absorption, pack.solids[0].absorption);
+}
+
 TEST(Pack, TinyPackIsFreeOfIssues) {
   for (const Pack& pack : {tiny_pack(), tiny_mapped_pack()})
     for (const auto& issue : validate(pack)) ADD_FAILURE() << issue.section << ": " << issue.message;

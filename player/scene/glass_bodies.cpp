@@ -1,0 +1,182 @@
+#include "player/scene/glass_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace oriel {
+namespace {
+
+constexpr float kOnPlane = 1e-4f;     // of a body's radius
+constexpr float kSameNormal = 1e-6f;  // 1 - cosine
+constexpr double kHidden = 1e-3;      // of a body's area, that its middle may not see
+
+struct Triangle {
+  std::array<std::uint32_t, 3> corners;  // into Mesh::positions
+  std::int32_t page;
+};
+
+class Joined {
+ public:
+  explicit Joined(std::size_t n) : parents_(n) { std::iota(parents_.begin(), parents_.end(), std::size_t{0}); }
+  std::size_t root(std::size_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) { parents_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::size_t> parents_;
+};
+
+// Triangles that share positions, in the order of their first ones.
+std::vector<std::vector<Triangle>> connected(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+  const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::map<Vec3, std::size_t, decltype(less)> first(less);  // a triangle there
+  Joined joined(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t corner : triangles[t].corners)
+      joined.join(t, first.try_emplace(mesh.positions[corner], t).first->second);
+  std::map<std::size_t, std::size_t> number;
+  std::vector<std::vector<Triangle>> out;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [at, added] = number.try_emplace(joined.root(t), out.size());
+    if (added) out.emplace_back();
+    out[at->second].push_back(triangles[t]);
+  }
+  return out;
+}
+
+// Twice the area long.
+DVec3 normal_of(const Mesh& mesh, const Triangle& t) {
+  const DVec3 a(mesh.positions[t.corners[0]]);
+  return glm::cross(DVec3(mesh.positions[t.corners[1]]) - a, DVec3(mesh.positions[t.corners[2]]) - a);
+}
+
+DVec3 middle_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+  DVec3 sum(0);
+  double area = 0;
+  for (const Triangle& t : shell) {
+    const double weight = glm::length(normal_of(mesh, t));
+    for (const std::uint32_t corner : t.corners) sum += weight / 3 * DVec3(mesh.positions[corner]);
+    area += weight;
+  }
+  return area > 0 ? sum / area : sum;
+}
+
+bool is_seen_from(const Mesh& mesh, const std::vector<Triangle>& shell, const DVec3& middle) {
+  double area = 0, hidden = 0;
+  for (const Triangle& t : shell) {
+    const DVec3 normal = normal_of(mesh, t);
+    area += glm::length(normal);
+    if (!(glm::dot(normal, DVec3(mesh.positions[t.corners[0]]) - middle) > 0)) hidden += glm::length(normal);
+  }
+  return area > 0 && hidden <= kHidden * area;
+}
+
+// None where there are too many, or where the body is not convex.
+std::vector<Vec4> planes_of(const Mesh& mesh, const std::vector<Triangle>& shell, float radius) {
+  std::vector<Vec4> planes;
+  for (const Triangle& t : shell) {
+    const DVec3 normal = normal_of(mesh, t);
+    if (!(glm::length(normal) > 0)) continue;
+    const Vec3 n(glm::normalize(normal));
+    const float w = -glm::dot(n, mesh.positions[t.corners[0]]);
+    const bool known = std::ranges::any_of(planes, [&](const Vec4& p) {
+      return glm::dot(Vec3(p), n) > 1 - kSameNormal && std::abs(p.w - w) <= kOnPlane * radius;
+    });
+    if (known) continue;
+    if (planes.size() == kMaxBodyPlanes) return {};
+    planes.emplace_back(n, w);
+  }
+  for (const Triangle& t : shell)
+    for (const std::uint32_t corner : t.corners)
+      for (const Vec4& p : planes)
+        if (glm::dot(Vec3(p), mesh.positions[corner]) + p.w > kOnPlane * radius) return {};
+  return planes;
+}
+
+// One range a page.
+std::vector<DrawRange> append(const Mesh& mesh, std::vector<Triangle> triangles, std::uint32_t material,
+                              std::vector<std::uint32_t>& indices) {
+  std::stable_sort(triangles.begin(), triangles.end(),
+                   [](const Triangle& a, const Triangle& b) { return a.page < b.page; });
+  std::vector<DrawRange> ranges;
+  for (const Triangle& t : triangles) {
+    if (ranges.empty() || ranges.back().lightmap_page != t.page)
+      ranges.push_back({static_cast<std::uint32_t>(indices.size()), 0, material, t.page, {}, DrawRange::kNoGroup});
+    for (const std::uint32_t corner : t.corners) ranges.back().bounds.extend(mesh.positions[corner]);
+    indices.insert(indices.end(), t.corners.begin(), t.corners.end());
+    ranges.back().index_count += 3;
+  }
+  return ranges;
+}
+
+std::optional<GlassBody> body_of(const Mesh& mesh, const std::vector<Triangle>& shell) {
+  const DVec3 middle = middle_of(mesh, shell);
+  if (!is_seen_from(mesh, shell, middle)) return std::nullopt;
+  GlassBody body;
+  body.centre = Vec3(middle);
+  for (const Triangle& t : shell)
+    for (const std::uint32_t corner : t.corners) {
+      body.bounds.extend(mesh.positions[corner]);
+      body.radius = std::max(body.radius, glm::length(mesh.positions[corner] - body.centre));
+    }
+  if (!(body.radius > 0)) return std::nullopt;
+  body.planes = planes_of(mesh, shell, body.radius);
+  return body;
+}
+
+}  // namespace
+
+std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
+                                         std::vector<DrawRange>& ranges) {
+  std::vector<GlassBody> bodies;
+  for (std::uint32_t solid = 0; solid < pack.solids.size(); ++solid) {
+    const std::uint32_t material = pack.solids[solid].material;
+    std::vector<Triangle> triangles, left;
+    for (const DrawRange& range : ranges)
+      for (std::uint32_t i = 0; range.material == material && i + 2 < range.index_count; i += 3) {
+        const std::uint32_t* corner = &indices[range.first_index + i];
+        triangles.push_back({{corner[0], corner[1], corner[2]}, range.lightmap_page});
+      }
+    if (triangles.empty()) continue;
+    std::erase_if(ranges, [&](const DrawRange& range) { return range.material == material; });
+    for (const std::vector<Triangle>& shell : connected(pack.mesh, triangles)) {
+      std::optional<GlassBody> body = body_of(pack.mesh, shell);
+      if (!body) {
+        left.insert(left.end(), shell.begin(), shell.end());
+        continue;
+      }
+      body->material = material, body->solid = solid;
+      body->ranges = append(pack.mesh, shell, material, indices);
+      bodies.push_back(std::move(*body));
+    }
+    const std::vector<DrawRange> thin = append(pack.mesh, left, material, indices);
+    ranges.insert(ranges.end(), thin.begin(), thin.end());
+  }
+  return bodies;
+}
+
+bool is_inside(const GlassBody& body, const Mesh& mesh, std::span<const std::uint32_t> indices, const Vec3& point) {
+  if (glm::any(glm::lessThan(point, body.bounds.lower)) || glm::any(glm::greaterThan(point, body.bounds.upper)))
+    return false;
+  double angle = 0;
+  for (const DrawRange& range : body.ranges)
+    for (std::uint32_t i = 0; i + 2 < range.index_count; i += 3) {
+      std::array<DVec3, 3> way;
+      for (std::uint32_t c = 0; c < 3; ++c)
+        way[c] = DVec3(mesh.positions[indices[range.first_index + i + c]]) - DVec3(point);
+      const double a = glm::length(way[0]), b = glm::length(way[1]), c = glm::length(way[2]);
+      const double volume = glm::dot(way[0], glm::cross(way[1], way[2]));
+      angle += 2 * std::atan2(volume, a * b * c + glm::dot(way[0], way[1]) * c + glm::dot(way[1], way[2]) * a +
+                                          glm::dot(way[2], way[0]) * b);
+    }
+  return angle > 2 * std::numbers::pi;  // 4 pi inside, 0 outside
+}
+
+}  // namespace oriel

@@ -1,0 +1,36 @@
+// Bodies of solid glass: what the eye looks through bent, and how a ray finds its way out of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "formats/pack/pack.h"
+#include "player/scene/gpu_mesh.h"
+
+namespace oriel {
+
+// Planes of a body at most; with more it is taken as curved (shaders/passes/glass.frag has as many).
+inline constexpr std::size_t kMaxBodyPlanes = 24;
+
+struct GlassBody {
+  std::uint32_t material = 0;  // into Pack::materials
+  std::uint32_t solid = 0;     // into Pack::solids
+  Bounds bounds;
+  Vec3 centre{0};    // inside; all of the surface is seen from there
+  float radius = 0;  // of the sphere around the centre that holds it
+  // Convex polyhedra: xyz the outward normal, inside where dot(xyz, p) + w <= 0. None: curved.
+  std::vector<Vec4> planes;
+  std::vector<DrawRange> ranges;  // a lightmap page each
+};
+
+// Connected surfaces of `ranges`' triangles that are of solid materials become bodies where they are star-shaped about
+// their middle, of any lightmap pages. Their indices are appended, and `ranges` keeps what is none: other materials,
+// and hollow or branched glass.
+std::vector<GlassBody> take_glass_bodies(const Pack& pack, std::vector<std::uint32_t>& indices,
+                                         std::vector<DrawRange>& ranges);
+
+// Whether a point is inside of a body, by the solid angle of its triangles (Van Oosterom and Strackee 1983). indices:
+// those that its ranges are of.
+bool is_inside(const GlassBody& body, const Mesh& mesh, std::span<const std::uint32_t> indices, const Vec3& point);
+
+}  // namespace oriel

@@ -1,0 +1,234 @@
+// What is seen through a body of glass, in place of what lies behind it: the eye ray is refracted into it, goes to and fro within
+// it, and what leaves it at each surface sees the scene: on the screen where that shows it, else as it is seen from the body's
+// middle.
+#define GLASS_PLANES 24
+#include "lib/glass.glsl"
+#include "lib/reflectance.glsl"
+#include "lib/shading.glsl"
+
+uniform sampler2D u_places;  // of glass_surface
+uniform sampler2D u_normals;
+uniform sampler2D u_tints;
+uniform vec4 u_eye;
+uniform sampler2D u_reflectance;
+uniform int u_reflectance_row;  // -1: reflects nothing
+uniform int u_reflectance_count;
+uniform bool u_inside;      // the eye is in the glass
+uniform vec3 u_tint;        // of a surface
+uniform vec3 u_absorption;  // 1/m
+uniform float u_ior;        // at least 1
+uniform float u_width;      // alpha of its facets; 0: clear
+uniform int u_looks;        // of a lobe
+uniform vec3 u_centre;
+uniform float u_radius;
+uniform int u_plane_count;  // 0: curved
+uniform vec4 u_planes[GLASS_PLANES];
+uniform samplerCube u_shape;
+
+uniform mat4 u_clip_from_pack;
+uniform sampler2D u_behind;         // the frame: light, a its depth; with levels
+uniform bool u_levels;              // its coarser levels are there
+uniform vec2 u_behind_size;         // pixels in use
+uniform float u_far;                // metres
+uniform float u_pixels_per_tangent;
+uniform samplerCube u_around;       // light, a 1 / distance, 0 for the sky
+uniform vec3 u_around_centre;
+uniform float u_around_size;        // texels a side
+
+layout(location = 0) out vec4 o_light;  // a: 1; 2 where the lobe is wider than 4 x 4 pixels everywhere
+
+const int kCrossings = 6;       // surfaces that a clear ray meets within
+const int kFrostedCrossings = 3;
+const float kLeast = 0.004;     // of the light: what brings less is not followed
+const float kSmooth = 1.5;      // pixels between rays
+const int kDoublings = 8;
+const float kFaint = 0.1;       // of it: less is seen from the body's middle
+const int kSteps = 64;          // of a ray over the screen
+const int kFrostedSteps = 8;
+const float kThickness = 0.05;  // of its distance: a surface this far before a ray is not met
+
+// As it is seen from the middle of the body: first how far the ray comes before it passes what is seen there, in steps that double,
+// then where it leaves the sphere on which that lies.
+vec3 light_around(vec3 origin, vec3 direction, float spread) {
+  vec3 from = origin - u_around_centre;
+  float along = dot(from, direction), apart = dot(from, from) - along * along, inverse = 0.0;
+  for (int i = 0; i < kDoublings; ++i) {
+    float way = 0.25 * u_radius * exp2(float(i));
+    vec3 at = from + way * direction;
+    if (textureLod(u_around, at, 0.0).a * length(at) < 1.0) continue;
+    inverse = 1.0 / way;
+    break;
+  }
+  for (int i = 0; i < 3; ++i) {
+    float seen = textureLod(u_around, direction + inverse * from, 0.0).a;
+    if (seen > 1e-12) inverse = 1.0 / max(sqrt(max(1.0 / (seen * seen) - apart, 0.0)) - along, 1e-3 / seen);
+  }
+  return textureLod(u_around, direction + inverse * from, log2(max(0.5 * spread * u_around_size, 1.0))).rgb;
+}
+
+// Of the nearest pixel: between near and far ones there is nothing.
+float depth_at(vec2 ndc) {
+  ivec2 pixel = clamp(ivec2((0.5 * ndc + 0.5) * u_behind_size), ivec2(0), ivec2(u_behind_size) - 1);
+  return 2.0 * texelFetch(u_behind, pixel, 0).a - 1.0;
+}
+
+// The sky is met behind everything.
+bool is_near(float depth, float surface) { return surface >= 1.0 || depth - surface <= kThickness * max(1.0 - surface, 1e-7); }
+
+// Along the screen from a to b, normalised device coordinates: the share of the way at which the ray meets what is seen there; -1
+// where it leaves the screen without, -2 where something nearer hides it there. Steps of a pixel; frosted: few, that
+// grow with the way.
+float meet(vec3 a, vec3 b, bool frosted) {
+  vec2 way = b.xy - a.xy;
+  float end = 1.0;
+  for (int c = 0; c < 2; ++c)
+    if (abs(way[c]) > 1e-9) end = min(end, max((sign(way[c]) - a[c]) / way[c], 0.0));
+  int steps = clamp(int(0.5 * length(end * way * u_behind_size)), 2, frosted ? kFrostedSteps : kSteps);
+  float before = 0.0;
+  bool in_front = a.z <= depth_at(a.xy);
+  for (int i = 1; i <= steps; ++i) {
+    float share = float(i) / float(steps), at = end * (frosted ? share * share : share);
+    vec3 p = mix(a, b, at);
+    float surface = depth_at(p.xy);
+    bool behind = p.z >= surface;
+    if (behind && !in_front && is_near(p.z, surface)) return at;
+    if (behind && in_front) {
+      float low = before, high = at;
+      for (int k = 0; k < 6; ++k) {
+        float middle = 0.5 * (low + high);
+        vec3 m = mix(a, b, middle);
+        if (m.z >= depth_at(m.xy)) high = middle;
+        else low = middle;
+      }
+      // What begins nearer than the ray was in front is beside it.
+      if (is_near(mix(a, b, low).z, depth_at(mix(a, b, high).xy))) return high;
+    }
+    in_front = !behind;
+    before = at;
+  }
+  return in_front ? -1.0 : -2.0;
+}
+
+// Coarser levels are means of near and far: as far as a level's depth is not that of what was met, a finer one tells.
+vec3 light_behind(vec2 ndc, float depth, float pixels) {
+  float level = u_levels ? log2(max(0.7 * pixels, 1.0)) : 0.0, left = 1.0;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 5 && left > 0.02; ++i) {
+    float margin = 0.5 * exp2(level);
+    vec2 at = clamp((0.5 * ndc + 0.5) * u_behind_size, min(vec2(margin), 0.5 * u_behind_size),
+                    max(u_behind_size - margin, 0.5 * u_behind_size));
+    vec4 found = textureLod(u_behind, at / vec2(textureSize(u_behind, 0)), level);
+    float off = abs(2.0 * found.a - 1.0 - depth) / (kThickness * max(1.0 - depth, 1e-7));
+    float share = level <= 0.0 ? 1.0 : 1.0 - smoothstep(0.3, 1.5, off);
+    sum += left * share * found.rgb;
+    left *= 1.0 - share;
+    level = i < 3 ? max(level - 1.5, 0.0) : 0.0;
+  }
+  return sum / max(1.0 - left, 1e-3);
+}
+
+float g_least_pixels = 1e9;  // between rays of the lobe where they meet something
+
+// Light from along a ray that has left the glass; a: 0 where something hides what a frosted ray would see, so that others tell.
+// spread: of the bundle, radians.
+vec4 look(vec3 origin, vec3 direction, float spread, bool frosted) {
+  vec4 from = u_clip_from_pack * vec4(origin, 1.0), way = u_clip_from_pack * vec4(direction, 0.0);
+  bool perspective = u_eye.w > 0.0;
+  bool away = perspective ? from.w > 0.0 && way.w > 1e-3 : way.z > 0.0;
+  vec3 a = from.xyz / from.w;
+  if (away && all(lessThanEqual(abs(a.xy), vec2(1.0)))) {
+    vec3 b = perspective ? way.xyz / way.w : (from + u_far * way).xyz;
+    float at = meet(a, b, frosted);
+    if (at < -1.5 && frosted) return vec4(0.0);
+    if (at >= 0.0) {
+      float along = perspective ? at / max(1.0 - at, 1e-6) * from.w / way.w : at * u_far;
+      float pixels = spread * along * u_pixels_per_tangent / (perspective ? from.w + along * way.w : 1.0);
+      g_least_pixels = min(g_least_pixels, pixels);
+      vec3 met = mix(a, b, at);
+      return vec4(light_behind(met.xy, met.z, pixels), 1.0);
+    }
+  }
+  return vec4(light_around(origin, direction, spread), 1.0);
+}
+
+float leave(vec3 p, vec3 d, out vec3 normal) {
+  if (u_plane_count > 0) return leave_planes(u_planes, u_plane_count, p, d, normal);
+  return leave_shape(u_shape, u_radius, p - u_centre, d, normal);
+}
+
+// The largest channel of R along the ray that has this cosine outside.
+vec3 reflected_at(float cos_theta) {
+  if (u_reflectance_row < 0) return vec3(0.0);
+  return reflectance_from_table(u_reflectance, u_reflectance_row, u_reflectance_count, cos_theta);
+}
+
+// Light that comes out of the glass within, along -d at p; a: the share of it that is known. at: of the facets that are met.
+vec4 light_within(vec3 p, vec3 d, vec2 at, float spread) {
+  vec3 sum = vec3(0.0), weight = vec3(1.0), out_of = d;
+  float known = 1.0;
+  bool frosted = u_width > 0.0;
+  for (int i = 0; i < (frosted ? kFrostedCrossings : kCrossings) && max_channel(weight) > kLeast; ++i) {
+    vec3 normal;
+    float metres = leave(p, d, normal);
+    p += metres * d;
+    weight *= exp(-u_absorption * metres);
+    vec3 facet = -normal;
+    if (frosted) facet = visible_facet(-normal, -d, u_width, fract(at + 0.38 * float(i)));
+    float cos_within = clamp(-dot(d, facet), 0.0, 1.0), beyond = refracted_cosine(1.0 / u_ior, cos_within);
+    vec3 back = beyond < 0.0 ? vec3(1.0) : reflected_at(beyond);
+    float through = beyond < 0.0 ? 0.0 : 1.0 - max_channel(back), left = through * max_channel(weight);
+    if (left > kLeast) {
+      out_of = on_side(refracted(-d, facet, 1.0 / u_ior, beyond), normal);
+      vec4 seen = left < kFaint ? vec4(light_around(p, out_of, spread), 1.0) : look(p, out_of, spread, frosted);
+      sum += weight * through * u_tint * seen.rgb;
+      known -= left * (1.0 - seen.a);
+    }
+    weight *= back;
+    d = on_side(reflect(d, facet), -normal);
+    out_of = d;
+  }
+  // What is still to and fro goes where it was going, so that nothing is lost of an even light.
+  if (max_channel(weight) > kLeast) sum += weight * u_tint * light_around(p, out_of, max(spread, 0.1));
+  return vec4(sum, max(known, 0.0));
+}
+
+// The direction in the glass of an eye ray, and the first one beyond it: how far those of neighbouring pixels part.
+float pixel_spread(vec3 p, vec3 d) {
+  vec3 normal;
+  leave(p, d, normal);
+  float beyond = refracted_cosine(1.0 / u_ior, clamp(dot(d, normal), 0.0, 1.0));
+  vec3 direction = beyond < 0.0 ? reflect(d, normal) : refracted(-d, -normal, 1.0 / u_ior, beyond);
+  return min(0.5 * (length(dFdx(direction)) + length(dFdy(direction))), 1.0);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 place = texelFetch(u_places, pixel, 0);
+  vec3 normal = texelFetch(u_normals, pixel, 0).xyz, to_eye = normalize(u_eye.xyz - place.xyz * u_eye.w);
+  normal = dot(normal, normal) > 0.0 ? normalize(normal) : to_eye;
+  float rise = dot(normal, to_eye);
+  if (rise < 1e-4) normal = normalize(normal + (1e-4 - rise) * to_eye);
+  float cos_theta = dot(normal, to_eye);
+  vec3 origin = u_inside ? u_eye.xyz : place.xyz;
+  vec3 clear = u_inside ? -to_eye : refracted(to_eye, normal, u_ior, refracted_cosine(u_ior, cos_theta));
+  float spread = pixel_spread(origin, clear);
+  if (place.a == 0.0) discard;
+  vec4 sum = vec4(0.0);
+  // Each of 4 x 4 neighbours looks elsewhere in the lobe.
+  float turn = float(pixel.x % 4 * 4 + pixel.y % 4) / 16.0;
+  for (int i = 0; i < u_looks; ++i) {
+    float share = (float(i) + fract(turn * 7.0 + 1.0 / 32.0)) / float(u_looks), wide = spread;
+    vec3 d = clear;
+    if (u_width > 0.0 && !u_inside) {
+      vec3 facet = visible_facet(normal, to_eye, u_width, vec2(fract(0.618034 * float(i) + turn), share));
+      d = on_side(refracted(to_eye, facet, u_ior, refracted_cosine(u_ior, dot(to_eye, facet))), -normal);
+      wide = max(spread, 1.5 * (u_ior - 1.0) * facet_step(u_width, dot(facet, normal), float(u_looks)));
+    }
+    sum += light_within(origin, d, fract(vec2(0.754878, 0.569840) * float(i) + vec2(turn, 5.0 * turn)), wide);
+  }
+  // Radiance is n^2 times as dense in glass.
+  vec3 entered = u_inside ? vec3(u_ior * u_ior)
+                          : u_tint * texelFetch(u_tints, pixel, 0).rgb * (1.0 - max_channel(reflected_at(cos_theta)));
+  vec3 light = sum.a > 0.02 * float(u_looks) ? sum.rgb / sum.a : light_around(origin, -to_eye, 0.5);
+  o_light = vec4(entered * light, u_width > 0.0 && g_least_pixels > kSmooth ? 2.0 : 1.0);
+}

@@ -1,0 +1,348 @@
+// Bodies of solid glass: against closed forms of refraction, absorption and total reflection, in an even light, and
+// where numbers run out.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "player/scene/glass_bodies.h"
+#include "tests/player/frame_fixture.h"
+
+namespace oriel {
+namespace {
+
+using testing::FrameTest;
+using testing::Picture;
+
+// Material 0 is the glass; nothing reflects outside, so that what passes is all of the light.
+Pack glass_pack(float ior, float roughness, const Vec3& absorption = Vec3(0)) {
+  Pack pack;
+  Material glass;
+  glass.transmission = 1, glass.ior = ior, glass.roughness = roughness;
+  pack.materials = {glass};
+  pack.solids = {{0, Vec3(1), absorption}};
+  return pack;
+}
+
+void add_box(Pack& pack, const Vec3& lower, const Vec3& upper, std::uint32_t material = 0) {
+  const Vec3 x(upper.x - lower.x, 0, 0), y(0, upper.y - lower.y, 0), z(0, 0, upper.z - lower.z);
+  testing::add_quad(pack, lower, y, x, material, -1);
+  testing::add_quad(pack, lower + z, x, y, material, -1);
+  testing::add_quad(pack, lower, z, y, material, -1);
+  testing::add_quad(pack, lower + x, y, z, material, -1);
+  testing::add_quad(pack, lower, x, z, material, -1);
+  testing::add_quad(pack, lower + y, z, x, material, -1);
+}
+
+void add_ball(Pack& pack, const Vec3& centre, float radius, bool inwards = false) {
+  constexpr int kRings = 24, kSides = 48;
+  Mesh& mesh = pack.mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (int r = 0; r <= kRings; ++r)
+    for (int s = 0; s <= kSides; ++s) {
+      const float theta = kPi * static_cast<float>(r) / kRings;
+      const float phi = 2 * kPi * static_cast<float>(s % kSides) / kSides;
+      const Vec3 n = r == 0 ? Vec3(0, 1, 0)
+                     : r == kRings
+                         ? Vec3(0, -1, 0)
+                         : Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+      mesh.positions.push_back(centre + radius * n);
+      mesh.normals.push_back(inwards ? -n : n);
+      mesh.uvs.emplace_back(0);
+      mesh.lightmap_uvs.emplace_back(0);
+    }
+  MeshPart part;
+  part.first_index = static_cast<std::uint32_t>(mesh.indices.size());
+  for (std::uint32_t r = 0; r < kRings; ++r)
+    for (std::uint32_t s = 0; s < kSides; ++s) {
+      const std::uint32_t a = first + r * (kSides + 1) + s, b = a + kSides + 1;
+      for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(i);
+      if (inwards)
+        for (int t = 0; t < 2; ++t) std::swap(mesh.indices.end()[-3 * t - 1], mesh.indices.end()[-3 * t - 2]);
+    }
+  part.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - part.first_index;
+  mesh.parts.push_back(part);
+}
+
+std::uint32_t add_lamp(Pack& pack, const Vec3& cd_m2) {
+  Material lamp;
+  lamp.base_color = Vec3(0);
+  lamp.emission = cd_m2;
+  pack.materials.push_back(lamp);
+  return static_cast<std::uint32_t>(pack.materials.size() - 1);
+}
+
+Camera camera_at(const Vec3& eye, const Vec3& target, float fov = 0.8f) {
+  Camera camera;
+  camera.eye = eye;
+  camera.forward = glm::normalize(target - eye);
+  camera.vertical_fov_rad = fov;
+  return camera;
+}
+
+Vec3 pixel_ray(const Camera& camera, int x, int y, int width, int height) {
+  const Vec3 right = glm::normalize(glm::cross(camera.forward, Vec3(0, 1, 0))), up = glm::cross(right, camera.forward);
+  const float half = std::tan(0.5f * camera.vertical_fov_rad);
+  const float u = (2 * (static_cast<float>(x) + 0.5f) - static_cast<float>(width)) / static_cast<float>(height);
+  const float v = 1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
+  return glm::normalize(camera.forward + half * (u * right + v * up));
+}
+
+std::vector<GlassBody> bodies_of(const Pack& pack, std::vector<std::uint32_t>& indices,
+                                 std::vector<DrawRange>& ranges) {
+  ranges = sorted_ranges(pack.mesh, indices);
+  return take_glass_bodies(pack, indices, ranges);
+}
+
+TEST(GlassBodies, AreFoundByWhatEncloses) {
+  Pack pack = glass_pack(1.5f, 0);
+  add_box(pack, Vec3(0), Vec3(1, 2, 3));
+  add_ball(pack, Vec3(5, 0, 0), 1);
+  add_ball(pack, Vec3(9, 0, 0), 1), add_ball(pack, Vec3(9, 0, 0), 0.9f, true);  // hollow
+  std::vector<std::uint32_t> indices;
+  std::vector<DrawRange> ranges;
+  const auto bodies = bodies_of(pack, indices, ranges);
+  ASSERT_EQ(bodies.size(), 3u);
+  EXPECT_EQ(bodies[0].planes.size(), 6u);
+  EXPECT_LT(length2(bodies[0].centre - Vec3(0.5f, 1, 1.5f)), 1e-8f);
+  EXPECT_TRUE(bodies[1].planes.empty());
+  EXPECT_NEAR(bodies[1].radius, 1, 1e-5);
+  EXPECT_EQ(ranges.size(), 1u) << "the inner shell faces inwards: thin";
+  EXPECT_TRUE(is_inside(bodies[0], pack.mesh, indices, Vec3(0.99f, 1.99f, 0.01f)));
+  EXPECT_FALSE(is_inside(bodies[0], pack.mesh, indices, Vec3(1.01f, 1, 1)));
+  EXPECT_TRUE(is_inside(bodies[1], pack.mesh, indices, Vec3(5.5f, 0.5f, 0)));
+  EXPECT_FALSE(is_inside(bodies[1], pack.mesh, indices, Vec3(5.8f, 0.8f, 0)));
+}
+
+class GlassTest : public FrameTest {};
+
+// Nothing is to be seen of glass that neither reflects nor absorbs in an even light.
+TEST_F(GlassTest, IsNotSeenInAnEvenLight) {
+  for (const float ior : {1.0f, 1.5f, 2.4f})
+    for (const float roughness : {0.0f, 0.3f, 0.8f})
+      for (const bool ball : {false, true}) {
+        Pack pack = glass_pack(ior, roughness);
+        pack.sky = Vec3(100, 80, 60);
+        ball ? add_ball(pack, Vec3(0), 0.7f) : add_box(pack, Vec3(-0.5f, -0.7f, -0.4f), Vec3(0.5f, 0.7f, 0.4f));
+        const Picture picture = draw(pack, camera_at({1, 0.8f, 2}, Vec3(0)), 48, 48);
+        for (int y = 0; y < 48; ++y)
+          for (int x = 0; x < 48; ++x)
+            for (int c = 0; c < 3; ++c)
+              ASSERT_NEAR(picture.at(x, y)[c] / pack.sky[c], 1, 0.01)
+                  << "ior " << ior << " roughness " << roughness << (ball ? " ball " : " box ") << x << ", " << y;
+      }
+}
+
+// An edge behind a slab lies where the closed form of the parallel shift has it.
+TEST_F(GlassTest, SlabShiftsWhatLiesBehind) {
+  constexpr float kThick = 0.6f, kIor = 1.5f, kBehind = -1.5f;
+  Pack pack = glass_pack(kIor, 0);
+  add_box(pack, Vec3(-3, -3, -kThick), Vec3(3, 3, 0));
+  testing::add_quad(pack, {0, -4, kBehind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
+  const Camera camera = camera_at({1.5f, 0, 1.5f}, {0, 0, -1});
+  constexpr int kSize = 160;
+  const Picture picture = draw(pack, camera, kSize, kSize);
+  int wrong = 0, unshifted = 0, seen = 0;
+  for (int x = 0; x < kSize; ++x) {
+    const auto x_behind = [&](float pixel, bool bent) {
+      const Vec3 d = pixel_ray(camera, static_cast<int>(pixel), kSize / 2, kSize, kSize);
+      const float cosine = -d.z, within = std::sqrt(1 - (1 - cosine * cosine) / (kIor * kIor));
+      const float slope = d.x / cosine, slope_within = d.x / kIor / within;
+      return camera.eye.x + slope * (camera.eye.z - kThick - kBehind) + (bent ? slope_within : slope) * kThick;
+    };
+    // Beyond the screen the surroundings show it, which are coarser.
+    const Vec3 hit = Vec3(x_behind(static_cast<float>(x), true), 0, kBehind) - camera.eye;
+    const float along = glm::dot(hit, camera.forward);
+    const float aside = glm::dot(hit, glm::normalize(glm::cross(camera.forward, Vec3(0, 1, 0))));
+    if (std::abs(aside) > 0.99f * along * std::tan(0.5f * camera.vertical_fov_rad)) continue;
+    const bool lit = picture.at(x, kSize / 2).x > 50;
+    seen += lit;
+    // The frame behind is known by pixel, and so is where on it the ray meets the edge.
+    const bool at_edge =
+        (x_behind(static_cast<float>(x - 2), true) > 0) != (x_behind(static_cast<float>(x + 2), true) > 0);
+    wrong += !at_edge && lit != (x_behind(static_cast<float>(x), true) > 0);
+    unshifted += lit != (x_behind(static_cast<float>(x), false) > 0);
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(unshifted, 3) << "a thin pane would show it there";
+  EXPECT_GT(seen, 20);
+}
+
+TEST_F(GlassTest, SlabAbsorbsByItsThickness) {
+  const Vec3 absorption(0.5f, 2, 10);
+  Pack pack = glass_pack(1.5f, 0, absorption);
+  add_box(pack, Vec3(-3, -3, -0.2f), Vec3(3, 3, 0));
+  testing::add_quad(pack, {-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, add_lamp(pack, Vec3(100)), -1);
+  const Camera camera = camera_at({0.8f, 0.3f, 1.5f}, Vec3(0));
+  const Picture picture = draw(pack, camera, 32, 32);
+  for (int y = 0; y < 32; y += 5)
+    for (int x = 0; x < 32; x += 5) {
+      const float cosine = -pixel_ray(camera, x, y, 32, 32).z;
+      const float within = std::sqrt(1 - (1 - cosine * cosine) / 2.25f);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(picture.at(x, y)[c], 100 * std::exp(-absorption[c] * 0.2f / within), 0.3) << x << ", " << y;
+    }
+}
+
+// A block in a room of six colours: by refraction and total reflection to and fro each pixel has one of them.
+TEST_F(GlassTest, BlockShowsTheWallsThatRaysFind) {
+  const Vec3 lower(-0.5f, -0.6f, -0.4f), upper(0.5f, 0.6f, 0.4f);
+  constexpr float kRoom = 2, kIor = 1.5f;
+  Pack pack = glass_pack(kIor, 0);
+  add_box(pack, lower, upper);
+  std::array<Vec3, 6> colors;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    colors[static_cast<std::size_t>(side)] =
+        Vec3(20.0f * static_cast<float>(side + 1), 30.0f * static_cast<float>(side % 3),
+             40.0f * static_cast<float>(side % 2) + 10);
+    Vec3 corner(-kRoom), right(0), up(0);
+    corner[axis] = side % 2 ? kRoom : -kRoom;
+    right[side % 2 ? v : u] = 2 * kRoom, up[side % 2 ? u : v] = 2 * kRoom;
+    testing::add_quad(pack, corner, right, up, add_lamp(pack, colors[static_cast<std::size_t>(side)]), -1);
+  }
+  const auto box_exit = [](const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& d, int& side) {
+    float nearest = 1e30f;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(d[axis]) < 1e-7f) continue;
+      const float way = ((d[axis] > 0 ? high : low)[axis] - p[axis]) / d[axis];
+      if (way < nearest) nearest = way, side = 2 * axis + (d[axis] > 0);
+    }
+    return p + nearest * d;
+  };
+  const auto normal_of = [](int side) {
+    Vec3 n(0);
+    n[side / 2] = side % 2 ? 1.0f : -1.0f;
+    return n;
+  };
+  const Camera camera = camera_at({1.2f, 0.7f, 1.5f}, Vec3(0), 0.7f);
+  constexpr int kSize = 96;
+  const Picture picture = draw(pack, camera, kSize, kSize);
+  // The wall that a pixel shows, -1 beside the block; + 6 where it was reflected totally.
+  const auto expected = [&](int x, int y) {
+    Vec3 d = pixel_ray(camera, x, y, kSize, kSize);
+    float enter = -1e30f, leave = 1e30f;
+    int side = 0, wall = 0, again = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float a = (lower[axis] - camera.eye[axis]) / d[axis], b = (upper[axis] - camera.eye[axis]) / d[axis];
+      if (std::min(a, b) > enter) enter = std::min(a, b), side = 2 * axis + (d[axis] < 0);
+      leave = std::min(leave, std::max(a, b));
+    }
+    if (enter > leave) return -1;
+    Vec3 p = camera.eye + enter * d;
+    d = glm::refract(d, normal_of(side), 1 / kIor);
+    for (int i = 0; i < 6; ++i) {
+      p = box_exit(lower, upper, p, d, side);
+      const Vec3 beyond = glm::refract(d, -normal_of(side), kIor);
+      if (length2(beyond) > 0) {
+        d = beyond;
+        break;
+      }
+      d = glm::reflect(d, normal_of(side)), again = 6;
+    }
+    box_exit(Vec3(-kRoom), Vec3(kRoom), p, d, wall);
+    return wall + again;
+  };
+  int right = 0, total = 0, reflected = 0;
+  for (int y = 1; y + 1 < kSize; ++y)
+    for (int x = 1; x + 1 < kSize; ++x) {
+      const int wall = expected(x, y);
+      bool at_edge = false;  // between two colours
+      for (int i = 0; i < 9; ++i) at_edge |= expected(x + i % 3 - 1, y + i / 3 - 1) != wall;
+      if (wall < 0 || at_edge) continue;
+      ++total, reflected += wall >= 6;
+      right += length2(picture.at(x, y) - colors[static_cast<std::size_t>(wall % 6)]) < 25;
+    }
+  EXPECT_GT(total, 1500);
+  EXPECT_GT(reflected, 200);
+  EXPECT_GT(right, total * 99 / 100) << "of " << total;
+}
+
+// Pixels that an edge takes from a quarter to three quarters. Neighbours of 4 x 4 look at parts of the lobe: their
+// mean.
+float edge_width(const Picture& picture, int size) {
+  std::vector<float> profile;
+  for (int x = 2; x + 1 < size; ++x) {
+    float sum = 0;
+    for (int i = 0; i < 64; ++i) sum += picture.at(x + i % 4 - 2, size / 2 + i / 4 - 8).x / 64;
+    profile.push_back(sum);
+  }
+  const auto at = [&](float level) {
+    std::size_t i = 0;
+    while (i + 2 < profile.size() && profile[i + 1] < level) ++i;
+    return static_cast<float>(i) + (level - profile[i]) / std::max(profile[i + 1] - profile[i], 1e-3f);
+  };
+  return at(75) - at(25);
+}
+
+// The same of a slope: rays from above through a thin slab whose facets are GGX's on both sides.
+float slope_width(float alpha, float ior) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const auto facet = [&] {
+    const float u = uniform(random), phi = 2 * kPi * uniform(random), slope = alpha * std::sqrt(u / (1 - u));
+    return glm::normalize(Vec3(slope * std::cos(phi), slope * std::sin(phi), 1));
+  };
+  std::vector<float> slopes;
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3 within = glm::refract(Vec3(0, 0, -1), facet(), 1 / ior), beyond = glm::refract(within, facet(), ior);
+    if (beyond.z < 0) slopes.push_back(beyond.x / -beyond.z);
+  }
+  std::sort(slopes.begin(), slopes.end());
+  return slopes[slopes.size() * 3 / 4] - slopes[slopes.size() / 4];
+}
+
+TEST_F(GlassTest, FrostedBlurGrowsWithTheDistanceBehind) {
+  constexpr float kRoughness = 0.5f, kFov = 0.8f;
+  constexpr int kSize = 160;
+  const float slopes = slope_width(kRoughness * kRoughness, 1.5f);
+  for (const float behind : {0.01f, 0.1f, 0.4f}) {
+    Pack pack = glass_pack(1.5f, kRoughness);
+    add_box(pack, Vec3(-3, -3, -0.01f), Vec3(3, 3, 0));
+    testing::add_quad(pack, {0, -4, -0.01f - behind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(100)), -1);
+    testing::add_quad(pack, {-4, -4, -0.01f - behind}, {4, 0, 0}, {0, 8, 0}, add_lamp(pack, Vec3(0)), -1);
+    const float found = edge_width(draw(pack, camera_at({0, 0, 1}, Vec3(0), kFov), kSize, kSize), kSize);
+    const float blur = slopes * behind / (1.01f + behind) * 0.5f * kSize / std::tan(0.5f * kFov);
+    EXPECT_NEAR(found, std::sqrt(blur * blur + 4), 0.15f * blur + 1) << behind << " m behind, alone " << blur;
+  }
+}
+
+// Eyes in the glass, on it, along it, numbers that are too large or none: finite, and no brighter than what there is.
+TEST_F(GlassTest, StaysWithinWhatCameIn) {
+  const std::vector<Camera> cameras = {
+      camera_at({0.1f, 0.2f, 0.05f}, {1, 0, 0}),   camera_at({0, 0, 0.4f}, Vec3(0)),
+      camera_at({3, 0, 0.39f}, {0, 0, 0.39f}),     camera_at({3, 0.6f, 0.4001f}, {0, 0.6f, 0.4f}),
+      camera_at({0, 0, 0.4001f}, {5, 0, 0.4001f}), camera_at({2, 1, 2}, Vec3(0))};
+  Camera flat = camera_at({2, 1, 2}, Vec3(0));
+  flat.vertical_fov_rad = 0, flat.half_height = 1;
+  for (const auto& [ior, roughness, absorption] : {std::tuple{1.5f, 0.0f, 0.0f},
+                                                   {0.5f, 0.0f, 0.0f},
+                                                   {0.0f, 1.0f, 1e30f},
+                                                   {1e6f, 0.02f, 1.0f},
+                                                   {1.0001f, 1.0f, 1e-30f},
+                                                   {2.4f, 0.5f, 3.0f}})
+    for (const bool ball : {false, true}) {
+      Pack pack = glass_pack(ior, roughness, Vec3(absorption, 0, 1));
+      pack.sky = Vec3(100);
+      ball ? add_ball(pack, Vec3(0), 0.5f) : add_box(pack, Vec3(-0.5f, -0.6f, -0.4f), Vec3(0.5f, 0.6f, 0.4f));
+      pack.mesh.positions[2] = pack.mesh.positions[1];  // a triangle without area, which opens the box
+      for (const Camera& camera : {cameras[0], cameras[1], cameras[2], cameras[3], cameras[4], cameras[5], flat}) {
+        const Picture picture = draw(pack, camera, 24, 24);
+        ASSERT_TRUE(picture.finite()) << ior << " " << roughness << " " << absorption;
+        const float most = 101 * std::max(ior * ior, 1.0f);
+        for (const float value : picture.rgb) ASSERT_LE(value, most) << ior << " " << roughness << " " << absorption;
+      }
+    }
+}
+
+// Glass out of view costs nothing.
+TEST_F(GlassTest, CostsNothingOutOfView) {
+  Pack pack = glass_pack(1.5f, 0);
+  testing::add_quad(pack, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, add_lamp(pack, Vec3(100)), -1);
+  const Camera camera = camera_at({0, 0, 0}, {0, 0, -1});
+  const std::uint32_t without = draw(pack, camera, 16, 16).stats.draws;
+  add_box(pack, {-0.5f, -0.5f, 3}, {0.5f, 0.5f, 4});
+  EXPECT_EQ(draw(pack, camera, 16, 16).stats.draws, without);
+}
+
+}  // namespace
+}  // namespace oriel
