@@ -12,7 +12,7 @@ namespace oriel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kSlow_s = 0.12;  // a pass that takes longer is drawn smaller while one moves
+constexpr double kSlow_s = 0.25;  // a pass that takes longer is drawn smaller while one moves
 constexpr double kMessage_s = 4;
 constexpr double kResting_s = 0.05;  // between looks at what threads do
 
@@ -183,7 +183,9 @@ class PreviewWindow {
     }
     worked_ = renderer_.passes() < arguments_.passes;
     if (worked_) {
-      ORIEL_TRY(const PreviewStats stats, renderer_.pass(options_, context_));
+      PreviewOptions options = options_;
+      options.shared |= moving_;
+      ORIEL_TRY(const PreviewStats stats, renderer_.pass(options, context_));
       status_.pass_s = stats.total_s;
       status_.passes = renderer_.passes();
       if (renderer_.passes() == arguments_.passes) begin_paths();

@@ -18,6 +18,7 @@ struct LampPoint {
   Vec3 normal{0, 0, -1};      // of a flat lamp's front
   Vec3 power{0};              // per channel
   std::uint32_t light = ~0u;  // into Scene::lights, of a punctual one
+  float share = 1;            // of one with a light: power over the light's own colour or intensity
 };
 
 // All that shines in a scene, by power.
