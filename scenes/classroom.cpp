@@ -30,7 +30,7 @@ void add_room(SampleScene& scene) {
 // Its middle is at x = z = 0, its pupil sits at +z.
 void add_desk(SampleMesh& slab, SampleMesh& legs) {
   add_slab(slab, legs, {-0.35f, 0.72f, -0.25f}, {0.35f, 0.75f, 0.25f}, kLeg);
-  add_box(legs, {-0.3f, 0.58f, -0.2f}, {0.3f, 0.6f, 0.15f});         // for books
+  add_box(legs, {-0.3f, 0.58f, -0.2f}, {0.3f, 0.6f, 0.15f});      // for books
   add_box(slab, {-0.3f, 0.3f, -0.235f}, {0.3f, 0.715f, -0.22f});  // before the knees
 }
 

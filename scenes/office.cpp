@@ -63,8 +63,7 @@ void add_monitor(Workplace& w) {
   const std::array<Vec3, 4> near{low, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z}};
   const std::array<Vec3, 4> far{
       far_low, {far_high.x, far_low.y, far_low.z}, far_high, {far_low.x, far_high.y, far_low.z}};
-  for (std::size_t i = 0; i < 4; ++i)
-    add_corners(w.cream, near[i], far[i], far[(i + 1) % 4], near[(i + 1) % 4]);
+  for (std::size_t i = 0; i < 4; ++i) add_corners(w.cream, near[i], far[i], far[(i + 1) % 4], near[(i + 1) % 4]);
   add_corners(w.cream, far[1], far[0], far[3], far[2]);
   add_box(w.cream, {-0.1f, kDesk, -0.25f}, {0.1f, low.y, -0.09f}, kSides);
   add_quad(w.screen, {low.x + 0.03f, low.y + 0.04f, high.z + 0.001f}, {0.38f, 0, 0}, {0, 0.29f, 0});
@@ -75,16 +74,16 @@ void add_keyboard(Workplace& w) {
   add_box(w.cream, low, low + Vec3(0.46f, 0.02f, 0.16f), kSeen);
   for (int row = 0; row < 4; ++row)
     for (int key = 0; key < 14; ++key) {
-      const Vec3 at = low + Vec3(0.012f + 0.0315f * static_cast<float>(key), 0.02f,
-                                 0.012f + 0.036f * static_cast<float>(row));
+      const Vec3 at =
+          low + Vec3(0.012f + 0.0315f * static_cast<float>(key), 0.02f, 0.012f + 0.036f * static_cast<float>(row));
       add_box(w.dark, at, at + Vec3(0.026f, 0.012f, 0.029f), kSeen);
     }
   add_box(w.cream, {0.3f, kDesk, 0.13f}, {0.36f, kDesk + 0.03f, 0.23f}, kSeen);  // the mouse
 }
 
 void add_desk_things(Workplace& w) {
-  const std::array<Vec2, 6> shade{{{0.09f, 0}, {0.09f, 0.015f}, {0.012f, 0.03f}, {0.012f, 0.34f}, {0.1f, 0.36f},
-                                   {0.03f, 0.44f}}};
+  const std::array<Vec2, 6> shade{
+      {{0.09f, 0}, {0.09f, 0.015f}, {0.012f, 0.03f}, {0.012f, 0.34f}, {0.1f, 0.36f}, {0.03f, 0.44f}}};
   add_lathe(w.dark, {-0.62f, kDesk, -0.2f}, shade, 12);
   const std::array<Vec2, 5> mug{{{0.038f, 0}, {0.042f, 0.09f}, {0.038f, 0.09f}, {0.034f, 0.01f}, {0, 0.01f}}};
   add_lathe(w.white, {0.5f, kDesk, 0.05f}, mug, 10);
@@ -144,10 +143,9 @@ void add_workplaces(SampleScene& scene) {
 void add_books(SampleScene& scene, std::uint32_t wood) {
   constexpr float kWide = 1.6f, kDeep = 0.3f, kBoard = 0.02f, kShelf = 0.4f;
   constexpr int kBooks = 40;
-  const std::array<std::uint32_t, 4> covers{add_diffuse(scene, "red book", {0.45f, 0.08f, 0.06f}),
-                                            add_diffuse(scene, "blue book", {0.07f, 0.13f, 0.35f}),
-                                            add_diffuse(scene, "green book", {0.08f, 0.26f, 0.12f}),
-                                            add_diffuse(scene, "white book", {0.7f, 0.66f, 0.55f})};
+  const std::array<std::uint32_t, 4> covers{
+      add_diffuse(scene, "red book", {0.45f, 0.08f, 0.06f}), add_diffuse(scene, "blue book", {0.07f, 0.13f, 0.35f}),
+      add_diffuse(scene, "green book", {0.08f, 0.26f, 0.12f}), add_diffuse(scene, "white book", {0.7f, 0.66f, 0.55f})};
   for (int side = 0; side < 2; ++side) {
     const float z = side == 0 ? 1.9f : 3.9f;
     SampleMesh shelf = mesh_of("bookcase " + std::to_string(side + 1), wood);
@@ -209,7 +207,8 @@ void add_plant(SampleScene& scene) {
     add_corners(leaves, foot - 0.2f * wide, foot + 0.2f * wide, knee + wide, knee - wide);
     add_corners(leaves, knee - wide, knee + wide, tip + 0.1f * wide, tip - 0.1f * wide);
     const Vec3 thick = 0.002f * out;
-    add_corners(leaves, foot + 0.2f * wide + thick, foot - 0.2f * wide + thick, knee - wide + thick, knee + wide + thick);
+    add_corners(leaves, foot + 0.2f * wide + thick, foot - 0.2f * wide + thick, knee - wide + thick,
+                knee + wide + thick);
     add_corners(leaves, knee + wide + thick, knee - wide + thick, tip - 0.1f * wide + thick, tip + 0.1f * wide + thick);
   }
   const Vec3 corner(0.45f, 0, 0.45f);

@@ -128,6 +128,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
     ORIEL_TRY(stats, renderer.pass(a.frame, context));
     if (i == 0) first_s = seconds_since(started), first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   }
+  const double drawn_s = seconds_since(started);
   std::optional<FloatImage> paths;
   double noise = 0;
   if (a.paths > 0) {
@@ -139,6 +140,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   if (a.stats) {
     const nlohmann::ordered_json json = {{"first_lit_s", first_s},
                                          {"first_lit_cpu_s", first_cpu_s},
+                                         {"drawn_s", drawn_s},
                                          {"cpu_s", static_cast<double>(std::clock()) / CLOCKS_PER_SEC},
                                          {"device_s", ready_s},
                                          {"loaded_s", loaded_s},

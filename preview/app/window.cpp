@@ -4,6 +4,8 @@
 #include "player/window/glfw_window.h"
 #include "player/window/gui.h"
 #include "player/window/window_input.h"
+#include "preview/app/baking.h"
+#include "preview/app/edit_panel.h"
 #include "preview/app/overlay.h"
 #include "preview/frame/live_scene.h"
 #include "preview/frame/paths.h"
@@ -40,6 +42,9 @@ class PreviewWindow {
     status_.most_paths = arguments.paths > 0 ? arguments.paths : kPaths;
   }
 
+  // Once a bake has ended: where the eye is, world.
+  const std::optional<Camera>& hands_over() const { return hands_over_; }
+
   Status run(Clock::time_point started) {
     Clock::time_point last = Clock::now();
     for (int frames = 0; frames != arguments_.frames;) {
@@ -60,6 +65,11 @@ class PreviewWindow {
       if (scene_ && std::exchange(first_, false) && arguments_.stats)
         fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
       if (scene_) ++frames;
+      if (bake_.ended_well()) {
+        hands_over_ = camera_;
+        hands_over_->eye = Vec3(DVec3(camera_.eye) + scene_->scene().origin);
+        return {};
+      }
     }
     return {};
   }
@@ -80,21 +90,25 @@ class PreviewWindow {
     }
     const bool again = scene_ != nullptr;
     paths_.stop();
-    if (const Status taken = renderer_.take(news->scene); !taken) {
+    const auto fresh = std::const_pointer_cast<PreviewScene>(news->scene);  // nobody else looks at it
+    const SceneEdits originals = edits_of(fresh->scene());
+    if (!edits_.empty()) edit_scene(*fresh, edits_, arguments_.scene.elements, arguments_.seed);
+    if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
       return {};
     }
     status_.error.clear();
+    originals_ = originals;
     if (again) {
       const DVec3 moved = scene_->scene().origin - news->scene->scene().origin;
       for (Camera* camera : {&camera_, &home_}) camera->eye = Vec3(DVec3(camera->eye) + moved);
-      say("read again");
+      say(edits_.empty() ? "read again" : "read again; what the panel changed stays");
     } else {
       ORIEL_TRY(camera_, choose_camera(news->scene->scene(), arguments_.camera));
       home_ = camera_;
     }
-    scene_ = std::move(news->scene);
+    scene_ = fresh;
     status_.loading = false;
     status_.triangles = scene_->scene().triangles.size();
     status_.lamps = scene_->lamps.count();
@@ -165,10 +179,33 @@ class PreviewWindow {
     }
     gui_.begin(!input_.grabbed());
     restart_ |= draw_preview_overlay(status_, options_);
+    PanelWishes wishes;
+    if (status_.panel && scene_) wishes = draw_edit_panel(scene_->scene(), bake_, edits_, selection_);
     gui_.end();
+    fulfil(wishes);
     glfwSwapBuffers(window_.get());
     if (!worked_ || !scene_) glfwWaitEventsTimeout(kResting_s);
     return {};
+  }
+
+  void fulfil(const PanelWishes& wishes) {
+    if (wishes.undoes) edits_ = {};
+    if (wishes.edited || wishes.undoes) {
+      paths_.stop();  // who reads the scene
+      edit_scene(*scene_, wishes.undoes ? originals_ : edits_, arguments_.scene.elements, arguments_.seed);
+      renderer_.take_edits();
+      restart_ = true;
+    }
+    if (wishes.saves) {
+      if (const auto copy = save_copy(arguments_.scene.file, edits_))
+        say("saved " + copy->string());
+      else
+        say(copy.error().text());
+    }
+    if (wishes.stops) bake_.stop();
+    if (wishes.bakes) {
+      if (const Status begun = begin_bake(arguments_, edits_, bake_); !begun) say(begun.error().text());
+    }
   }
 
   // A pass, or what paths there are; whatever is there is shown.
@@ -235,7 +272,11 @@ class PreviewWindow {
   Gui gui_;
   LiveScene live_;
   PathFrame paths_;
-  std::shared_ptr<const PreviewScene> scene_;
+  std::shared_ptr<PreviewScene> scene_;
+  SceneEdits edits_, originals_;
+  EditSelection selection_;
+  BackgroundBake bake_;
+  std::optional<Camera> hands_over_;
   Camera camera_, home_;
   MoveState move_;
   PreviewStatus status_;
@@ -252,12 +293,18 @@ class PreviewWindow {
 }  // namespace
 
 Status preview_in_window(const PreviewArguments& arguments, Context& context, Clock::time_point started) {
-  ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
-  glfwSetWindowTitle(window->get(), (arguments.scene.file.filename().string() + " – Oriel preview").c_str());
-  ORIEL_TRY(const gpu::Device device, gpu::open_device());
-  ORIEL_TRY(PreviewRenderer renderer, PreviewRenderer::create(device));
-  ORIEL_TRY(DisplayPass display, DisplayPass::create(device.dialect));
-  return PreviewWindow(*window, device, std::move(renderer), std::move(display), arguments, context).run(started);
+  std::optional<Camera> hands_over;
+  {
+    ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
+    glfwSetWindowTitle(window->get(), (arguments.scene.file.filename().string() + " – Oriel preview").c_str());
+    ORIEL_TRY(const gpu::Device device, gpu::open_device());
+    ORIEL_TRY(PreviewRenderer renderer, PreviewRenderer::create(device));
+    ORIEL_TRY(DisplayPass display, DisplayPass::create(device.dialect));
+    PreviewWindow preview(*window, device, std::move(renderer), std::move(display), arguments, context);
+    ORIEL_TRY_VOID(preview.run(started));
+    hands_over = preview.hands_over();
+  }
+  return hands_over ? show_pack(arguments.pack, *hands_over) : Status{};
 }
 
 }  // namespace oriel

@@ -7,8 +7,8 @@
 namespace oriel {
 namespace {
 
-constexpr float kFlat = 0.02f;     // of the distance between two pixels' points: off each other's plane
-constexpr float kTurned = 0.9f;    // cosine between their normals, at least
+constexpr float kFlat = 0.02f;   // of the distance between two pixels' points: off each other's plane
+constexpr float kTurned = 0.9f;  // cosine between their normals, at least
 constexpr std::size_t kNone = ~std::size_t{0};
 
 struct Shone {
@@ -38,7 +38,11 @@ std::optional<Shone> shine(const LampPoint& lamp, const Receiver& at, const Vec3
 class LampTracer {
  public:
   LampTracer(const SeenPoints& seen, std::span<const LampPoint> lamps, const Accel& accel, const SharedPoints& shared)
-      : seen_(seen), lamps_(lamps), accel_(accel), shared_(shared), step_(static_cast<std::size_t>(shared.side) * shared.side) {}
+      : seen_(seen),
+        lamps_(lamps),
+        accel_(accel),
+        shared_(shared),
+        step_(static_cast<std::size_t>(shared.side) * shared.side) {}
 
   // Of the points that pixel takes, every step-th.
   std::size_t first_point(std::size_t x, std::size_t y) const {
@@ -88,7 +92,8 @@ class LampTracer {
       for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(width, x + 2); ++u) {
         const std::size_t j = v * width + u;
         if (!on_surface_of(i, j)) continue;
-        // Of two by two those in the middle count twice, so that all points weigh the same, about the pixel's own place.
+        // Of two by two those in the middle count twice, so that all points weigh the same, about the pixel's own
+        // place.
         const float weight = shared_.side == 3 ? 1.0f : (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
         sum += weight * light[j];
         points += weight * static_cast<float>(points_of(u, v));
@@ -118,7 +123,8 @@ class LampTracer {
     if (i == j) return true;
     if (seen_.place[j].w == 0 || glm::dot(Vec3(seen_.normal[i]), Vec3(seen_.normal[j])) < kTurned) return false;
     const Vec3 apart = Vec3(seen_.place[j]) - Vec3(seen_.place[i]);
-    const float off = std::max(std::abs(glm::dot(apart, Vec3(seen_.face[i]))), std::abs(glm::dot(apart, Vec3(seen_.face[j]))));
+    const float off =
+        std::max(std::abs(glm::dot(apart, Vec3(seen_.face[i]))), std::abs(glm::dot(apart, Vec3(seen_.face[j]))));
     return off <= kFlat * glm::length(apart) || seen_.place[i].w == seen_.place[j].w;
   }
 

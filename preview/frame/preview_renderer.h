@@ -44,6 +44,8 @@ class PreviewRenderer {
 
   // To be drawn from now on; what was added up is left.
   Status take(std::shared_ptr<const PreviewScene> scene);
+  // The scene was edited (edit_scene()); what was added up is left.
+  void take_edits() { mesh_.take_materials(), passes_ = 0; }
   // From here, of that size; what was added up is left.
   Status look(const Camera& camera, int width, int height);
   // One more pass. context: for rays. Errors: kRuntime of the driver, kStopped.

@@ -1,6 +1,6 @@
-// Interaction of oriel-preview in the three scenes of Udeshi & Hansen 1999, with their numbers of points on lamps, on one
-// core and on two: frames a second at 640x480 while the eye moves, and the share of each stage beside their table 2.
-// preview_bench [FRAMES [SCENE]]
+// Interaction of oriel-preview in the three scenes of Udeshi & Hansen 1999, with their numbers of points on lamps, on
+// one core and on two: frames a second at 640x480 while the eye moves, and the share of each stage beside their
+// table 2. preview_bench [FRAMES [SCENE]]
 #include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -82,12 +82,13 @@ void walk(PreviewRenderer& renderer, DisplayPass& display, const Camera& camera,
     add(sum, stats);
   }
   const auto share = [&](double s) { return 100 * s / seconds; };
-  std::printf("  %-12s %5.2f frames/s  shadows and direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces %2.0f  rest %2.0f  "
-              "(%zu quads, %zu traced pixels a frame)\n",
-              way.name, frames / seconds, share(sum.shadows_s + sum.direct_s), share(sum.bounce_s), share(sum.traced_s),
-              share(sum.surfaces_s),
-              share(seconds - sum.shadows_s - sum.direct_s - sum.bounce_s - sum.traced_s - sum.surfaces_s),
-              sum.shadow_quads / static_cast<std::size_t>(frames), sum.traced_pixels / static_cast<std::size_t>(frames));
+  std::printf(
+      "  %-12s %5.2f frames/s  shadows and direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces %2.0f  rest %2.0f  "
+      "(%zu quads, %zu traced pixels a frame)\n",
+      way.name, frames / seconds, share(sum.shadows_s + sum.direct_s), share(sum.bounce_s), share(sum.traced_s),
+      share(sum.surfaces_s),
+      share(seconds - sum.shadows_s - sum.direct_s - sum.bounce_s - sum.traced_s - sum.surfaces_s),
+      sum.shadow_quads / static_cast<std::size_t>(frames), sum.traced_pixels / static_cast<std::size_t>(frames));
   std::fflush(stdout);
 }
 

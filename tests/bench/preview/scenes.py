@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 WAYS = [["--shadows", "rays"], ["--shadows", "volumes"], ["--shared"], ["--paths", "1"]]
-SIZE = ["--offscreen", "--size", "160x120", "--passes", "2", "--stats"]
+SIZE = ["--offscreen", "--size", "160x120", "--passes", "2", "--sky", "1000", "--stats"]
 
 
 def fault(program, file, way):

@@ -29,7 +29,8 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
   bare.cameras = {"0"};
   for (const bool quick : {true, false}) {
     const TradePlan plan = plan_trade(bare, 0.1, quick);
-    EXPECT_THAT(knobs(plan), ElementsAre("default", "error", "reference estimator", "reference paths", "texel"));
+    EXPECT_THAT(knobs(plan),
+                ElementsAre("default", "error", "no bake", "reference estimator", "reference paths", "texel"));
     for (const Configuration& c : plan.configurations) {
       EXPECT_THAT(c.play, IsEmpty()) << c.name();
       for (const char* option : {"--views", "--map-resolution", "--sh-bands"}) EXPECT_FALSE(c.bake.contains(option));
