@@ -42,9 +42,9 @@ Status begin_bake(const PreviewArguments& a, const SceneEdits& edits, Background
 Status show_pack(const std::filesystem::path& pack, const Camera& eye) {
   ORIEL_TRY(const std::string player, program("oriel-play"));
   const Vec3 target = eye.eye + eye.forward;
-  std::vector<std::string> words{player, pack.string(), "--camera",
-                                 fmt::format("{},{},{},{},{},{}", eye.eye.x, eye.eye.y, eye.eye.z, target.x, target.y,
-                                             target.z)};
+  std::vector<std::string> words{
+      player, pack.string(), "--camera",
+      fmt::format("{},{},{},{},{},{}", eye.eye.x, eye.eye.y, eye.eye.z, target.x, target.y, target.z)};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

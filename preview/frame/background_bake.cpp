@@ -61,9 +61,9 @@ bool BackgroundBake::ended_well() {
   ::close(std::exchange(pipe_, -1));
   constexpr int kPartial = 6;  // a pack that ended early is one to show (docs/conventions.md)
   if (WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == kPartial)) return true;
-  failure_ = !last_error_.empty()  ? last_error_
-             : WIFEXITED(status) ? fmt::format("the bake ended with exit code {}", WEXITSTATUS(status))
-                                 : fmt::format("the bake was ended by signal {}", WTERMSIG(status));
+  failure_ = !last_error_.empty() ? last_error_
+             : WIFEXITED(status)  ? fmt::format("the bake ended with exit code {}", WEXITSTATUS(status))
+                                  : fmt::format("the bake was ended by signal {}", WTERMSIG(status));
   return false;
 }
 

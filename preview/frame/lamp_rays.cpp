@@ -27,7 +27,7 @@ std::optional<Shone> shine(const LampPoint& lamp, const Receiver& at, const Vec3
     out.ray = {origin, to / distance, distance};
   }
   const Vec3& direction = out.ray.direction;
-  float share = incidence(at, direction) / d2;
+  float share = incidence(at, direction) / (d2 + lamp.soft);
   if (lamp.kind == LampKind::kFlat) share *= -glm::dot(lamp.normal, direction);
   if (!(share > 0)) return std::nullopt;
   if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
@@ -74,7 +74,10 @@ class LampTracer {
         if (seen_.place[y * width + x].w == 0) continue;
         const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
         if (!lit) continue;
-        rays.push_back(lit->ray), shone.push_back(lit->light), pixels.push_back(y * width + x);
+        if (lamps_[p].soft > 0)
+          light[y * width + x] += Vec4(lit->light, 1);
+        else
+          rays.push_back(lit->ray), shone.push_back(lit->light), pixels.push_back(y * width + x);
       }
       passed.resize(rays.size());
       accel_.transmittance(rays, passed);

@@ -128,7 +128,8 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
     stats.points = lamps.size();
     if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
   }
-  if (options.bounce) {
+  const bool among_lamps = options.shared && stats.points > 0 && stats.shadows == ShadowMethod::kRays;
+  if (options.bounce && !among_lamps) {
     const Stage stage(stats.bounce_s);
     light_.framebuffer.bind();
     add_elements();
@@ -154,7 +155,7 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
   const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
   {
     const Stage stage(stats.shadows_s);
-    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options.shared, context));
+    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context));
   }
   rays = stats.shadows_s / static_cast<double>(traced.size());
   if (!tries) return {};
@@ -178,11 +179,16 @@ void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, PreviewStat
 }
 
 // All of the light so far is theirs.
-Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, bool shared, Context& context) {
+Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options,
+                                          Context& context) {
   points_ = read_points();
   read_ = true;
-  ORIEL_TRY(const auto light,
-            lamps_by_rays(points_, lamps, *scene_->accel, {shared ? sharing_side(lamps.size()) : 1, passes_}, context));
+  std::vector<LampPoint> all(lamps.begin(), lamps.end());
+  if (options.shared && options.bounce)  // pixels share elements too
+    for (const BounceElement& e : scene_->elements)
+      all.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
+  const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
+  ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
   light_.light.upload(0, light.data());
   return {};
 }

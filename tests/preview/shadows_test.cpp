@@ -192,5 +192,26 @@ TEST_F(SharedPointsTest, ErrAtShadowsAlone) {
   EXPECT_NEAR(brighter / all, 0, 0.01);
 }
 
+TEST_F(SharedPointsTest, FramesWithOneBounceAreTheSame) {
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(Vec3(0.5f)), red = parts.diffuse(Vec3(0.7f, 0.2f, 0.1f));
+  parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  parts.quad("wall", red, {-5, 0, -5}, {10, 0, 0}, {0, 4, 0});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1000)), {-1, 4, -1}, {2, 0, 0}, {0, 0, 2});
+  take(parts.finish());
+  const auto frame = [&](bool shared, bool bounce) {
+    EXPECT_TRUE(renderer_.look(look_at({1, 3, 7}, {0, 1, 0}, 0.9f), kWidth, kHeight));
+    EXPECT_TRUE(
+        renderer_.pass({.shadows = ShadowMethod::kRays, .samples = 36, .bounce = bounce, .shared = shared}, context_));
+    const FloatImage mean = renderer_.read_mean();
+    std::vector<Vec4> light;
+    for (std::size_t i = 0; i < mean.pixels.size(); i += 3) light.emplace_back(mean.pixels[i], 0, 0, 0);
+    return light;
+  };
+  const auto truth = frame(false, true);
+  EXPECT_GT(relative_rmse(frame(true, false), truth), 0.02);  // without the bounce it is another
+  EXPECT_LT(relative_rmse(frame(true, true), truth), 0.02);
+}
+
 }  // namespace
 }  // namespace oriel

@@ -104,7 +104,10 @@ void measure(const Class& c, int frames) {
   std::filesystem::remove(file);
   if (const Status taken = renderer.take(scene); !taken) std::exit(4);
   for (const Way& way : kWays)
-    walk(renderer, display, scene->scene().cameras.front(), c, way, way.shared ? frames : (frames + 2) / 3);
+    walk(renderer, display, scene->scene().cameras.front(), c, way,
+         way.shared                           ? frames
+         : way.shadows == ShadowMethod::kRays ? (frames + 2) / 3
+                                              : 1);
 }
 
 // In a process of its own: how many cores the driver takes is settled once.
