@@ -60,7 +60,9 @@ void add_monitor(Workplace& w) {
   const Vec3 low(-0.22f, kDesk + 0.09f, -0.16f), high(0.22f, kDesk + 0.46f, -0.06f);
   add_box(w.cream, low, high);
   const Vec3 far_low(-0.13f, low.y + 0.05f, -0.37f), far_high(0.13f, high.y - 0.06f, -0.37f);
-  const std::array<Vec3, 4> near{low, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z}};
+  const Vec3 near_low = low + Vec3(0.01f, 0.01f, 0), near_high(high.x - 0.01f, high.y - 0.01f, low.z);
+  const std::array<Vec3, 4> near{
+      near_low, {near_high.x, near_low.y, low.z}, near_high, {near_low.x, near_high.y, low.z}};
   const std::array<Vec3, 4> far{
       far_low, {far_high.x, far_low.y, far_low.z}, far_high, {far_low.x, far_high.y, far_low.z}};
   for (std::size_t i = 0; i < 4; ++i) add_corners(w.cream, near[i], far[i], far[(i + 1) % 4], near[(i + 1) % 4]);

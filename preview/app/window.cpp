@@ -62,8 +62,7 @@ class PreviewWindow {
         continue;
       }
       ORIEL_TRY_VOID(draw({std::min(width, device_.texture_size), std::min(height, device_.texture_size)}));
-      if (scene_ && std::exchange(first_, false) && arguments_.stats)
-        fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
+      tell(started);
       if (scene_) ++frames;
       if (bake_.ended_well()) {
         hands_over_ = camera_;
@@ -76,6 +75,20 @@ class PreviewWindow {
 
  private:
   static constexpr std::uint32_t kPaths = 4096;
+
+  // --stats: how soon a scene was seen, after the program's start and after the file was saved.
+  void tell(Clock::time_point started) {
+    if (!arguments_.stats || !scene_ || !std::exchange(fresh_, false)) return;
+    if (std::exchange(first_, false)) {
+      fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
+    } else {
+      std::error_code ec;
+      const auto saved = std::filesystem::last_write_time(arguments_.scene.file, ec);
+      const std::chrono::duration<double> since = std::filesystem::file_time_type::clock::now() - saved;
+      if (!ec) fmt::print("{{\"seen_after_saving_s\":{:.3f}}}\n", since.count());
+    }
+    std::fflush(stdout);
+  }
 
   // Eye and exposure stay. Where the file cannot be shown the scene stays too.
   Status take_news() {
@@ -109,6 +122,7 @@ class PreviewWindow {
       home_ = camera_;
     }
     scene_ = fresh;
+    fresh_ = true;
     status_.loading = false;
     status_.triangles = scene_->scene().triangles.size();
     status_.lamps = scene_->lamps.count();
@@ -283,6 +297,7 @@ class PreviewWindow {
   std::optional<float> ev100_;  // nothing: automatic
   float shown_ev100_ = 0;
   bool metered_ = false, moving_ = false, restart_ = false, worked_ = false, first_ = true;
+  bool fresh_ = false;  // a scene that was not seen yet
   IVec2 size_{0};
   std::size_t shown_camera_ = 0;
   FloatImage passes_mean_;

@@ -134,8 +134,7 @@ class Planner {
         c.knob = "no bake";
         c.setting = fmt::format("{} pass{}, {}", passes, passes == 1 ? "" : "es", shadows);
         c.published = shadows == "volumes" && passes == 1 ? "hybrid (Udeshi & Hansen 1999)" : "";
-        c.passes = passes;
-        c.shadows = shadows;
+        c.preview = {{"--passes", std::to_string(passes)}, {"--shadows", shadows}};
         configurations_.push_back(std::move(c));
       }
   }

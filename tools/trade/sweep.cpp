@@ -103,9 +103,9 @@ class Sweep {
     }
     for (const Configuration& configuration : trade_.plan.configurations) {
       Row row{configuration, {}, {}, {}, {}};
-      const Status measured = configuration.paths > 0    ? measure_paths(row)
-                              : configuration.passes > 0 ? measure_preview(row)
-                                                         : measure_pack(row);
+      const Status measured = configuration.paths > 0          ? measure_paths(row)
+                              : !configuration.preview.empty() ? measure_preview(row)
+                                                               : measure_pack(row);
       if (!measured) {
         if (measured.error().code == ErrorCode::kIo) return measured;
         row.failure = measured.error().text();
@@ -281,7 +281,8 @@ class Sweep {
   Status measure_preview(Row& row) {
     const Configuration& c = row.configuration;
     if (!trade_.frames || !fs::exists(preview_program())) return {};
-    Arguments what{"preview", c.shadows, std::to_string(c.passes)};
+    Arguments what{"preview", std::to_string(o_.seed)};
+    append(what, c.preview);
     what.insert(what.end(), references_.begin(), references_.end());
     const std::string key = store_.key(what);
     for (std::size_t i = 0; i < references_.size(); ++i) row.pictures.push_back(picture(key, i));
@@ -306,14 +307,11 @@ class Sweep {
                         camera,
                         "--size",
                         fmt::format("{}x{}", width, height),
-                        "--passes",
-                        std::to_string(c.passes),
-                        "--shadows",
-                        c.shadows,
                         "-o",
                         frame.string(),
                         "--seed",
                         std::to_string(o_.seed)};
+      append(drawing, c.preview);
       drawing.insert(drawing.end(), o_.forwarded.begin(), o_.forwarded.end());
       ORIEL_TRY_VOID(run_program(drawing, log(key), context_.stop));
       ORIEL_TRY(const std::string told, read_text(log(key)));

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "formats/core/file.h"
 #include "player/gpu/headless.h"
@@ -63,9 +64,10 @@ void walk(PreviewRenderer& renderer, DisplayPass& display, const Camera& camera,
   const gpu::Texture2d shown(gpu::kRgba8, kWidth, kHeight, nullptr);
   const gpu::Framebuffer target = must(gpu::Framebuffer::create("shown", &shown, nullptr));
   PreviewStats sum;
-  double seconds = 0;
+  double seconds = 0, cpu_s = 0;
   for (int i = -1; i < frames; ++i) {
     const Clock::time_point start = Clock::now();
+    const std::clock_t cpu = std::clock();
     Camera turned = camera;
     const float yaw = 0.009f * static_cast<float>(i);
     const Vec3 f = camera.forward;
@@ -79,14 +81,16 @@ void walk(PreviewRenderer& renderer, DisplayPass& display, const Camera& camera,
     glFinish();
     if (i < 0) continue;  // the driver compiles
     seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    cpu_s += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
     add(sum, stats);
   }
   const auto share = [&](double s) { return 100 * s / seconds; };
   std::printf(
-      "  %-12s %5.2f frames/s  shadows and direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces %2.0f  rest %2.0f  "
+      "  %-12s %5.2f frames/s, %4.0f ms of CPU each  shadows and direct %2.0f %%  bounce %2.0f  traced %2.0f  surfaces "
+      "%2.0f  rest %2.0f  "
       "(%zu quads, %zu traced pixels a frame)\n",
-      way.name, frames / seconds, share(sum.shadows_s + sum.direct_s), share(sum.bounce_s), share(sum.traced_s),
-      share(sum.surfaces_s),
+      way.name, frames / seconds, 1000 * cpu_s / frames, share(sum.shadows_s + sum.direct_s), share(sum.bounce_s),
+      share(sum.traced_s), share(sum.surfaces_s),
       share(seconds - sum.shadows_s - sum.direct_s - sum.bounce_s - sum.traced_s - sum.surfaces_s),
       sum.shadow_quads / static_cast<std::size_t>(frames), sum.traced_pixels / static_cast<std::size_t>(frames));
   std::fflush(stdout);
