@@ -25,9 +25,9 @@ constexpr Corners kShortTop{{{130, 165, 65}, {82, 165, 225}, {240, 165, 272}, {2
 constexpr Corners kTallTop{{{423, 330, 247}, {265, 330, 296}, {314, 330, 456}, {472, 330, 406}}};
 
 // A block standing on the floor; its bottom is never seen.
-SampleMesh block(std::string name, std::uint32_t material, const Corners& top) {
+SampleMesh block(std::string name, std::uint32_t material, const Corners& top, bool with_top = true) {
   SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
-  add(mesh, top);
+  if (with_top) add(mesh, top);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 a = top[i], b = top[(i + 1) % 4];
     add(mesh, {{{a.x, 0, a.z}, {b.x, 0, b.z}, b, a}});
@@ -41,11 +41,11 @@ SampleMesh wall(std::string name, std::uint32_t material, const Corners& corners
   return mesh;
 }
 
-}  // namespace
+struct Materials {
+  std::uint32_t white, red, green, light;
+};
 
-SampleScene make_cornell() {
-  SampleScene scene;
-  scene.name = "Cornell box";
+Materials add_materials(SampleScene& scene) {
   const auto material = [&](std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
     SampleMaterial m;
     m.name = std::move(name);
@@ -58,25 +58,58 @@ SampleScene make_cornell() {
   const std::uint32_t red = material("red", Vec3(0.61f, 0.06f, 0.06f));
   const std::uint32_t green = material("green", Vec3(0.12f, 0.44f, 0.11f));
   // Its emission has the published spectrum's hue; its strength lights the floor like an office, about 500 lux.
-  const std::uint32_t light = material("light", Vec3(0.78f), 300.0f * Vec3(17, 12, 4));
+  return {white, red, green, material("light", Vec3(0.78f), 300.0f * Vec3(17, 12, 4))};
+}
 
-  place(scene, wall("floor", white, kFloor));
-  SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
+// The box, its light and the published camera: focal length 0.035 behind a film of 0.025 squared.
+void add_walls(SampleScene& scene, const Materials& m, SampleMesh ceiling, const Corners& light) {
+  place(scene, wall("floor", m.white, kFloor));
+  place(scene, std::move(ceiling));
+  place(scene, wall("light", m.light, light));
+  place(scene, wall("back wall", m.white, kBackWall));
+  place(scene, wall("green wall", m.green, kGreenWall));
+  place(scene, wall("red wall", m.red, kRedWall));
+  const float fov_rad = 2.0f * std::atan(0.0125f / 0.035f);
+  scene.cameras.push_back({"camera", Vec3(0.278f, 0.273f, -0.8f), Vec3(0.278f, 0.273f, 0), fov_rad});
+}
+
+}  // namespace
+
+SampleScene make_cornell() {
+  SampleScene scene;
+  scene.name = "Cornell box";
+  const Materials m = add_materials(scene);
+  SampleMesh ceiling{"ceiling", m.white, {}, {}, {}, {}};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
     add(ceiling, {{kCeiling[i], kCeiling[next], kLight[next], kLight[i]}});
   }
-  place(scene, std::move(ceiling));
-  place(scene, wall("light", light, kLight));
-  place(scene, wall("back wall", white, kBackWall));
-  place(scene, wall("green wall", green, kGreenWall));
-  place(scene, wall("red wall", red, kRedWall));
-  place(scene, block("short block", white, kShortTop));
-  place(scene, block("tall block", white, kTallTop));
+  add_walls(scene, m, std::move(ceiling), kLight);
+  place(scene, block("short block", m.white, kShortTop));
+  place(scene, block("tall block", m.white, kTallTop));
+  return scene;
+}
 
-  // Focal length 0.035 behind a film of 0.025 squared.
-  const float fov_rad = 2.0f * std::atan(0.0125f / 0.035f);
-  scene.cameras.push_back({"camera", Vec3(0.278f, 0.273f, -0.8f), Vec3(0.278f, 0.273f, 0), fov_rad});
+SampleScene make_glass_sphere() {
+  SampleScene scene;
+  scene.name = "Cornell box with a glass sphere";
+  const Materials m = add_materials(scene);
+  Corners light = kLight;
+  for (Vec3& corner : light) corner.y -= 2;  // the ceiling has no hole
+  add_walls(scene, m, wall("ceiling", m.white, kCeiling), light);
+  SampleMaterial mirror;
+  mirror.name = "mirror";
+  mirror.base_color = Vec3(0.9f), mirror.metallic = 1, mirror.roughness = 0;
+  place(scene, block("short block", m.white, kShortTop, false));
+  place(scene, wall("short block's top", add_material(scene, std::move(mirror)), kShortTop));
+  place(scene, block("tall block", m.white, kTallTop));
+  SampleMaterial glass;
+  glass.name = "glass";
+  glass.base_color = Vec3(1), glass.roughness = 0, glass.specular = 1, glass.transmission = 1, glass.ior = 1.5f;
+  glass.thickness_m = 0.16f;
+  SampleMesh sphere{"glass sphere", add_material(scene, std::move(glass)), {}, {}, {}, {}};
+  add_sphere(sphere, Vec3(0), 0.08f, 20, 10);
+  place(scene, std::move(sphere), {0.41f, 0.081f, 0.12f});
   return scene;
 }
 

@@ -13,6 +13,14 @@ namespace oriel::sample {
 // light fills a hole in the ceiling.
 SampleScene make_cornell();
 
+// The three kinds of scene of Udeshi and Hansen, "Towards Interactive Photorealistic Rendering of Indoor Scenes", EGWR
+// 1999, of as many polygons (polygon_count()). An office of 4083 with four workplaces and two ceiling panels; a
+// classroom of 3135 rectangles with four lamps, where the teacher's table is polished and almost every edge throws a
+// shadow; and the Cornell box of 217 with a glass sphere of 200, whose short block has a mirror for a top.
+SampleScene make_office();
+SampleScene make_classroom();
+SampleScene make_glass_sphere();
+
 // Three connected rooms of a small museum: A with fluted columns and a polished floor, B with a mirror, stairs and a
 // window, C lit only through its doorway. Closed; 20 to 60 thousand triangles; a 600-frame walk.
 struct GalleryOptions {

@@ -31,10 +31,13 @@ int report(const oriel::Error& error) {
 }
 
 oriel::Result<oriel::sample::SampleScene> make_scene(const Arguments& arguments) {
+  if (arguments.scene == "classroom") return oriel::sample::make_classroom();
   if (arguments.scene == "colonnade") return oriel::sample::make_colonnade();
   if (arguments.scene == "cornell") return oriel::sample::make_cornell();
   if (arguments.scene == "gallery") return oriel::sample::make_gallery(arguments.gallery);
   if (arguments.scene == "glass") return oriel::sample::make_glass();
+  if (arguments.scene == "glass-sphere") return oriel::sample::make_glass_sphere();
+  if (arguments.scene == "office") return oriel::sample::make_office();
   if (arguments.scene == "panels") return oriel::sample::make_panels();
   if (arguments.scene == "room") return oriel::sample::make_room();
   if (arguments.scene == "dome")
@@ -126,11 +129,13 @@ int main(int argc, char** argv) {
       "oriel-scenes"};
   Arguments arguments;
   app.add_option("scene", arguments.scene,
-                 "Which scene: a hall of 200 columns, the Cornell box, a room in a landscape under a sky dome, a "
-                 "museum of three rooms, a room with glass bodies, a "
-                 "two-storey house, a wall of panels and other things that stand little proud, a closed room without "
+                 "Which scene: a classroom, a hall of 200 columns, the Cornell box, a room in a landscape under a sky "
+                 "dome, a museum of three rooms, a room with glass bodies, the Cornell box with a glass sphere, a "
+                 "two-storey house, an office, a wall of panels and other things that stand little proud, a closed "
+                 "room without "
                  "a camera, a room with curved metal")
-      ->check(CLI::IsMember({"colonnade", "cornell", "dome", "gallery", "glass", "house", "panels", "room", "studio"}));
+      ->check(CLI::IsMember({"classroom", "colonnade", "cornell", "dome", "gallery", "glass", "glass-sphere", "house",
+                             "office", "panels", "room", "studio"}));
   app.add_option("-o,--output", arguments.output, "The .glb file to write");
   app.add_option("--unit", arguments.unit, "Of the file's numbers, which glTF says are metres: m, cm, mm, km")
       ->check(CLI::IsMember(kUnits_per_m))

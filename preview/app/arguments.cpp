@@ -43,6 +43,8 @@ std::vector<Option> output_options(PreviewArguments& a) {
       {"--ev", kFrameGroup, "Exposure value at ISO 100. Default: by the frame", number(a.ev100, -100, 100)},
       {"--tonemap", kFrameGroup, "Tone curve of what is shown", choice(a.curve, kToneCurves)},
       {"--frames", kFrameGroup, "The window closes after so many frames", number(a.frames, 1, 1e9)},
+      {"--pack", kFrameGroup, "The pack that \"bake this view\" writes. Default: beside the scene, .oriel",
+       path(a.pack, "FILE")},
       {"--stats", kFrameGroup, "A line of JSON on stdout: seconds to the first lit frame, and of each stage of a pass",
        flag(a.stats), Use::kEveryday},
   };
@@ -54,11 +56,16 @@ std::vector<Option> effect_options(PreviewArguments& a) {
       {"--samples", kEffects, "Points on lamps in each pass, shared by power; at least one for each kind of lamp",
        number(a.frame.samples, 1, 4096), Use::kEveryday},
       {"--shadows", kEffects,
-       "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; or none",
-       choice(a.frame.shadows,
-              Names<ShadowMethod>{
-                  {"volumes", ShadowMethod::kVolumes}, {"rays", ShadowMethod::kRays}, {"none", ShadowMethod::kNone}}),
+       "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; auto: the "
+       "cheaper of both, as early passes measure; or none",
+       choice(a.frame.shadows, Names<ShadowMethod>{{"auto", ShadowMethod::kAuto},
+                                                   {"volumes", ShadowMethod::kVolumes},
+                                                   {"rays", ShadowMethod::kRays},
+                                                   {"none", ShadowMethod::kNone}}),
        Use::kEveryday},
+      {"--shared", kEffects,
+       "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
+       flag(a.frame.shared)},
       {"--elements", kEffects,
        "Elements of surfaces that shine back what lamps throw on them, without shadows; 0: none",
        number(a.scene.elements, 0, 1024), Use::kEveryday},
@@ -80,13 +87,15 @@ CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> ru
                       .footer = kFooter,
                       .options = output_options(a)};
   append(command.options, effect_options(a));
-  command.options.push_back(mover_option(a.scene.import));
-  append(command.options, light_options(a.scene.import));
-  append(command.options, scene_options(a.scene.import, a.reproducible));
-  append(command.options,
-         {{"--threads", "Run", "Threads of rays; 0: all CPUs", number(a.threads, 0, 1024), Use::kEveryday},
-          {"--seed", "Run", "Of every random number", number(a.seed, 0, 18446744073709551615.0)}});
-  command.settle = [&a](const Given&) -> Status {
+  std::vector<Option> baked{mover_option(a.scene.import)};  // that oriel-bake takes too
+  append(baked, light_options(a.scene.import));
+  append(baked, scene_options(a.scene.import, a.reproducible));
+  append(baked, {{"--threads", "Run", "Threads of rays; 0: all CPUs", number(a.threads, 0, 1024), Use::kEveryday},
+                 {"--seed", "Run", "Of every random number", number(a.seed, 0, 18446744073709551615.0)}});
+  append(command.options, baked);
+  command.settle = [&a, baked](const Given& given) -> Status {
+    a.bake_options = given.words(baked);
+    if (a.pack.empty()) a.pack = std::filesystem::path(a.scene.file).replace_extension(".oriel");
     if (!a.offscreen) return {};
     const auto ending = a.output.extension();
     if (!a.output.empty() && ending != ".png" && ending != ".exr")

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/cli/command.h"
 #include "player/passes/display_pass.h"
@@ -25,6 +26,8 @@ struct PreviewArguments {
   int frames = -1;  // the window closes after so many; -1: never
   int threads = 0;
   std::uint64_t seed = 1;
+  std::filesystem::path pack;             // that a bake from the window writes
+  std::vector<std::string> bake_options;  // of what was given, those that oriel-bake takes too
 };
 
 // Options and what contradicts; `run` is called once they are set.

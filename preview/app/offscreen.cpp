@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/run/view_options.h"
+#include "formats/core/color.h"
 #include "formats/image/exr.h"
 #include "formats/image/png.h"
 #include "formats/query/camera_notes.h"
@@ -21,9 +22,29 @@ double seconds_since(Clock::time_point start) {
 }
 
 nlohmann::ordered_json json_of_pass(const PreviewStats& s) {
-  return {{"total_s", s.total_s},   {"surfaces_s", s.surfaces_s},     {"shadows_s", s.shadows_s},
-          {"direct_s", s.direct_s}, {"bounce_s", s.bounce_s},         {"traced_s", s.traced_s},
-          {"points", s.points},     {"shadow_quads", s.shadow_quads}, {"traced_pixels", s.traced_pixels}};
+  constexpr const char* kMethods[] = {"none", "volumes", "rays", "auto"};
+  return {{"shadows", kMethods[static_cast<int>(s.shadows)]},
+          {"total_s", s.total_s},
+          {"surfaces_s", s.surfaces_s},
+          {"shadows_s", s.shadows_s},
+          {"direct_s", s.direct_s},
+          {"bounce_s", s.bounce_s},
+          {"traced_s", s.traced_s},
+          {"points", s.points},
+          {"shadow_quads", s.shadow_quads},
+          {"traced_pixels", s.traced_pixels}};
+}
+
+// Of what was drawn: the mean over pixels that are numbers, cd/m², and how many are none.
+nlohmann::ordered_json json_of_frame(const FloatImage& frame) {
+  double sum = 0;
+  std::size_t finite = 0;
+  const std::size_t pixels = frame.pixels.size() / 3;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const Vec3 light(frame.pixels[3 * i], frame.pixels[3 * i + 1], frame.pixels[3 * i + 2]);
+    if (is_finite(light)) sum += luminance(light), ++finite;
+  }
+  return {{"mean_cd_m2", sum / static_cast<double>(std::max<std::size_t>(finite, 1))}, {"no_number", pixels - finite}};
 }
 
 // Row 0 at the top.
@@ -107,6 +128,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
     ORIEL_TRY(stats, renderer.pass(a.frame, context));
     if (i == 0) first_s = seconds_since(started), first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   }
+  const double drawn_s = seconds_since(started);
   std::optional<FloatImage> paths;
   double noise = 0;
   if (a.paths > 0) {
@@ -118,6 +140,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   if (a.stats) {
     const nlohmann::ordered_json json = {{"first_lit_s", first_s},
                                          {"first_lit_cpu_s", first_cpu_s},
+                                         {"drawn_s", drawn_s},
                                          {"cpu_s", static_cast<double>(std::clock()) / CLOCKS_PER_SEC},
                                          {"device_s", ready_s},
                                          {"loaded_s", loaded_s},
@@ -131,6 +154,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                                          {"passes", renderer.passes()},
                                          {"paths", a.paths},
                                          {"noise", noise},
+                                         {"passes_frame", json_of_frame(renderer.read_mean())},
                                          {"last_pass", json_of_pass(stats)}};
     fmt::print("{}\n", json.dump());
   }

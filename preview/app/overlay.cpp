@@ -42,7 +42,7 @@ bool draw_panel(const PreviewStatus& s, PreviewOptions& o) {
   ImGui::Text("%zu triangles, %zu lamps", s.triangles, s.lamps);
   changed |= ImGui::Checkbox("direct light", &o.direct);
   int shadows = static_cast<int>(o.shadows);
-  if (ImGui::Combo("shadows", &shadows, "none\0volumes\0rays\0")) {
+  if (ImGui::Combo("shadows", &shadows, "none\0volumes\0rays\0the cheaper\0")) {
     o.shadows = static_cast<ShadowMethod>(shadows);
     changed = true;
   }

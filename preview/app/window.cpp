@@ -4,6 +4,8 @@
 #include "player/window/glfw_window.h"
 #include "player/window/gui.h"
 #include "player/window/window_input.h"
+#include "preview/app/baking.h"
+#include "preview/app/edit_panel.h"
 #include "preview/app/overlay.h"
 #include "preview/frame/live_scene.h"
 #include "preview/frame/paths.h"
@@ -12,7 +14,7 @@ namespace oriel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kSlow_s = 0.12;  // a pass that takes longer is drawn smaller while one moves
+constexpr double kSlow_s = 0.25;  // a pass that takes longer is drawn smaller while one moves
 constexpr double kMessage_s = 4;
 constexpr double kResting_s = 0.05;  // between looks at what threads do
 
@@ -40,6 +42,9 @@ class PreviewWindow {
     status_.most_paths = arguments.paths > 0 ? arguments.paths : kPaths;
   }
 
+  // Once a bake has ended: where the eye is, world.
+  const std::optional<Camera>& hands_over() const { return hands_over_; }
+
   Status run(Clock::time_point started) {
     Clock::time_point last = Clock::now();
     for (int frames = 0; frames != arguments_.frames;) {
@@ -57,15 +62,33 @@ class PreviewWindow {
         continue;
       }
       ORIEL_TRY_VOID(draw({std::min(width, device_.texture_size), std::min(height, device_.texture_size)}));
-      if (scene_ && std::exchange(first_, false) && arguments_.stats)
-        fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
+      tell(started);
       if (scene_) ++frames;
+      if (bake_.ended_well()) {
+        hands_over_ = camera_;
+        hands_over_->eye = Vec3(DVec3(camera_.eye) + scene_->scene().origin);
+        return {};
+      }
     }
     return {};
   }
 
  private:
   static constexpr std::uint32_t kPaths = 4096;
+
+  // --stats: how soon a scene was seen, after the program's start and after the file was saved.
+  void tell(Clock::time_point started) {
+    if (!arguments_.stats || !scene_ || !std::exchange(fresh_, false)) return;
+    if (std::exchange(first_, false)) {
+      fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
+    } else {
+      std::error_code ec;
+      const auto saved = std::filesystem::last_write_time(arguments_.scene.file, ec);
+      const std::chrono::duration<double> since = std::filesystem::file_time_type::clock::now() - saved;
+      if (!ec) fmt::print("{{\"seen_after_saving_s\":{:.3f}}}\n", since.count());
+    }
+    std::fflush(stdout);
+  }
 
   // Eye and exposure stay. Where the file cannot be shown the scene stays too.
   Status take_news() {
@@ -80,21 +103,26 @@ class PreviewWindow {
     }
     const bool again = scene_ != nullptr;
     paths_.stop();
-    if (const Status taken = renderer_.take(news->scene); !taken) {
+    const auto fresh = std::const_pointer_cast<PreviewScene>(news->scene);  // nobody else looks at it
+    const SceneEdits originals = edits_of(fresh->scene());
+    if (!edits_.empty()) edit_scene(*fresh, edits_, arguments_.scene.elements, arguments_.seed);
+    if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
       return {};
     }
     status_.error.clear();
+    originals_ = originals;
     if (again) {
       const DVec3 moved = scene_->scene().origin - news->scene->scene().origin;
       for (Camera* camera : {&camera_, &home_}) camera->eye = Vec3(DVec3(camera->eye) + moved);
-      say("read again");
+      say(edits_.empty() ? "read again" : "read again; what the panel changed stays");
     } else {
       ORIEL_TRY(camera_, choose_camera(news->scene->scene(), arguments_.camera));
       home_ = camera_;
     }
-    scene_ = std::move(news->scene);
+    scene_ = fresh;
+    fresh_ = true;
     status_.loading = false;
     status_.triangles = scene_->scene().triangles.size();
     status_.lamps = scene_->lamps.count();
@@ -165,10 +193,33 @@ class PreviewWindow {
     }
     gui_.begin(!input_.grabbed());
     restart_ |= draw_preview_overlay(status_, options_);
+    PanelWishes wishes;
+    if (status_.panel && scene_) wishes = draw_edit_panel(scene_->scene(), bake_, edits_, selection_);
     gui_.end();
+    fulfil(wishes);
     glfwSwapBuffers(window_.get());
     if (!worked_ || !scene_) glfwWaitEventsTimeout(kResting_s);
     return {};
+  }
+
+  void fulfil(const PanelWishes& wishes) {
+    if (wishes.undoes) edits_ = {};
+    if (wishes.edited || wishes.undoes) {
+      paths_.stop();  // who reads the scene
+      edit_scene(*scene_, wishes.undoes ? originals_ : edits_, arguments_.scene.elements, arguments_.seed);
+      renderer_.take_edits();
+      restart_ = true;
+    }
+    if (wishes.saves) {
+      if (const auto copy = save_copy(arguments_.scene.file, edits_))
+        say("saved " + copy->string());
+      else
+        say(copy.error().text());
+    }
+    if (wishes.stops) bake_.stop();
+    if (wishes.bakes) {
+      if (const Status begun = begin_bake(arguments_, edits_, bake_); !begun) say(begun.error().text());
+    }
   }
 
   // A pass, or what paths there are; whatever is there is shown.
@@ -183,7 +234,9 @@ class PreviewWindow {
     }
     worked_ = renderer_.passes() < arguments_.passes;
     if (worked_) {
-      ORIEL_TRY(const PreviewStats stats, renderer_.pass(options_, context_));
+      PreviewOptions options = options_;
+      options.shared |= moving_;
+      ORIEL_TRY(const PreviewStats stats, renderer_.pass(options, context_));
       status_.pass_s = stats.total_s;
       status_.passes = renderer_.passes();
       if (renderer_.passes() == arguments_.passes) begin_paths();
@@ -233,13 +286,18 @@ class PreviewWindow {
   Gui gui_;
   LiveScene live_;
   PathFrame paths_;
-  std::shared_ptr<const PreviewScene> scene_;
+  std::shared_ptr<PreviewScene> scene_;
+  SceneEdits edits_, originals_;
+  EditSelection selection_;
+  BackgroundBake bake_;
+  std::optional<Camera> hands_over_;
   Camera camera_, home_;
   MoveState move_;
   PreviewStatus status_;
   std::optional<float> ev100_;  // nothing: automatic
   float shown_ev100_ = 0;
   bool metered_ = false, moving_ = false, restart_ = false, worked_ = false, first_ = true;
+  bool fresh_ = false;  // a scene that was not seen yet
   IVec2 size_{0};
   std::size_t shown_camera_ = 0;
   FloatImage passes_mean_;
@@ -250,12 +308,18 @@ class PreviewWindow {
 }  // namespace
 
 Status preview_in_window(const PreviewArguments& arguments, Context& context, Clock::time_point started) {
-  ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
-  glfwSetWindowTitle(window->get(), (arguments.scene.file.filename().string() + " – Oriel preview").c_str());
-  ORIEL_TRY(const gpu::Device device, gpu::open_device());
-  ORIEL_TRY(PreviewRenderer renderer, PreviewRenderer::create(device));
-  ORIEL_TRY(DisplayPass display, DisplayPass::create(device.dialect));
-  return PreviewWindow(*window, device, std::move(renderer), std::move(display), arguments, context).run(started);
+  std::optional<Camera> hands_over;
+  {
+    ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
+    glfwSetWindowTitle(window->get(), (arguments.scene.file.filename().string() + " – Oriel preview").c_str());
+    ORIEL_TRY(const gpu::Device device, gpu::open_device());
+    ORIEL_TRY(PreviewRenderer renderer, PreviewRenderer::create(device));
+    ORIEL_TRY(DisplayPass display, DisplayPass::create(device.dialect));
+    PreviewWindow preview(*window, device, std::move(renderer), std::move(display), arguments, context);
+    ORIEL_TRY_VOID(preview.run(started));
+    hands_over = preview.hands_over();
+  }
+  return hands_over ? show_pack(arguments.pack, *hands_over) : Status{};
 }
 
 }  // namespace oriel

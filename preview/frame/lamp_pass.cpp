@@ -7,7 +7,7 @@
 namespace oriel {
 namespace {
 
-enum Unit { kPlace, kNormal, kFace, kMask, kProfile };
+enum Unit { kPlace, kNormal, kFace, kProfile };
 
 }  // namespace
 
@@ -63,20 +63,18 @@ Result<LampPass> LampPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void LampPass::draw(const LampPoint& point, const PreviewMesh& mesh, const SeenSurfaces& surfaces, bool stencilled,
-                    const gpu::Texture2d* mask) const {
+void LampPass::draw(const LampPoint& point, const PreviewMesh& mesh, const SeenSurfaces& surfaces,
+                    bool stencilled) const {
   gpu::RasterState state{.blend = gpu::Blend::kAdd};
   if (stencilled) state.stencil_func = GL_EQUAL;
   gpu::apply(state);
   surfaces.place.bind(kPlace);
   surfaces.normal.bind(kNormal);
   surfaces.face.bind(kFace);
-  if (mask != nullptr) mask->bind(kMask);
   program_.use();
-  for (const auto& [name, unit] : std::array<std::pair<const char*, int>, 5>{
-           {{"u_place", kPlace}, {"u_normal", kNormal}, {"u_face", kFace}, {"u_mask", kMask}, {"u_profile", kProfile}}})
+  for (const auto& [name, unit] : std::array<std::pair<const char*, int>, 4>{
+           {{"u_place", kPlace}, {"u_normal", kNormal}, {"u_face", kFace}, {"u_profile", kProfile}}})
     program_.set(name, unit);
-  program_.set("u_masked", mask != nullptr ? 1 : 0);
   program_.set("u_kind", static_cast<int>(point.kind));
   program_.set("u_light", point.place);
   program_.set("u_front", point.normal);

@@ -33,9 +33,8 @@ class VolumePass {
 class LampPass {
  public:
   static Result<LampPass> create(gpu::Dialect dialect);
-  // Adds to the bound framebuffer where the stencil is 0 (stencilled), times the mask (if any).
-  void draw(const LampPoint& point, const PreviewMesh& mesh, const SeenSurfaces& surfaces, bool stencilled,
-            const gpu::Texture2d* mask) const;
+  // Adds to the bound framebuffer, where the stencil is 0 (stencilled).
+  void draw(const LampPoint& point, const PreviewMesh& mesh, const SeenSurfaces& surfaces, bool stencilled) const;
 
  private:
   gpu::Program program_;

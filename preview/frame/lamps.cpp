@@ -69,6 +69,7 @@ LampPoint Lamps::near_point(double at, const Vec2& on, float count) const {
     point.normal = light.direction;
     point.power = share * (light.profile >= 0 ? light.color : light.intensity);
     point.light = near_[i].index;
+    point.share = share;
     return point;
   }
   const std::uint32_t t = near_[i].index;

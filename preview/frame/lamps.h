@@ -12,12 +12,15 @@ enum class LampKind { kFlat, kPunctual, kAfar };
 //   kFlat      power cos i / d², cos at the lamp's front; power = radiance area over the density of choosing the point
 //   kPunctual  power profile i / d²; power = cd
 //   kAfar      power i; power = lux
+// and with `soft` that is added to d², of a disk that is near: its area / pi.
 struct LampPoint {
   LampKind kind = LampKind::kFlat;
   Vec4 place{0, 0, 0, 1};     // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
   Vec3 normal{0, 0, -1};      // of a flat lamp's front
   Vec3 power{0};              // per channel
   std::uint32_t light = ~0u;  // into Scene::lights, of a punctual one
+  float soft = 0;             // m²; > 0: an element of one bounce, which throws no shadows
+  float share = 1;            // of one with a light: power over the light's own colour or intensity
 };
 
 // All that shines in a scene, by power.

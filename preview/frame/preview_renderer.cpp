@@ -11,6 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
+constexpr int kTrials = 2;            // of volumes: the first one has shaders to compile
 constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
@@ -63,6 +64,7 @@ Status PreviewRenderer::take(std::shared_ptr<const PreviewScene> scene) {
   volume_pass_.take(scene->shadows);
   scene_ = std::move(scene);
   passes_ = 0;
+  costs_ = {};
   return {};
 }
 
@@ -77,7 +79,7 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
   ORIEL_TRY(light_, make_pass_light(*surfaces_));
   ORIEL_TRY(sum_, make_pass_light(*surfaces_));
   ORIEL_TRY(frame_, make_frame_target(width, height, 1));
-  mask_ = gpu::Texture2d(gpu::kRgba8, width, height, nullptr);
+  costs_ = {};
   const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   traced_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
   has_traced_ = false;
@@ -99,6 +101,7 @@ Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Contex
   PreviewStats stats;
   {
     const Stage total(stats.total_s);
+    read_ = false;
     view_ = view_of_pass(options.antialias);
     {
       const Stage stage(stats.surfaces_s);
@@ -123,13 +126,10 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
   if (options.direct) {
     const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples);
     stats.points = lamps.size();
-    if (options.shadows == ShadowMethod::kRays && !lamps.empty()) {
-      const Stage stage(stats.shadows_s);
-      points_ = read_points();
-    }
-    for (const LampPoint& point : lamps) ORIEL_TRY_VOID(add_lamp(point, options, context, stats));
+    if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
   }
-  if (options.bounce) {
+  const bool among_lamps = options.shared && stats.points > 0 && stats.shadows == ShadowMethod::kRays;
+  if (options.bounce && !among_lamps) {
     const Stage stage(stats.bounce_s);
     light_.framebuffer.bind();
     add_elements();
@@ -137,39 +137,72 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
   return {};
 }
 
-Status PreviewRenderer::add_lamp(const LampPoint& point, const PreviewOptions& options, Context& context,
-                                 PreviewStats& stats) {
-  light_.framebuffer.bind();
-  const bool rays = options.shadows == ShadowMethod::kRays, volumes = options.shadows == ShadowMethod::kVolumes;
-  if (rays || volumes) {
+ShadowMethod PreviewRenderer::method(const PreviewOptions& options) const {
+  if (options.shadows != ShadowMethod::kAuto) return options.shadows;
+  const double rays = costs_.rays[options.shared ? 1 : 0];
+  return rays > 0 && costs_.trials == kTrials && costs_.volumes < rays ? ShadowMethod::kVolumes : ShadowMethod::kRays;
+}
+
+Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
+                                  PreviewStats& stats) {
+  stats.shadows = method(options);
+  if (stats.shadows != ShadowMethod::kRays) {
+    for (const LampPoint& point : lamps) add_lamp(point, stats.shadows == ShadowMethod::kVolumes, stats);
+    return {};
+  }
+  double& rays = costs_.rays[options.shared ? 1 : 0];
+  const bool tries = options.shadows == ShadowMethod::kAuto && rays > 0 && costs_.trials < kTrials && lamps.size() > 1;
+  const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
+  {
     const Stage stage(stats.shadows_s);
-    if (rays) {
-      ORIEL_TRY(const auto mask, shadow_mask(points_, point, *scene_->accel, context));
-      mask_.upload(0, mask.data());
-    } else {
-      const ShadowVolumes shadow = scene_->shadows.volumes(point.place, view_.eye);
-      stats.shadow_quads += shadow.indices.size() / 6;
-      volume_pass_.draw(shadow, point.place, view_);
-    }
+    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context));
+  }
+  rays = stats.shadows_s / static_cast<double>(traced.size());
+  if (!tries) return {};
+  const double before_s = stats.shadows_s + stats.direct_s;
+  add_lamp(lamps.front(), true, stats);
+  const double took_s = stats.shadows_s + stats.direct_s - before_s;
+  costs_.volumes = costs_.trials++ == 0 ? took_s : std::min(costs_.volumes, took_s);
+  return {};
+}
+
+void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats) {
+  light_.framebuffer.bind();
+  if (volumes) {
+    const Stage stage(stats.shadows_s);
+    const ShadowVolumes shadow = scene_->shadows.volumes(point.place, view_.eye);
+    stats.shadow_quads += shadow.indices.size() / 6;
+    volume_pass_.draw(shadow, point.place, view_);
   }
   const Stage stage(stats.direct_s);
-  lamp_pass_.draw(point, mesh_, *surfaces_, volumes, rays ? &mask_ : nullptr);
+  lamp_pass_.draw(point, mesh_, *surfaces_, volumes);
+}
+
+// All of the light so far is theirs.
+Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options,
+                                          Context& context) {
+  points_ = read_points();
+  read_ = true;
+  std::vector<LampPoint> all(lamps.begin(), lamps.end());
+  if (options.shared && options.bounce)  // pixels share elements too
+    for (const BounceElement& e : scene_->elements)
+      all.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
+  const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
+  ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
+  light_.light.upload(0, light.data());
   return {};
 }
 
 Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
-  const IVec2 size = surfaces_->size();
-  TracedFrame seen{
-      size.x, size.y, view_.clip_from_pack, view_.eye, read_texture(surfaces_->place), read_texture(surfaces_->normal),
-      {}};
+  if (!read_) points_ = read_points();
   const auto tagged = [](const Vec4& normal) { return normal.w > 0.5f; };
-  if (std::none_of(seen.normal.begin(), seen.normal.end(), tagged)) {
-    const std::vector<Vec4> black(has_traced_ ? seen.normal.size() : 0);
+  if (std::none_of(points_.normal.begin(), points_.normal.end(), tagged)) {
+    const std::vector<Vec4> black(has_traced_ ? points_.normal.size() : 0);
     if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
     return {};
   }
-  seen.light = read_texture(light_.light);
-  ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, seen, passes_, context));
+  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_texture(light_.light)};
+  ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, frame, passes_, context));
   traced_.upload(0, traced.light.data());
   has_traced_ = true;
   stats.traced_pixels = traced.pixels;
@@ -261,7 +294,8 @@ FloatImage PreviewRenderer::read_mean() {
 }
 
 SeenPoints PreviewRenderer::read_points() const {
-  return {surfaces_->size().x, surfaces_->size().y, read_texture(surfaces_->place), read_texture(surfaces_->face)};
+  return {surfaces_->size().x, surfaces_->size().y, read_texture(surfaces_->place), read_texture(surfaces_->face),
+          read_texture(surfaces_->normal)};
 }
 
 std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point) const {

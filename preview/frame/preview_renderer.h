@@ -7,20 +7,26 @@
 #include "formats/image/image.h"
 #include "player/passes/targets.h"
 #include "preview/frame/lamp_pass.h"
+#include "preview/frame/lamp_rays.h"
 #include "preview/frame/preview_scene.h"
-#include "preview/frame/ray_shadows.h"
 #include "preview/frame/traced.h"
 
 namespace oriel {
 
-enum class ShadowMethod { kNone, kVolumes, kRays };
+enum class ShadowMethod {
+  kNone,
+  kVolumes,
+  kRays,
+  kAuto  // the cheaper of the last two, as measured: by rays, and one point of early passes by volumes
+};
 
 // Each effect is a switch (U11).
 struct PreviewOptions {
-  ShadowMethod shadows = ShadowMethod::kVolumes;
+  ShadowMethod shadows = ShadowMethod::kAuto;
   std::uint32_t samples = 8;  // points on lamps of a pass, at least one of each kind of lamp
   bool direct = true, bounce = true, emission = true, traced = true;
   bool antialias = true;  // each pass looks through other points of the pixels
+  bool shared = false;    // neighbours share points on lamps (SharedPoints), by rays: a frame that will not stay
   float glossy = 0.35f;   // roughness below which surfaces are traced
 };
 
@@ -28,6 +34,7 @@ struct PreviewOptions {
 struct PreviewStats {
   double surfaces_s = 0, shadows_s = 0, direct_s = 0, bounce_s = 0, traced_s = 0, total_s = 0;
   std::size_t points = 0, shadow_quads = 0, traced_pixels = 0;
+  ShadowMethod shadows = ShadowMethod::kNone;  // the one that was taken
 };
 
 class PreviewRenderer {
@@ -37,6 +44,8 @@ class PreviewRenderer {
 
   // To be drawn from now on; what was added up is left.
   Status take(std::shared_ptr<const PreviewScene> scene);
+  // The scene was edited (edit_scene()); what was added up is left.
+  void take_edits() { mesh_.take_materials(), passes_ = 0; }
   // From here, of that size; what was added up is left.
   Status look(const Camera& camera, int width, int height);
   // One more pass. context: for rays. Errors: kRuntime of the driver, kStopped.
@@ -55,7 +64,11 @@ class PreviewRenderer {
 
  private:
   Status light(const PreviewOptions& options, Context& context, PreviewStats& stats);
-  Status add_lamp(const LampPoint& point, const PreviewOptions& options, Context& context, PreviewStats& stats);
+  ShadowMethod method(const PreviewOptions& options) const;
+  Status add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
+                   PreviewStats& stats);
+  void add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats);
+  Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context);
   Status trace(Context& context, PreviewStats& stats);
   void add_elements() const;
   void add_pass(const PreviewOptions& options) const;
@@ -73,9 +86,16 @@ class PreviewRenderer {
   View view_;
   std::optional<SeenSurfaces> surfaces_;
   PassLight light_, sum_;
-  gpu::Texture2d mask_, traced_, paths_;
+  gpu::Texture2d traced_, paths_;
   std::optional<FrameTarget> frame_;
   SeenPoints points_;  // of the pass under way, where rays need them
+  bool read_ = false;  // they are there
+  // Seconds by point on a lamp, of this scene and size.
+  struct Costs {
+    double rays[2] = {0, 0};  // shared: [1]; 0: not known yet
+    double volumes = 0;
+    int trials = 0;
+  } costs_;
   std::uint32_t passes_ = 0;
   bool has_traced_ = false;  // traced_ is not black
 };

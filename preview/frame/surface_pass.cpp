@@ -132,6 +132,11 @@ void PreviewMesh::upload_reflectances(const Scene& scene) {
                             static_cast<float>(count[m] - 1) / static_cast<float>(rows));
 }
 
+void PreviewMesh::take_materials() {
+  left_rows_.clear();
+  upload_reflectances(*scene_);
+}
+
 void PreviewMesh::upload_lighting(const Scene& scene) {
   const SkyImage& sky = scene.sky_image;
   if (!sky.texels.empty()) {

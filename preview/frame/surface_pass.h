@@ -26,6 +26,8 @@ class PreviewMesh {
   PreviewMesh() = default;
   // Errors: kRuntime where the device takes no texture or buffer of that size.
   static Result<PreviewMesh> create(const Scene& scene, const gpu::Device& device);
+  // The scene's materials have other numbers than before; their textures stay.
+  void take_materials();
   const Scene& scene() const { return *scene_; }
   // Draws all of it; the program of SurfacePass is in use.
   void draw(const gpu::Program& program) const;

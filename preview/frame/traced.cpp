@@ -32,10 +32,10 @@ class SpecularTracer {
 
   Vec3 pixel(std::size_t i, Sampler& sampler) const {
     const Scene& scene = scene_.scene();
-    const Vec3 place(frame_.place[i]);
+    const Vec3 place(frame_.seen.place[i]);
     const Vec3 wo = glm::normalize(frame_.eye.w > 0 ? Vec3(frame_.eye) - place : Vec3(frame_.eye));
     // The first object is known from the frame's own picture of items.
-    const auto triangle = static_cast<std::uint32_t>(frame_.place[i].w) - 1;
+    const auto triangle = static_cast<std::uint32_t>(frame_.seen.place[i].w) - 1;
     const bool front = glm::dot(geometric_normal(scene, triangle), wo) >= 0;
     SurfacePoint surface = surface_at(scene, {triangle, 0, barycentric_of(scene, triangle, place), front}, -wo);
     Vec3 light(0);
@@ -80,14 +80,14 @@ class SpecularTracer {
   std::optional<Vec3> seen_again(const SurfacePoint& surface) const {
     const Vec4 clip = frame_.clip_from_pack * Vec4(surface.position, 1);
     if (clip.w <= 0) return std::nullopt;
-    const Vec2 size(IVec2(frame_.width, frame_.height)), at = (Vec2(clip) / clip.w * 0.5f + 0.5f) * size;
+    const Vec2 size(IVec2(frame_.seen.width, frame_.seen.height)), at = (Vec2(clip) / clip.w * 0.5f + 0.5f) * size;
     if (!(at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y)) return std::nullopt;
     const std::size_t i =
-        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(at.x);
-    if (frame_.place[i].w != static_cast<float>(surface.triangle + 1)) return std::nullopt;
+        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(frame_.seen.width) + static_cast<std::size_t>(at.x);
+    if (frame_.seen.place[i].w != static_cast<float>(surface.triangle + 1)) return std::nullopt;
     const float far =
         frame_.eye.w > 0 ? glm::distance(Vec3(frame_.eye), surface.position) : 2 * scene_.scene().radius();
-    if (glm::distance(Vec3(frame_.place[i]), surface.position) > kSame * far) return std::nullopt;
+    if (glm::distance(Vec3(frame_.seen.place[i]), surface.position) > kSame * far) return std::nullopt;
     return Vec3(frame_.light[i]);
   }
 
@@ -130,14 +130,14 @@ class SpecularTracer {
 Result<TracedLight> trace_specular(const PreviewScene& scene, const TracedFrame& frame, std::uint32_t pass,
                                    Context& context) {
   constexpr std::uint64_t kStream = std::uint64_t{1} << 40;
-  const auto width = static_cast<std::size_t>(frame.width);
-  TracedLight out{std::vector<Vec4>(frame.place.size(), Vec4(0)), 0};
+  const auto width = static_cast<std::size_t>(frame.seen.width);
+  TracedLight out{std::vector<Vec4>(frame.seen.place.size(), Vec4(0)), 0};
   std::atomic<std::size_t> traced{0};
   const SpecularTracer tracer(scene, frame);
   const auto row = [&](std::size_t y) {
     std::size_t count = 0;
     for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
-      if (frame.place[i].w == 0 || frame.normal[i].w < 0.5f) continue;
+      if (frame.seen.place[i].w == 0 || frame.seen.normal[i].w < 0.5f) continue;
       Sampler sampler(context.seed, kStream + i, pass);
       const Vec3 light = tracer.pixel(i, sampler);
       if (is_usable(light)) out.light[i] = Vec4(light, 1);
@@ -145,7 +145,7 @@ Result<TracedLight> trace_specular(const PreviewScene& scene, const TracedFrame&
     }
     traced += count;
   };
-  ORIEL_TRY_VOID(parallel_for(context, "", static_cast<std::size_t>(frame.height), row));
+  ORIEL_TRY_VOID(parallel_for(context, "", static_cast<std::size_t>(frame.seen.height), row));
   out.pixels = traced;
   return out;
 }

@@ -3,18 +3,17 @@
 
 #include "bake/jobs/context.h"
 #include "formats/query/camera.h"
+#include "preview/frame/lamp_rays.h"
 #include "preview/frame/preview_scene.h"
 
 namespace oriel {
 
 // What a pass drew, as textures have it: row 0 at the bottom.
 struct TracedFrame {
-  int width = 0, height = 0;
+  const SeenPoints& seen;
   Mat4 clip_from_pack{1};
   Vec4 eye{0, 0, 0, 1};
-  std::vector<Vec4> place;   // a: triangle + 1, 0 where nothing is seen
-  std::vector<Vec4> normal;  // a: 1 to be traced
-  std::vector<Vec4> light;   // irradiance, lux: what rays find again where they meet what the frame shows
+  std::vector<Vec4> light;  // irradiance, lux: what rays find again where they meet what the frame shows
 };
 
 struct TracedLight {

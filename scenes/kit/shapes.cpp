@@ -103,6 +103,12 @@ void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned fa
   if (faces & kFront) add_quad(mesh, lower + z, x, y);
 }
 
+void add_slab(SampleMesh& slab, SampleMesh& legs, const Vec3& lower, const Vec3& upper, float leg) {
+  add_box(slab, lower, upper);
+  for (const float x : {lower.x, upper.x - leg})
+    for (const float z : {lower.z, upper.z - leg}) add_box(legs, {x, 0, z}, {x + leg, lower.y, z + leg}, kSides);
+}
+
 void add_rounded_box(SampleMesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n) {
   const Vec3 half = 0.5f * size;
   if (n <= 1) {

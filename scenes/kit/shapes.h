@@ -33,6 +33,9 @@ void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const 
                      const Vec2& high);
 // Axis-aligned, lower < upper in each axis.
 void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces = kAllFaces);
+// Tables and seats: a box from lower to upper on four legs down to y = 0, square in section and flush with its corners.
+// Six rectangles and sixteen: where legs end nobody sees.
+void add_slab(SampleMesh& slab, SampleMesh& legs, const Vec3& lower, const Vec3& upper, float leg);
 // A box whose edges and corners are rounded by `radius` (clamped to half the smallest size): 12 n² triangles. n = 1
 // gives the plain box.
 void add_rounded_box(SampleMesh& mesh, const Vec3& centre, const Vec3& size, float radius, int n);

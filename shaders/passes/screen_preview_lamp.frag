@@ -1,8 +1,6 @@
-// The light of a point of a lamp on what pixels see, lux; the stencil, or a mask, has what is in its shadow.
+// The light of a point of a lamp on what pixels see, lux; the stencil has what is in its shadow.
 #include "lib/incidence.glsl"
 uniform sampler2D u_place, u_normal, u_face;
-uniform sampler2D u_mask;  // what rays let pass
-uniform bool u_masked;
 uniform int u_kind;    // 0 flat, 1 punctual, 2 from afar
 uniform vec4 u_light;  // homogeneous
 uniform vec3 u_front;  // of a flat lamp; a spot's direction
@@ -38,6 +36,5 @@ void main() {
   if (u_kind == 0) light *= max(-dot(u_front, direction), 0.0);
   if (u_kind == 1) light *= intensity(-direction);
   if (u_kind != 2) light /= max(d2, 1e-30);
-  vec3 passed = u_masked ? texelFetch(u_mask, at, 0).rgb : vec3(1.0);
-  o_light = vec4(light * u_power * passed, 1.0);
+  o_light = vec4(light * u_power, 1.0);
 }

@@ -54,8 +54,8 @@ class ShadowVolumesTest : public ::testing::Test {
     renderer_ = *PreviewRenderer::create(device_);
   }
 
-  void take(Scene scene) {
-    auto prepared = prepare_preview_scene({std::move(scene), {}}, 0, context_);
+  void take(Scene scene, std::uint32_t elements = 0) {
+    auto prepared = prepare_preview_scene({std::move(scene), {}}, elements, context_);
     ASSERT_TRUE(prepared) << prepared.error().text();
     scene_ = *prepared;
     const Status taken = renderer_.take(scene_);
@@ -70,11 +70,11 @@ class ShadowVolumesTest : public ::testing::Test {
     EXPECT_TRUE(stats) << stats.error().text();
     const SeenPoints points = renderer_.read_points();
     const std::vector<std::uint8_t> counts = renderer_.read_in_shadow(light);
-    const std::vector<std::uint8_t> mask = *shadow_mask(points, light, *scene_->accel, context_);
+    const std::vector<Vec4> light_there = *lamps_by_rays(points, {{light}}, *scene_->accel, {}, context_);
     const Vec4 eye = camera.vertical_fov_rad > 0 ? Vec4(camera.eye, 1) : Vec4(-camera.forward, 0);
     out.around_eye = scene_->shadows.volumes(light.place, eye).around_eye;
-    const auto passes = [&](int x, int y) { return mask[4 * static_cast<std::size_t>(y * kWidth + x)] > 127; };
-    const auto faces = [&](int x, int y) { return mask[4 * static_cast<std::size_t>(y * kWidth + x) + 3] != 0; };
+    const auto passes = [&](int x, int y) { return light_there[static_cast<std::size_t>(y * kWidth + x)].x > 0; };
+    const auto faces = [&](int x, int y) { return light_there[static_cast<std::size_t>(y * kWidth + x)].w > 0; };
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int x = 1; x + 1 < kWidth; ++x) {
         if (!faces(x, y)) continue;
@@ -139,6 +139,79 @@ TEST_F(ShadowVolumesTest, AnEyeInsideThatIsForgottenIsSeen) {
   EXPECT_EQ(right.around_eye, 1u);  // a closed box counts once
   EXPECT_LE(right.wrong, 2);
   EXPECT_GT(compare(below, lamp_at({0.01f, 4, 0.02f}), true).wrong, 1000);
+}
+
+// A lamp of 6 by 6 points over a floor, with a box on it or without; light by pixel.
+class SharedPointsTest : public ShadowVolumesTest {
+ protected:
+  void look_at_floor(bool box) {
+    test::SceneParts parts;
+    const std::uint32_t grey = parts.diffuse(Vec3(0.5f));
+    parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+    if (box) parts.box("box", grey, {-1, 0, -1}, {1, 1.5f, 1});
+    take(parts.finish());
+    ASSERT_TRUE(renderer_.look(look_at({1, 6, 7}, {0, 0, 0}, 0.9f), kWidth, kHeight));
+    ASSERT_TRUE(renderer_.pass({.shadows = ShadowMethod::kNone, .antialias = false}, context_));
+    for (int i = 0; i < 36; ++i)
+      lamp_.push_back({LampKind::kFlat,
+                       Vec4(0.2f * static_cast<float>(i % 6), 4, 0.2f * static_cast<float>(i / 6), 1),
+                       {0, -1, 0},
+                       Vec3(1),
+                       ~0u});
+  }
+  std::vector<Vec4> light(int side, std::size_t points = 36) {
+    return *lamps_by_rays(renderer_.read_points(), std::span(lamp_).first(points), *scene_->accel, {side, 4}, context_);
+  }
+  static double relative_rmse(const std::vector<Vec4>& a, const std::vector<Vec4>& truth) {
+    double error = 0, all = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double apart = a[i].x - truth[i].x, is = truth[i].x;
+      error += apart * apart, all += is * is;
+    }
+    return std::sqrt(error / all);
+  }
+  std::vector<LampPoint> lamp_;
+};
+
+TEST_F(SharedPointsTest, LightWhatIsEvenAsIfNobodyShared) {
+  look_at_floor(false);
+  const auto truth = light(1);
+  EXPECT_GT(relative_rmse(light(1, 35), truth), 0.01);  // a point less is seen
+  EXPECT_LT(relative_rmse(light(2), truth), 0.01);
+  EXPECT_LT(relative_rmse(light(3), truth), 0.01);
+}
+
+TEST_F(SharedPointsTest, ErrAtShadowsAlone) {
+  look_at_floor(true);
+  const auto truth = light(1), shared = light(3);
+  double brighter = 0, all = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) brighter += shared[i].x - truth[i].x, all += truth[i].x;
+  std::printf("36 points shared by 3x3 pixels: relative RMSE %.1f %%, mean %+.2f %%\n",
+              100 * relative_rmse(shared, truth), 100 * brighter / all);
+  EXPECT_LT(relative_rmse(shared, truth), 0.1);
+  EXPECT_NEAR(brighter / all, 0, 0.01);
+}
+
+TEST_F(SharedPointsTest, FramesWithOneBounceAreTheSame) {
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(Vec3(0.5f)), red = parts.diffuse(Vec3(0.7f, 0.2f, 0.1f));
+  parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  parts.quad("wall", red, {-5, 0, -5}, {10, 0, 0}, {0, 4, 0});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(1000)), {-1, 4, -1}, {2, 0, 0}, {0, 0, 2});
+  take(parts.finish(), 32);
+  const auto frame = [&](bool shared, bool bounce) {
+    EXPECT_TRUE(renderer_.look(look_at({1, 3, 7}, {0, 1, 0}, 0.9f), kWidth, kHeight));
+    EXPECT_TRUE(renderer_.pass(
+        {.shadows = ShadowMethod::kRays, .samples = 36, .bounce = bounce, .emission = false, .shared = shared},
+        context_));
+    const FloatImage mean = renderer_.read_mean();
+    std::vector<Vec4> light;
+    for (std::size_t i = 0; i < mean.pixels.size(); i += 3) light.emplace_back(mean.pixels[i], 0, 0, 0);
+    return light;
+  };
+  const auto truth = frame(false, true);
+  EXPECT_GT(relative_rmse(frame(true, false), truth), 0.02);  // without the bounce it is another
+  EXPECT_LT(relative_rmse(frame(true, true), truth), 0.02);
 }
 
 }  // namespace

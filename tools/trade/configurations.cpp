@@ -29,6 +29,7 @@ class Planner {
     light();
     reflections();
     movers();
+    no_bake();
     paths();
     out.configurations = std::move(configurations_);
     out.skipped = std::move(skipped_);
@@ -124,6 +125,18 @@ class Planner {
     add("transfer", "unshadowed", {{"--transfer", "unshadowed"}}, {});
     add("mover lights", "harmonics", {}, {{"--mover-lights", "harmonics"}});
     if (!quick_) add("mover lights", "unshadowed", {}, {{"--mover-lights", "unshadowed"}});
+  }
+
+  void no_bake() {
+    for (const std::string& shadows : either({"rays"}, {"rays", "volumes"}))
+      for (const unsigned passes : {1u, 16u}) {
+        Configuration c;
+        c.knob = "no bake";
+        c.setting = fmt::format("{} pass{}, {}", passes, passes == 1 ? "" : "es", shadows);
+        c.published = shadows == "volumes" && passes == 1 ? "hybrid (Udeshi & Hansen 1999)" : "";
+        c.preview = {{"--passes", std::to_string(passes)}, {"--shadows", shadows}};
+        configurations_.push_back(std::move(c));
+      }
   }
 
   void paths() {

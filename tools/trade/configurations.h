@@ -18,6 +18,7 @@ struct Configuration {
   std::string published;  // the name of a published method that it is, with its paper; may be empty
   Settings bake, play;    // all options of oriel-bake that matter here, and of oriel-play that are not its defaults
   unsigned paths = 0;     // not 0: no pack, frames path-traced by that many paths a pixel
+  Settings preview{};     // not empty: no pack, frames of oriel-preview by these
 
   std::string name() const { return setting.empty() ? knob : knob + " " + setting; }
 };

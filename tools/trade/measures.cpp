@@ -37,7 +37,8 @@ double without(double square, double noise_square) {
 }
 
 Json frame_json(const CameraError& f) {
-  Json json = {{"camera", f.camera}, {"sum", f.sum}, {"D", f.diffuse}};
+  Json json = {{"camera", f.camera}, {"sum", f.sum}};
+  if (std::isfinite(f.diffuse)) json["D"] = f.diffuse;
   if (f.specular) json["S"] = *f.specular;
   json["noise"] = f.noise;
   json["flip"] = f.flip;
@@ -46,7 +47,13 @@ Json frame_json(const CameraError& f) {
 }
 
 CameraError frame_from(const Json& json) {
-  CameraError f{json.at("camera"), json.at("sum"), json.at("D"), {}, json.at("noise"), json.at("flip"), json.at("mse")};
+  CameraError f{json.at("camera"),
+                json.at("sum"),
+                json.value("D", std::numeric_limits<double>::quiet_NaN()),
+                {},
+                json.at("noise"),
+                json.at("flip"),
+                json.at("mse")};
   if (json.contains("S")) f.specular = json["S"].get<double>();
   return f;
 }
@@ -75,7 +82,8 @@ std::optional<double> frame_error(const Measures& measures, double CameraError::
   if (measures.frames.empty()) return {};
   double squares = 0;
   for (const CameraError& frame : measures.frames) squares += frame.*error * (frame.*error);
-  return std::sqrt(squares / static_cast<double>(measures.frames.size()));
+  const double mean = std::sqrt(squares / static_cast<double>(measures.frames.size()));
+  return std::isfinite(mean) ? std::optional(mean) : std::nullopt;
 }
 
 std::optional<double> specular_error(const Measures& measures) {
@@ -118,7 +126,8 @@ std::optional<double> of_bake(const Measures& m) {
 constexpr std::array<Quantity, 17> kQuantities = {{
     {"bake_s", "bake s", "{:.2f}", 1, "frames_by_bake", of_bake<&BakeCost::seconds>},
     {"bake_cpu_s", "bake CPU s", "{:.2f}", 1, "", of_bake<&BakeCost::cpu_seconds>},
-    {"bytes", "pack MB", "{:.2f}", 1e-6, "frames_by_bytes", of_bake<&BakeCost::bytes>},
+    {"bytes", "pack MB", "{:.2f}", 1e-6, "frames_by_bytes",
+     [](const Measures& m) { return m.bake && m.bake->bytes > 0 ? of_bake<&BakeCost::bytes>(m) : std::nullopt; }},
     {"frame_ms", "frame ms", "{:.1f}", 1, "frames_by_ms", [](const Measures& m) { return m.frame_ms; }},
     {"texels", "", "", 1, "", of_texels<&TexelError::texels>},
     {"texel_relRMSE", "texels relRMSE %", "{:.2f}", 100, "texels_by_bake", of_texels<&TexelError::rel_rmse>},
@@ -213,6 +222,12 @@ Status read_frame_times(const std::string& json, Measures& measures) {
   ORIEL_TRY(measures.renderer,
             parsed(json, "oriel-play --stats", [](const Json& all) { return all.at("renderer").get<std::string>(); }));
   return {};
+}
+
+Result<PreviewTimes> read_preview_times(const std::string& json) {
+  return parsed(json, "oriel-preview --stats", [](const Json& all) {
+    return PreviewTimes{all.at("drawn_s"), all.at("cpu_s"), 1000 * all.at("last_pass").at("total_s").get<double>()};
+  });
 }
 
 Result<double> read_bake_seconds(const std::string& json) {

@@ -13,9 +13,9 @@
 namespace oriel::trade {
 
 struct BakeCost {
-  double seconds = 0;       // wall clock of all stages, without the program's start
+  double seconds = 0;  // wall clock of all stages, without the program's start; without a bake until the frame stood
   double cpu_seconds = 0;   // of the whole program
-  std::uint64_t bytes = 0;  // of the pack
+  std::uint64_t bytes = 0;  // of the pack; 0: there is none
 };
 
 // Over texels that both packs baked. All but noise are net of it, in quadrature (docs/metrics.md).
@@ -32,7 +32,7 @@ struct TexelError {
 // A frame beside its path-traced reference; relRMSE net of that one's noise.
 struct CameraError {
   std::string camera;
-  double sum = 0, diffuse = 0;
+  double sum = 0, diffuse = 0;     // diffuse: NaN where it was not told apart
   std::optional<double> specular;  // over the pixels that show reflected images, if there are any
   double noise = 0;                // the reference's, of the sum
   double flip = 0;
@@ -74,6 +74,12 @@ CameraError frame_error_of(const std::string& camera, const Comparison& comparis
 Result<CameraError> read_comparison(const std::string& camera, const std::string& json);
 // Sets the mean of the frames' times and the renderer from what `oriel-play --stats` wrote. Error kInvalid.
 Status read_frame_times(const std::string& json, Measures& measures);
+// What `oriel-preview --offscreen --stats` wrote: until the frame stood, and a pass of so many pixels, in ms. Error
+// kInvalid.
+struct PreviewTimes {
+  double drawn_s = 0, cpu_s = 0, pass_ms = 0;
+};
+Result<PreviewTimes> read_preview_times(const std::string& json);
 // Seconds of all stages from what `oriel-bake --report` wrote. Error kInvalid.
 Result<double> read_bake_seconds(const std::string& json);
 

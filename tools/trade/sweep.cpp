@@ -6,6 +6,7 @@
 #include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
 #include "formats/pack/reader.h"
+#include "tools/trade/frames.h"
 #include "tools/trade/front.h"
 #include "tools/trade/process.h"
 
@@ -42,13 +43,6 @@ Result<double> traced_seconds(const fs::path& log) {
   return seconds;
 }
 
-Status write_side_by_side(const fs::path& file, const FloatImage& picture) {
-  ByteImage bytes{picture.width, picture.height, 3, {}};
-  for (const float v : picture.pixels)
-    bytes.pixels.push_back(static_cast<std::uint8_t>(255 * std::clamp(v, 0.0f, 1.0f) + 0.5f));
-  return write_png(file, bytes);
-}
-
 class Sweep {
  public:
   Sweep(const TradeOptions& options, const Store& store, Units& units, Context& context, bool player)
@@ -77,6 +71,7 @@ class Sweep {
  private:
   std::string bake_program() const { return (o_.programs / "oriel-bake").string(); }
   std::string play_program() const { return (o_.programs / "oriel-play").string(); }
+  std::string preview_program() const { return (o_.programs / "oriel-preview").string(); }
   fs::path log(const std::string& key) const { return store_.file(key, ".log"); }
   fs::path pack(const std::string& key) const { return store_.file(key, ".oriel"); }
   fs::path picture(const std::string& key, std::size_t camera) const {
@@ -108,7 +103,9 @@ class Sweep {
     }
     for (const Configuration& configuration : trade_.plan.configurations) {
       Row row{configuration, {}, {}, {}, {}};
-      const Status measured = configuration.paths > 0 ? measure_paths(row) : measure_pack(row);
+      const Status measured = configuration.paths > 0          ? measure_paths(row)
+                              : !configuration.preview.empty() ? measure_preview(row)
+                                                               : measure_pack(row);
       if (!measured) {
         if (measured.error().code == ErrorCode::kIo) return measured;
         row.failure = measured.error().text();
@@ -271,25 +268,64 @@ class Sweep {
                                  const fs::path& file) const {
     const auto traced = store_.find(frame);
     if (!traced || !traced->frame_ms) return fail(ErrorCode::kStopped, "", "there was no time to trace the frame");
-    ORIEL_TRY(const LayeredImage image, read_layered_exr(store_.file(frame, ".exr")));
+    ORIEL_TRY(PlayedFrame played, read_traced_frame(store_.file(frame, ".exr")));
     ORIEL_TRY(const LayeredImage truth, read_layered_exr(store_.file(reference, ".exr")));
-    PlayedFrame played;
-    for (const auto& [part, layer] :
-         {std::pair{&played.total, ""}, {&played.diffuse, "direct"}, {&played.specular, "specular"}}) {
-      const auto found = image.layers.find(layer);
-      if (found == image.layers.end()) return invalid(frame, "found no layer '{}', expected one", layer);
-      *part = found->second;
-    }
-    const FloatImage& indirect = image.layers.at("indirect");
-    for (std::size_t i = 0; i < indirect.pixels.size(); ++i) played.diffuse.pixels[i] += indirect.pixels[i];
-    const std::vector<std::uint8_t> none(std::size_t{played.total.width} * played.total.height, 0);
-    played.mirrors = played.glossy = played.movers = none;
-    ORIEL_TRY(const Comparison comparison, compare(played, truth, 0));
-    ORIEL_TRY_VOID(write_side_by_side(file, comparison.picture));
-    Measures measures;
     const double pixels = static_cast<double>(played.total.width) * played.total.height;
+    Measures measures;
     measures.frame_ms = *traced->frame_ms * kFrameWidth * kFrameHeight / pixels;
-    measures.frames.push_back(frame_error_of(camera, comparison));
+    ORIEL_TRY_VOID(compare_whole(camera, played, truth, file, measures));
+    return measures;
+  }
+
+  // Frames without a bake beside the references: what one waits for is the program and its passes.
+  Status measure_preview(Row& row) {
+    const Configuration& c = row.configuration;
+    if (!trade_.frames || !fs::exists(preview_program())) return {};
+    Arguments what{"preview", std::to_string(o_.seed)};
+    append(what, c.preview);
+    what.insert(what.end(), references_.begin(), references_.end());
+    const std::string key = store_.key(what);
+    for (std::size_t i = 0; i < references_.size(); ++i) row.pictures.push_back(picture(key, i));
+    ORIEL_TRY(row.measures, units_.once("preview", "frames of " + c.name(), key, [&] { return preview(c, key); }));
+    return {};
+  }
+
+  Result<Measures> preview(const Configuration& c, const std::string& key) {
+    Measures measures;
+    measures.bake = BakeCost{};
+    measures.frame_ms = 0;
+    const fs::path frame = store_.file(key, ".exr");
+    const double cameras = static_cast<double>(references_.size()), width = trade_.plan.width,
+                 height = trade_.plan.height;
+    for (std::size_t i = 0; i < references_.size(); ++i) {
+      const std::string& camera = trade_.facts.cameras[i];
+      Arguments drawing{preview_program(),
+                        o_.scene.string(),
+                        "--offscreen",
+                        "--stats",
+                        "--camera",
+                        camera,
+                        "--size",
+                        fmt::format("{}x{}", width, height),
+                        "-o",
+                        frame.string(),
+                        "--seed",
+                        std::to_string(o_.seed)};
+      append(drawing, c.preview);
+      drawing.insert(drawing.end(), o_.forwarded.begin(), o_.forwarded.end());
+      ORIEL_TRY_VOID(run_program(drawing, log(key), context_.stop));
+      ORIEL_TRY(const std::string told, read_text(log(key)));
+      ORIEL_TRY(const PreviewTimes times, read_preview_times(told.substr(std::min(told.find('{'), told.size()))));
+      measures.bake->seconds += times.drawn_s / cameras;
+      measures.bake->cpu_seconds += times.cpu_s / cameras;
+      *measures.frame_ms += times.pass_ms * kFrameWidth * kFrameHeight / (width * height * cameras);
+      ORIEL_TRY(PlayedFrame played, read_preview_frame(frame));
+      ORIEL_TRY(const LayeredImage truth, read_layered_exr(store_.file(references_[i], ".exr")));
+      ORIEL_TRY_VOID(compare_whole(camera, played, truth, picture(key, i), measures));
+      measures.frames.back().diffuse = std::numeric_limits<double>::quiet_NaN();
+    }
+    std::error_code ignored;
+    fs::remove(frame, ignored);
     return measures;
   }
 
@@ -325,6 +361,7 @@ Result<Trade> sweep(const TradeOptions& options, Context& context, const Units::
   std::vector<fs::path> programs{options.programs / "oriel-bake"};
   const bool player = fs::exists(options.programs / "oriel-play", error);
   if (player) programs.push_back(options.programs / "oriel-play");
+  if (fs::exists(options.programs / "oriel-preview", error)) programs.push_back(options.programs / "oriel-preview");
   if (!player)
     context.warning(fmt::format("frames are left out: there is no oriel-play in {}", options.programs.string()));
   ORIEL_TRY(const std::string inputs, hash_of(options.scene, options.forwarded, programs));

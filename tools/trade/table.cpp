@@ -33,6 +33,7 @@ Json row_json(const Row& row) {
                {"published", c.published},
                {"bake_options", options_text(c.bake)},
                {"play_options", options_text(c.play)},
+               {"preview_options", options_text(c.preview)},
                {"paths", c.paths}};
   json.update(as_json(row.measures));
   json["all_frames"] = summary_json(row.measures);

@@ -29,7 +29,8 @@ TEST(Configurations, WithoutReflectorsAndMoversVaryTheLightAlone) {
   bare.cameras = {"0"};
   for (const bool quick : {true, false}) {
     const TradePlan plan = plan_trade(bare, 0.1, quick);
-    EXPECT_THAT(knobs(plan), ElementsAre("default", "error", "reference estimator", "reference paths", "texel"));
+    EXPECT_THAT(knobs(plan),
+                ElementsAre("default", "error", "no bake", "reference estimator", "reference paths", "texel"));
     for (const Configuration& c : plan.configurations) {
       EXPECT_THAT(c.play, IsEmpty()) << c.name();
       for (const char* option : {"--views", "--map-resolution", "--sh-bands"}) EXPECT_FALSE(c.bake.contains(option));
@@ -58,10 +59,10 @@ TEST(Configurations, DifferFromTheDefaultAndFromOneAnother) {
     const TradePlan plan = plan_trade(everything(), 0.1, quick);
     EXPECT_EQ(plan.configurations[0].knob, "default");
     std::set<std::string> names;
-    std::set<std::tuple<Settings, Settings, unsigned>> settings;
+    std::set<std::tuple<Settings, Settings, Settings, unsigned>> settings;
     for (const Configuration& c : plan.configurations) {
       EXPECT_TRUE(names.insert(c.name()).second) << c.name();
-      EXPECT_TRUE(settings.insert({c.bake, c.play, c.paths}).second) << c.name();
+      EXPECT_TRUE(settings.insert({c.bake, c.play, c.preview, c.paths}).second) << c.name();
       EXPECT_FALSE(c.bake.contains("--samples") && c.bake.contains("--error")) << c.name();
     }
   }

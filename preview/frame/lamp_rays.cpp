@@ -1,0 +1,162 @@
+#include "preview/frame/lamp_rays.h"
+
+#include "bake/jobs/parallel.h"
+#include "bake/trace/polygon_light.h"
+#include "bake/trace/punctual.h"
+
+namespace oriel {
+namespace {
+
+constexpr float kFlat = 0.02f;   // of the distance between two pixels' points: off each other's plane
+constexpr float kTurned = 0.9f;  // cosine between their normals, at least
+constexpr std::size_t kNone = ~std::size_t{0};
+
+struct Shone {
+  Ray ray;
+  Vec3 light;  // were nothing between
+};
+
+// A point's light on a receiver, and the ray to it from `origin`; none where it cannot shine.
+std::optional<Shone> shine(const LampPoint& lamp, const Receiver& at, const Vec3& origin, const Scene& scene) {
+  Shone out{{origin, Vec3(lamp.place)}, lamp.power};
+  float d2 = 1;
+  if (lamp.kind != LampKind::kAfar) {
+    const Vec3 to = Vec3(lamp.place) - origin;
+    d2 = std::max(length2(to), 1e-30f);
+    const float distance = std::sqrt(d2);
+    out.ray = {origin, to / distance, distance};
+  }
+  const Vec3& direction = out.ray.direction;
+  float share = incidence(at, direction) / (d2 + lamp.soft);
+  if (lamp.kind == LampKind::kFlat) share *= -glm::dot(lamp.normal, direction);
+  if (!(share > 0)) return std::nullopt;
+  if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
+  out.light *= share;
+  return out;
+}
+
+class LampTracer {
+ public:
+  LampTracer(const SeenPoints& seen, std::span<const LampPoint> lamps, const Accel& accel, const SharedPoints& shared)
+      : seen_(seen),
+        lamps_(lamps),
+        accel_(accel),
+        shared_(shared),
+        step_(static_cast<std::size_t>(shared.side) * shared.side) {}
+
+  // Of the points that pixel takes, every step-th.
+  std::size_t first_point(std::size_t x, std::size_t y) const {
+    const auto side = static_cast<std::size_t>(shared_.side);
+    return (x % side + side * (y % side) + shared_.turn) % step_;
+  }
+  std::size_t points_of(std::size_t x, std::size_t y) const {
+    const std::size_t first = first_point(x, y);
+    return first < lamps_.size() ? (lamps_.size() - first + step_ - 1) / step_ : 0;
+  }
+
+  // Point after point along the row, so that rays of a packet go the same way. light: sums of what was taken.
+  void row(std::size_t y, std::vector<Vec4>& light) const {
+    const auto width = static_cast<std::size_t>(seen_.width);
+    std::vector<Receiver> receivers(width);
+    std::vector<Vec3> origins(width);
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t i = y * width + x;
+      if (seen_.place[i].w == 0) continue;
+      receivers[x] = {Vec3(seen_.place[i]), Vec3(seen_.normal[i]), Vec3(seen_.face[i])};
+      origins[x] = origin_of(i);
+    }
+    std::vector<Ray> rays;
+    std::vector<Vec3> shone, passed;
+    std::vector<std::size_t> pixels;
+    for (std::size_t p = 0; p < lamps_.size(); ++p) {
+      rays.clear(), shone.clear(), pixels.clear();
+      for (std::size_t x = first_pixel(y, p); x < width; x += static_cast<std::size_t>(shared_.side)) {
+        if (seen_.place[y * width + x].w == 0) continue;
+        const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
+        if (!lit) continue;
+        if (lamps_[p].soft > 0)
+          light[y * width + x] += Vec4(lit->light, 1);
+        else
+          rays.push_back(lit->ray), shone.push_back(lit->light), pixels.push_back(y * width + x);
+      }
+      passed.resize(rays.size());
+      accel_.transmittance(rays, passed);
+      for (std::size_t k = 0; k < rays.size(); ++k) light[pixels[k]] += Vec4(shone[k] * passed[k], 1);
+    }
+  }
+
+  // The mean of the neighbours on the pixel's surface, of all points.
+  Vec4 gathered(std::size_t x, std::size_t y, const std::vector<Vec4>& light) const {
+    const auto width = static_cast<std::size_t>(seen_.width), height = static_cast<std::size_t>(seen_.height);
+    const std::size_t i = y * width + x;
+    Vec4 sum(0);
+    float points = 0;
+    for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(height, y + 2); ++v)
+      for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(width, x + 2); ++u) {
+        const std::size_t j = v * width + u;
+        if (!on_surface_of(i, j)) continue;
+        // Of two by two those in the middle count twice, so that all points weigh the same, about the pixel's own
+        // place.
+        const float weight = shared_.side == 3 ? 1.0f : (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
+        sum += weight * light[j];
+        points += weight * static_cast<float>(points_of(u, v));
+      }
+    return points > 0 ? sum * (static_cast<float>(lamps_.size()) / points) : Vec4(0);
+  }
+
+ private:
+  // The first pixel of a row that takes a point; pixels `side` further take it too.
+  std::size_t first_pixel(std::size_t y, std::size_t point) const {
+    const auto side = static_cast<std::size_t>(shared_.side);
+    for (std::size_t x = 0; x < side; ++x)
+      if (first_point(x, y) == point % step_) return x;
+    return kNone;
+  }
+
+  // But for the surface's own thickness of rounding.
+  Vec3 origin_of(std::size_t i) const {
+    const Scene& scene = accel_.scene();
+    const UVec3& t = scene.triangles[static_cast<std::size_t>(seen_.place[i].w) - 1];
+    float magnitude = 0;
+    for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[k]])));
+    return offset_origin(Vec3(seen_.place[i]), Vec3(seen_.face[i]), magnitude);
+  }
+
+  bool on_surface_of(std::size_t i, std::size_t j) const {
+    if (i == j) return true;
+    if (seen_.place[j].w == 0 || glm::dot(Vec3(seen_.normal[i]), Vec3(seen_.normal[j])) < kTurned) return false;
+    const Vec3 apart = Vec3(seen_.place[j]) - Vec3(seen_.place[i]);
+    const float off =
+        std::max(std::abs(glm::dot(apart, Vec3(seen_.face[i]))), std::abs(glm::dot(apart, Vec3(seen_.face[j]))));
+    return off <= kFlat * glm::length(apart) || seen_.place[i].w == seen_.place[j].w;
+  }
+
+  const SeenPoints& seen_;
+  const std::span<const LampPoint> lamps_;
+  const Accel& accel_;
+  const SharedPoints shared_;
+  const std::size_t step_;
+};
+
+}  // namespace
+
+int sharing_side(std::size_t points) {
+  return points >= 18 ? 3 : points >= 8 ? 2 : 1;
+}
+
+Result<std::vector<Vec4>> lamps_by_rays(const SeenPoints& seen, std::span<const LampPoint> lamps, const Accel& accel,
+                                        const SharedPoints& shared, Context& context) {
+  const auto width = static_cast<std::size_t>(seen.width), height = static_cast<std::size_t>(seen.height);
+  std::vector<Vec4> taken(seen.place.size(), Vec4(0));
+  const LampTracer tracer(seen, lamps, accel, shared);
+  ORIEL_TRY_VOID(parallel_for(context, "", height, [&](std::size_t y) { tracer.row(y, taken); }));
+  if (shared.side == 1) return taken;
+  std::vector<Vec4> light(seen.place.size(), Vec4(0));
+  ORIEL_TRY_VOID(parallel_for(context, "", height, [&](std::size_t y) {
+    for (std::size_t x = 0; x < width; ++x)
+      if (seen.place[y * width + x].w != 0) light[y * width + x] = tracer.gathered(x, y, taken);
+  }));
+  return light;
+}
+
+}  // namespace oriel

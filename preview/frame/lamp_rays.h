@@ -1,0 +1,35 @@
+// The light of lamps on what pixels see, by rays: the other way to the same light, and what shadow volumes are checked
+// against.
+#pragma once
+
+#include <span>
+
+#include "bake/jobs/context.h"
+#include "bake/trace/accel.h"
+#include "preview/frame/lamps.h"
+
+namespace oriel {
+
+// By pixel, as SeenSurfaces has them, row 0 at the bottom.
+struct SeenPoints {
+  int width = 0, height = 0;
+  std::vector<Vec4> place;   // a: triangle + 1, 0 where nothing is seen
+  std::vector<Vec4> face;    // geometric normals, on the eye's side
+  std::vector<Vec4> normal;  // shading normals; a: 1 to be traced
+};
+
+// How pixels share points on lamps (Keller & Heidrich 2001, "Interleaved Sampling"). In each block of side × side
+// pixels everyone takes other points; then a pixel takes the mean of those of the 3 × 3 around it that lie on its
+// surface. All points light what is even, for 1 / side² of the rays.
+struct SharedPoints {
+  int side = 1;            // 1 to 3; 1: every pixel takes all points
+  std::uint32_t turn = 0;  // who takes which
+};
+// The side for so many points: each pixel takes at least two.
+int sharing_side(std::size_t points);
+
+// By pixel: irradiance, lux, and (a) how many of its points can shine on it, were nothing between. Error kStopped.
+Result<std::vector<Vec4>> lamps_by_rays(const SeenPoints& seen, std::span<const LampPoint> lamps, const Accel& accel,
+                                        const SharedPoints& shared, Context& context);
+
+}  // namespace oriel

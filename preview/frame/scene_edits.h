@@ -1,0 +1,43 @@
+// What a panel changes of a scene's lamps and materials, and the file that says the same.
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "formats/core/bytes.h"
+#include "preview/frame/preview_scene.h"
+
+namespace oriel {
+
+struct MaterialEdit {
+  Vec3 base_color{1};  // linear, [0,1]
+  float roughness = 1;
+  Vec3 emission{0};  // cd/m²
+};
+
+struct LightEdit {
+  Vec3 color{1};        // linear
+  float intensity = 0;  // cd, or lux of a directional one
+};
+
+struct SceneEdits {
+  std::map<std::uint32_t, MaterialEdit> materials;  // into the file's
+  std::map<std::string, LightEdit> lights;          // by Scene::lights' name: that of the node, or else the light's
+  bool empty() const { return materials.empty() && lights.empty(); }
+};
+
+// What a scene has now, to begin with.
+MaterialEdit edit_of(const SceneMaterial& material);
+LightEdit edit_of(const Light& light);
+// All of it: what undoes edits.
+SceneEdits edits_of(const Scene& scene);
+
+// Sets them, and what follows from them: lamps and the elements of one bounce (at most so many). Rays, shadow volumes
+// and all geometry stay. Nobody else may read the scene meanwhile.
+void edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, std::uint64_t seed);
+
+// A .glb or .gltf with these edits: its JSON alone differs. A light that several nodes share changes with each of them.
+// Error kInvalid where it is no such file, or has not what was edited.
+Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits);
+
+}  // namespace oriel
