@@ -31,6 +31,13 @@ struct LightPatch {
   std::vector<std::uint32_t> beside;  // patches of the same chart that no wall parts from it
 };
 
+// Of the light of the patches that it sees.
+inline DVec3 handed_on(const LightPatch& patch) {
+  DVec3 sum(0);
+  for (const PatchLink& link : patch.links) sum += DVec3(link.weight);
+  return sum;
+}
+
 inline bool same_chart(const Texels& t, std::uint32_t a, std::uint32_t b) {
   return t.page[a] == t.page[b] && t.chart[a] == t.chart[b];
 }

@@ -119,17 +119,17 @@ class Solver {
   // The rim of a gap with a lamp in it lights a whole room, and is a few patches: 64 rays told its light to a half, and
   // what is near of the lamp's back, to half as much again, as texels there are wider than the gap.
   void share_rays() {
-    std::vector<double> handed_on(patches_.size(), 0);
+    std::vector<double> direct_flux(patches_.size(), 0);
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (const std::uint32_t t : patches_[p].texels)
-        handed_on[p] += shown_m2(t) * luminance(texels_.albedo[t] * direct_[t]);
-    const double mean = std::accumulate(handed_on.begin(), handed_on.end(), 0.0) / static_cast<double>(patches_.size());
+        direct_flux[p] += shown_m2(t) * luminance(texels_.albedo[t] * direct_[t]);
+    const double mean =
+        std::accumulate(direct_flux.begin(), direct_flux.end(), 0.0) / static_cast<double>(patches_.size());
     for (std::size_t p = 0; p < patches_.size(); ++p) {
       LightPatch& patch = patches_[p];
-      const bool much = !options_.most && handed_on[p] > kMuch * mean;  // paths from what is near count no bounces
       const bool crowded = std::ranges::any_of(patch.texels, [&](auto t) { return texels_.has_many[t]; });
-      patch.follows_near = much;
-      patch.rays = options_.rays_per_patch * (much && crowded ? kOfMuch : 1);
+      patch.follows_near = !options_.most && direct_flux[p] > kMuch * mean;  // paths from there count no bounces
+      patch.rays = options_.rays_per_patch * (patch.follows_near && crowded ? kOfMuch : 1);
     }
   }
   double shown_m2(std::uint32_t t) const { return double{texels_.area_m2[t]} * texels_.visible[t]; }
@@ -179,11 +179,6 @@ class Solver {
   // room it evens out, and taking it away would darken the room; but between a few such patches light grows from sweep
   // to sweep. What is reflected there is told by what the patches beside it and those that it sees hand on, on average;
   // more than they get they never do.
-  static DVec3 handed_on(const LightPatch& patch) {
-    DVec3 sum(0);
-    for (const PatchLink& link : patch.links) sum += DVec3(link.weight);
-    return sum;
-  }
   DVec3 most_handed_on(std::size_t p, const std::vector<DVec3>& sums) const {
     DVec3 sum(0);
     double count = 0;
