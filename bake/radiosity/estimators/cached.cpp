@@ -11,6 +11,7 @@
 #include "bake/radiosity/estimators/reuse.h"
 #include "bake/radiosity/estimators/work_left.h"
 #include "bake/radiosity/estimators/write_pages.h"
+#include "bake/radiosity/gather/bright_texels.h"
 #include "bake/radiosity/gather/survival.h"
 #include "bake/radiosity/texels/frame_error.h"
 #include "formats/core/color.h"
@@ -114,6 +115,8 @@ class CachedEstimator : public LightEstimator {
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
     if (how.booked) booked_.add(sweeps_.booked), cached_.booked = &booked_;
+    bright_ = BrightTexels(around_, {texels_, sites_, cached_, sweeps_.gathered, shares_}, context_.seed);
+    if (!bright_.empty()) cached_.bright = &bright_;
     take_known();
     ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
     ORIEL_TRY_VOID(first_gather());
@@ -371,6 +374,7 @@ class CachedEstimator : public LightEstimator {
   std::vector<Vec3> irradiance_;    // what gather rays find at a texel
   std::vector<Vec3> coarse_;        // of it what is no particles'
   CachedLight cached_;              // the same, as it varies over texels
+  BrightTexels bright_;             // what rays are aimed at in it
   BookedLight booked_;              // irradiance_ by group of lamps, if asked
   std::optional<Reuse> reuse_;      // of the bake before
   std::vector<bool> known_direct_;  // by texel: its direct light is that of the bake before

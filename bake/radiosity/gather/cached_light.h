@@ -19,10 +19,13 @@ struct alignas(64) CachedTexel {
   }
 };
 
+class BrightTexels;
+
 struct CachedLight {
   std::span<const Vec3> irradiance;  // by texel, lux
   std::vector<CachedTexel> texels;
-  const BookedLight* booked = nullptr;  // of irradiance, by group of lamps; null: nobody asks
+  const BookedLight* booked = nullptr;   // of irradiance, by group of lamps; null: nobody asks
+  const BrightTexels* bright = nullptr;  // at which rays are aimed; null: at none
 
   // Adds to `groups` light of a texel that counts by `weight` for each lux; within a texel all groups' light varies
   // alike.

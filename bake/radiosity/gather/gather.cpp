@@ -1,6 +1,9 @@
 #include "bake/radiosity/gather/gather.h"
 
+#include <cmath>
+
 #include "bake/jobs/units.h"
+#include "bake/radiosity/gather/bright_texels.h"
 #include "bake/radiosity/gather/moments.h"
 #include "bake/radiosity/texels/seeds.h"
 #include "formats/core/color.h"
@@ -20,6 +23,7 @@ class GroupGather {
       if (texels.visible[t] == 0) continue;
       members_.emplace_back();
       members_.back().texel = t;
+      if (cached.bright) members_.back().aim = cached.bright->aim(texels.site_for(t, 0, 0));
     }
   }
 
@@ -31,7 +35,8 @@ class GroupGather {
         m.sum = m.slope = Vec3(0), m.moments = Vec4(0);
         m.booked.assign(around_.groups(), Vec3(0));
         m.done = sums.samples[m.texel];
-        m.shift = net_.shift(std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half));
+        const std::uint64_t stream = std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half);
+        m.shift = net_.shift(stream), m.aim_shift = net_.shift(stream | kAimed);
       }
       for (std::uint32_t k = first; k < per_half; ++k) {
         if (k == first || k % kKeptSites == 0) fetch_sites(half, k - k % kKeptSites, k == first);
@@ -50,12 +55,19 @@ class GroupGather {
   std::uint64_t rays() const { return rays_; }
 
  private:
-  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;  // most texels have no others
-  static constexpr std::uint32_t kRaysAPoint = 16;            // once all that are kept were used
+  static constexpr std::uint32_t kKeptSites = kSitesPerHalf;       // most texels have no others
+  static constexpr std::uint32_t kRaysAPoint = 16;                 // once all that are kept were used
+  static constexpr std::uint64_t kAimed = std::uint64_t{1} << 62;  // of streams: of aimed rays
+  struct Sent {
+    std::uint32_t member = 0;         // into members_
+    std::uint32_t region = kNoTexel;  // at which it is aimed
+  };
   struct Member {
     std::uint32_t texel = 0;
     std::uint32_t done = 0;  // samples of each half that it has
     UVec2 shift{0};          // of its directions, by half
+    UVec2 aim_shift{0};      // of what it aims at
+    BrightTexels::Aim aim;
     std::array<GatherSite, kKeptSites> site;
     Vec3 sum{0}, slope{0};
     Vec4 moments{0};
@@ -78,17 +90,22 @@ class GroupGather {
     }
   }
 
+  // A ray for each texel, and one more at something bright for those that it is worth it.
   void add_sample(int half, std::uint32_t k) {
-    batch_.clear(), about_.clear(), target_.clear();
+    batch_.clear(), about_.clear(), sent_.clear();
     const bool weighs = moments_ || around_.weighs();
     for (std::uint32_t i = 0; i < members_.size(); ++i) {
       const Member& m = members_[i];
       if (m.done > k) continue;
       const GatherSite& site = m.site[k % kKeptSites];
       const std::uint64_t stream = std::uint64_t{m.texel} * kHalves + static_cast<std::uint64_t>(half);
-      batch_.push_back(site.ray(net_.point(k, m.shift)));
-      about_.push_back({weighs ? site.incidence(batch_.back().direction) : 0, stream, k, true});
-      target_.push_back(i);
+      const bool aims = !m.aim.empty();
+      send(site.ray(net_.point(k, m.shift)), site, weighs || aims, {0, stream, k, true}, {i});
+      if (!aims) continue;
+      const auto target = cached_.bright->sample(m.aim, half, net_.point(k, m.aim_shift));
+      if (!target) continue;
+      if (const auto [ray, distance] = site.ray_to(target->point); distance > 0)
+        send(ray, site, true, {0, stream | kAimed, k, true, distance}, {i, target->region});
     }
     around_.answer(batch_, about_, answers_);
     rays_ += batch_.size() + answers_.rays;
@@ -97,29 +114,49 @@ class GroupGather {
     if (cached_.booked)
       for (const Link& link : answers_.links) cached_.book(link.texel, link.weight / kPi, booked_of(link.ray));
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      Member& m = members_[target_[i]];
+      Member& m = members_[sent_[i].member];
+      const float factor = over_density(i, m);
+      if (factor == 0) continue;
       Vec3 slope(0);
       if (const std::uint32_t texel = answers_.texel[i]; texel != kNoTexel) {
         const CachedTexel& met = cached_.texels[texel];
         const Vec3 there = met.at(batch_[i].origin + answers_.hits[i].distance * batch_[i].direction);
         light[i] += answers_.share[i] * there;
-        slope = kPi * answers_.share[i] * (there - met.radiance);
+        slope = factor * answers_.share[i] * (there - met.radiance);
         if (cached_.booked)
           cached_.book(texel, answers_.share[i] * there / glm::max(cached_.irradiance[texel], Vec3(1e-30f)),
                        booked_of(i));
       }
-      if (!is_usable(light[i])) {
+      if (!is_usable(light[i]) || !std::isfinite(factor)) {
         around_.transport().accel.dropped().add(answers_.hits[i].triangle);
         continue;
       }
-      m.sum += kPi * light[i];
+      m.sum += factor * light[i];
       const std::span<Vec3> booked = booked_of(i);
-      for (std::size_t g = 0; g < booked.size(); ++g) m.booked[g] += kPi * booked[g];
+      for (std::size_t g = 0; g < booked.size(); ++g) m.booked[g] += factor * booked[g];
       m.slope += slope;
       if (moments_)
         m.moments +=
-            moments_of(luminance(light[i]) * kPi / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);
+            moments_of(luminance(light[i]) * factor / std::max(about_[i].incidence, kLeastCosine), batch_[i].direction);
     }
+  }
+
+  void send(const Ray& ray, const GatherSite& site, bool weighs, GatherRay about, const Sent& sent) {
+    if (weighs) about.incidence = site.incidence(ray.direction);
+    batch_.push_back(ray), about_.push_back(about), sent_.push_back(sent);
+  }
+
+  // Of a ray's light, for the sum over all rays of a texel: incidence over the density of rays of both kinds, π where
+  // none is aimed, by what is met first. 0: an aimed ray that met something else.
+  float over_density(std::size_t i, const Member& m) const {
+    if (m.aim.empty()) return kPi;
+    const Hit& hit = answers_.hits[i];
+    if (about_[i].misses(hit)) return 0;
+    const std::uint32_t region = cached_.bright->region(answers_.places[i]);
+    if (sent_[i].region != kNoTexel && sent_[i].region != region) return 0;
+    if (region == kNoTexel) return kPi;
+    const float incidence = about_[i].incidence;
+    return incidence / (incidence / kPi + cached_.bright->density(m.aim, region, batch_[i], hit));
   }
 
   std::span<Vec3> booked_of(std::size_t ray) {
@@ -135,7 +172,7 @@ class GroupGather {
   std::vector<Member> members_;
   std::vector<Ray> batch_;
   std::vector<GatherRay> about_;
-  std::vector<std::uint32_t> target_;  // into members_
+  std::vector<Sent> sent_;  // by ray
   Answers answers_;
   std::uint64_t rays_ = 0;
 };
@@ -163,6 +200,7 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
   loop.inputs = [&](std::size_t g, Archive& key) {
     key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), texels.eyes);
     if (cached.booked) key(booked_light);
+    if (cached.bright) key(cached.bright->name());
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {

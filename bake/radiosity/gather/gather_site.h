@@ -1,6 +1,8 @@
 // Gather rays: where they leave a texel and which way.
 #pragma once
 
+#include <utility>
+
 #include "bake/radiosity/texels/texels.h"
 #include "bake/trace/warp.h"
 
@@ -20,6 +22,13 @@ class GatherSite {
       if (const float height = glm::dot(direction, site_.geometric_normal); height < 0)
         direction -= 2 * height * site_.geometric_normal;
     return {site_.origin, direction};
+  }
+  // Towards a point, and how far; 0: it lies below the surface.
+  std::pair<Ray, float> ray_to(const Vec3& point) const {
+    const Vec3 off = point - site_.origin;
+    const float distance = glm::length(off);
+    if (!(distance > 0) || !(glm::dot(off, site_.geometric_normal) > 0)) return {};
+    return {Ray{site_.origin, off / distance}, distance};
   }
   // π times the density of that direction.
   float incidence(const Vec3& direction) const {

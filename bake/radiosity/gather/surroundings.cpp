@@ -36,6 +36,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   answers.hits.resize(rays.size());
   answers.light.assign(rays.size(), Vec3(0));
   answers.unreflected.assign(rays.size(), Vec3(0));
+  answers.places.assign(rays.size(), {});
   answers.texel.assign(rays.size(), kNoTexel);
   answers.share.assign(rays.size(), 1.0f);
   answers.booked.assign(rays.size() * groups(), Vec3(0));
@@ -44,6 +45,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
   t_.accel.intersect(rays, answers.hits);
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = answers.hits[i];
+    if (about[i].misses(hit)) continue;
     if (!hit) {
       answers.unreflected[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       answers.light[i] = answers.unreflected[i];
@@ -52,8 +54,9 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     }
     const Kind kind = kinds_[hit.triangle];
     if (kind == Kind::kMatt && !hit.front) continue;  // texels hold the light of fronts
-    const auto [texel, in_lit_gap] = hit.front ? texels_.place(hit.triangle, hit.barycentric) : Texels::Place();
-    if (kind == Kind::kOther || in_lit_gap || is_near(about[i], hit.distance, texel) ||
+    if (hit.front) answers.places[i] = texels_.place(hit.triangle, hit.barycentric);
+    const std::uint32_t texel = answers.places[i].texel;
+    if (kind == Kind::kOther || answers.places[i].in_lit_gap || is_near(about[i], hit.distance, texel) ||
         (kind == Kind::kLayered && texel == kNoTexel)) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
@@ -93,7 +96,7 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
 
 std::optional<float> Surroundings::link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
                                            Answers& answers) const {
-  const auto [texel, in_lit_gap] = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
+  const auto [texel, in_lit_gap, on] = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
   if (in_lit_gap || is_near(about, v.distance, texel)) return std::nullopt;
   if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
   return survival_of(v.triangle);

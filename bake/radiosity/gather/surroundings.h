@@ -13,6 +13,11 @@ struct GatherRay {
   // Texels met from nearer than Surroundings::near() of their sides, and further where something stands or hangs close
   // to them, are not asked: a path goes on from the point met.
   bool near = false;
+  // What is not that far, to a thousandth, has no answer: the ray was aimed at something else. 0: whatever it meets.
+  float aimed_m = 0;
+  bool misses(const Hit& hit) const {
+    return aimed_m > 0 && !(hit && std::fabs(hit.distance - aimed_m) <= 1e-3f * aimed_m + 1e-4f);
+  }
 };
 
 // A texel seen through lobes and layers.
@@ -25,7 +30,8 @@ struct Link {
 // links.
 struct Answers {
   std::vector<Hit> hits;
-  std::vector<std::uint32_t> texel;  // by ray: of the opaque surface met; kNoTexel: none
+  std::vector<Texels::Place> places;  // by ray: of the front that was met first
+  std::vector<std::uint32_t> texel;   // by ray: of the opaque surface met; kNoTexel: none
   std::vector<float> share;  // by ray: of light that the texel's specular layers leave to its diffuse reflection
   std::vector<Link> links;   // in order of rays
   // By ray: sky, emitters behind mirrors, emitters that closed forms do not hold, and what near surfaces reflect.

@@ -32,6 +32,18 @@ std::uint32_t MoreSites::known(std::uint32_t i, int half) const {
   return (texels_.has_many[i] ? kServe : 1) * texels_.kept_sites(i, half);
 }
 
+SurfacePoint MoreSites::candidate(std::uint32_t i, int half, std::uint32_t k) const {
+  return texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + seeds::kBright);
+}
+
+float MoreSites::texels2(std::uint32_t i) const {
+  const TexelMapPage& map = maps_[texels_.page[i]];
+  float sum = 0;
+  for (std::uint32_t f = map.first[texels_.index[i]]; f < map.first[texels_.index[i] + 1]; ++f)
+    sum += map.fragments[f].area;
+  return sum;
+}
+
 TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const {
   if (k < known(i, half)) return texels_.site_for(i, half, k);
   const auto cut = texels_.cut.find(i);

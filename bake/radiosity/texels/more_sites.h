@@ -24,6 +24,10 @@ class MoreSites {
   TexelSite at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const;
   // So many of a half take no rays to find.
   std::uint32_t known(std::uint32_t i, int half) const;
+  // A point anywhere on the texel's surface, whatever lies on it.
+  SurfacePoint candidate(std::uint32_t i, int half, std::uint32_t k) const;
+  // All surface under the texel, as it is on the page, in texels: what candidates are even over.
+  float texels2(std::uint32_t i) const;
   // One of the triangles under the texel.
   std::uint32_t triangle(std::uint32_t i) const {
     const TexelMapPage& map = maps_[texels_.page[i]];

@@ -11,6 +11,7 @@ inline constexpr std::uint64_t kMoreSites = 0x3a17;      // points of texels bey
 inline constexpr std::uint64_t kWalls = 0x9a27;          // points of a texel that a wall may part
 inline constexpr std::uint64_t kBounces = 0xb0;          // rays between patches
 inline constexpr std::uint64_t kGather = 0x9a7e;         // gathered directions
+inline constexpr std::uint64_t kBright = 0xb416;         // rays at bright texels, and points on these
 inline constexpr std::uint64_t kLampPaths = 0x1a39;      // particles from lamps
 inline constexpr std::uint64_t kSurvival = 0x50b1;       // rays that find out how often paths are worth going on
 inline constexpr std::uint64_t kPolygonLight = 0xd1ec;   // + the light's number: points on it

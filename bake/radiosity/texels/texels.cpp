@@ -161,15 +161,23 @@ Texels::Place Texels::place(std::uint32_t triangle, const Vec2& b) const {
   const auto page_number = static_cast<std::uint32_t>(where.page);
   if (const std::uint32_t texel = at(page_number, px, py); texel != kNoTexel) {
     std::uint64_t rays = 0;
-    if (!is_cut[texel]) return {texel};
+    if (!is_cut[texel]) return {texel, false, texel};
     const TexelPart& part = cut.at(texel);
-    if (part.holds(triangle, b, rays)) return {texel};
-    return {across(texel, part, p), part.has_lamp()};
+    if (part.holds(triangle, b, rays)) return {texel, false, texel};
+    return {across(texel, part, p), part.has_lamp(), texel};
   }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-    if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return {texel};
+    if (const std::uint32_t texel = at(page_number, px + dx, py + dy); texel != kNoTexel) return {texel, false, texel};
   return {};
+}
+
+float Texels::texels2_per_m2(const Scene& scene, std::uint32_t triangle) const {
+  const Placement& where = placement[triangle];
+  const double area = triangle_area(scene, triangle);
+  if (where.page < 0 || !(area > 0)) return 0;
+  const DVec2 a(where.edge1), b(where.edge2);
+  return static_cast<float>(0.5 * std::abs(a.x * b.y - a.y * b.x) / area);
 }
 
 bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {

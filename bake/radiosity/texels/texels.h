@@ -87,8 +87,13 @@ struct Texels {
   struct Place {
     std::uint32_t texel = kNoTexel;
     bool in_lit_gap = false;
+    std::uint32_t lies_on = kNoTexel;  // whatever parts it
   };
   Place place(std::uint32_t triangle, const Vec2& barycentric) const;
+  // The texel that tells of what lies under a lamp on a texel that has_lamp().
+  std::uint32_t under_lamp(std::uint32_t texel) const { return across(texel, cut.at(texel), Vec2(0)); }
+  // How large a square metre of a triangle is on its page, in texels; 0 where it has no area or no page.
+  float texels2_per_m2(const Scene& scene, std::uint32_t triangle) const;
   // Whether a wall parts that point from the texel on which it lies.
   bool parts(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel at a place of a page; kNoTexel where none is.
