@@ -68,9 +68,8 @@ std::vector<std::uint32_t> BrightTexels::bright(const LightAround& light) const 
   if (list.size() <= kTexels) return list;
   std::vector<std::uint32_t> order(list.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::nth_element(order, order.begin() + kTexels, {}, [&](std::uint32_t k) {
-    return std::pair(-sends(list[k]), k);
-  });
+  std::ranges::nth_element(order, order.begin() + kTexels, {},
+                           [&](std::uint32_t k) { return std::pair(-sends(list[k]), k); });
   order.resize(kTexels);
   std::ranges::sort(order);
   std::vector<std::uint32_t> most;
@@ -96,8 +95,8 @@ void BrightTexels::add_regions(const LightAround& light, std::uint32_t texel, st
   in_gap.normal = beside.normal;
   const auto add = [&](Region& region, float radiance, std::size_t points, std::vector<std::uint32_t>& number) {
     region.texels2 = light.sites.texels2(texel);
-    region.power = kPi * radiance * texels.area_m2[texel] * static_cast<float>(points) /
-                   static_cast<float>(kHalves * tries);
+    region.power =
+        kPi * radiance * texels.area_m2[texel] * static_cast<float>(points) / static_cast<float>(kHalves * tries);
     if (!(radiance > kBright * light.reflected / kPi) || !(region.power > 0) || !(region.texels2 > 0)) return;
     if (glm::length(region.normal) > 0) region.normal = glm::normalize(region.normal);
     number[texel] = static_cast<std::uint32_t>(regions_.size());
@@ -156,8 +155,7 @@ void BrightTexels::keep_strongest() {
   std::ranges::sort(order);
   std::vector<Cluster> kept;
   std::vector<std::uint32_t> number(clusters_.size(), kNoTexel);
-  for (const std::uint32_t c : order)
-    number[c] = static_cast<std::uint32_t>(kept.size()), kept.push_back(clusters_[c]);
+  for (const std::uint32_t c : order) number[c] = static_cast<std::uint32_t>(kept.size()), kept.push_back(clusters_[c]);
   for (Region& region : regions_) region.cluster = number[region.cluster];
   clusters_ = std::move(kept);
 }
@@ -170,8 +168,7 @@ BrightTexels::Aim BrightTexels::aim(const TexelSite& receiver) const {
     const float distance = glm::length(off), r = c.radius_m;
     // As if each end were turned to the other as far as the cluster's width lets it: a flat one's in its own plane.
     const float turned = glm::dot(receiver.geometric_normal, c.normal), up = std::max(1 - turned * turned, 0.01f);
-    const float here =
-        std::min((glm::dot(off, receiver.geometric_normal) + r * std::sqrt(up)) / (distance + r), 1.0f);
+    const float here = std::min((glm::dot(off, receiver.geometric_normal) + r * std::sqrt(up)) / (distance + r), 1.0f);
     const float there = std::min((r - glm::dot(off, c.normal)) / (distance + r), 1.0f);
     if (here > 0 && there > 0)
       sum += c.power * (distance > kFar_m + r ? std::max(c.shines_far, 0.5f / kShineRays) : 1.0f) * here * there /
@@ -184,15 +181,15 @@ BrightTexels::Aim BrightTexels::aim(const TexelSite& receiver) const {
 
 std::optional<BrightTexels::Target> BrightTexels::sample(const Aim& aim, int half, const Vec2& u) const {
   const float at = u.x * aim.back();
-  const auto c = std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(aim, at) - aim.begin()),
-                                       aim.size() - 1);
+  const auto c =
+      std::min<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(aim, at) - aim.begin()), aim.size() - 1);
   const float before = c > 0 ? aim[c - 1] : 0;
   const Cluster& cluster = clusters_[c];
   // The rest of the number tells which region.
   const float rest = (at - before) / std::max(aim[c] - before, 1e-30f) * cluster.power;
   const auto begin = power_until_.begin() + cluster.first, end = power_until_.begin() + cluster.end;
-  const auto r = std::min(static_cast<std::uint32_t>(std::upper_bound(begin, end, rest) - power_until_.begin()),
-                          cluster.end - 1);
+  const auto r =
+      std::min(static_cast<std::uint32_t>(std::upper_bound(begin, end, rest) - power_until_.begin()), cluster.end - 1);
   const auto& points = regions_[r].points[half];
   const auto k = std::min(static_cast<std::size_t>(u.y * static_cast<float>(points.size())), points.size() - 1);
   if (!points[k]) return std::nullopt;

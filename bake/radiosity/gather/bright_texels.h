@@ -16,8 +16,8 @@ struct LightAround {
   const Texels& texels;
   const MoreSites& sites;
   std::span<const float> shares;  // of frames, by texel
-  std::vector<float> radiance;  // luminance by texel, cd/m²
-  float reflected = 0;          // of what eyes see: lit by reflected light alone, lux, mean
+  std::vector<float> radiance;    // luminance by texel, cd/m²
+  float reflected = 0;            // of what eyes see: lit by reflected light alone, lux, mean
 
   // gathered: reflected light by texel, lux.
   LightAround(const Texels& texels, const MoreSites& sites, const CachedLight& cached, std::span<const Vec3> gathered,
@@ -55,13 +55,13 @@ class BrightTexels {
   const Hash128& name() const { return name_; }
 
  private:
-  static constexpr float kBright = 4;            // times as bright as what is around
-  static constexpr std::size_t kTexels = 4096;   // of those that are bright, the ones that send most
-  static constexpr std::size_t kClusters = 256;  // likewise
-  static constexpr std::uint32_t kPoints = 1u << 17;           // of all regions, about
-  static constexpr std::uint32_t kFewest = 16, kMost = 256;    // of a region and half
-  static constexpr float kFar_m = 1;      // beyond which what does not shine so far is hardly aimed at
-  static constexpr float kWorth = 0.1f;   // of the light around, from which rays are aimed
+  static constexpr float kBright = 4;                        // times as bright as what is around
+  static constexpr std::size_t kTexels = 4096;               // of those that are bright, the ones that send most
+  static constexpr std::size_t kClusters = 256;              // likewise
+  static constexpr std::uint32_t kPoints = 1u << 17;         // of all regions, about
+  static constexpr std::uint32_t kFewest = 16, kMost = 256;  // of a region and half
+  static constexpr float kFar_m = 1;       // beyond which what does not shine so far is hardly aimed at
+  static constexpr float kWorth = 0.1f;    // of the light around, from which rays are aimed
   static constexpr double kCommon = 0.25;  // of what is seen: what is as common is met without aiming
 
   // A texel's part beside a lamp, or under it.

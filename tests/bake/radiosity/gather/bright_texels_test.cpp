@@ -68,8 +68,12 @@ void expect_same_light(bool behind_box) {
   EXPECT_LT(aimed.variance, 0.1 * alone.variance);
 }
 
-TEST(BrightTexels, AimedRaysAndOthersAddUpToTheSameLight) { expect_same_light(false); }
-TEST(BrightTexels, BesideABoxToo) { expect_same_light(true); }
+TEST(BrightTexels, AimedRaysAndOthersAddUpToTheSameLight) {
+  expect_same_light(false);
+}
+TEST(BrightTexels, BesideABoxToo) {
+  expect_same_light(true);
+}
 
 TEST(BrightTexels, EvenLightHasNone) {
   SceneParts parts;
@@ -80,7 +84,8 @@ TEST(BrightTexels, EvenLightHasNone) {
   Context context;
   const MoreSites sites = listed.sites(transport);
   const std::vector<float> shares(listed.texels.count(), 1.0f);
-  for (const float lux : {0.0f, 1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const float lux :
+       {0.0f, 1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     const std::vector<Vec3> even(listed.texels.count(), Vec3(lux));
     CachedLight cached{even, std::vector<CachedTexel>(even.size())};
     for (CachedTexel& texel : cached.texels) texel.radiance = Vec3(lux / kPi);
