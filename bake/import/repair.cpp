@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
@@ -23,26 +24,12 @@ struct Edge {
   }
 };
 
-// Groups of triangles connected over edges that exactly two of them share.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 struct ReversalCounter : pmp::Default_orientation_visitor {
   std::vector<char>* reversed = nullptr;
   void polygon_orientation_reversed(std::size_t triangle) { (*reversed)[triangle] ^= 1; }
 };
 
-std::size_t join_over_edges(const std::vector<Triangle>& triangles, Components& components) {
+std::size_t join_over_edges(const std::vector<Triangle>& triangles, DisjointSets& components) {
   std::vector<Edge> edges;
   edges.reserve(triangles.size() * 3);
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -72,7 +59,7 @@ SoupReport inspect_soup(std::span<const Vec3> positions, std::span<const UVec3> 
   for (const UVec3& t : triangles) soup.push_back({t.x, t.y, t.z});
   try {
     pmp::merge_duplicate_points_in_polygon_soup(points, soup);
-    Components components(soup.size());
+    DisjointSets components(soup.size());
     report.non_manifold_edges = join_over_edges(soup, components);
     std::vector<char> reversed(soup.size());
     ReversalCounter counter;
@@ -81,7 +68,7 @@ SoupReport inspect_soup(std::span<const Vec3> positions, std::span<const UVec3> 
     // CGAL starts each component with its first triangle; the majority may face the other way.
     std::vector<std::size_t> total(soup.size()), turned(soup.size());
     for (std::size_t t = 0; t < soup.size(); ++t) {
-      const std::size_t c = components.find(t);
+      const std::size_t c = components.root(t);
       ++total[c];
       turned[c] += reversed[t] ? 1 : 0;
     }

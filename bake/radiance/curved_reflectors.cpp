@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "bake/radiance/views.h"
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
@@ -33,25 +33,6 @@ CurvedObject object_of(const Scene& scene, std::vector<std::uint32_t> triangles)
   return object;
 }
 
-// Sets of positions in `triangles`, joined where they touch.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The root is the lowest member.
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 // Vertices are not shared between surfaces, nor where normals part: positions tell what is connected.
 std::vector<CurvedObject> connected_objects(const Scene& scene, std::span<const std::uint32_t> triangles) {
   struct Corner {
@@ -65,7 +46,7 @@ std::vector<CurvedObject> connected_objects(const Scene& scene, std::span<const 
     for (int c = 0; c < 3; ++c)
       corners.push_back({material_of(scene, triangles[i]), scene.positions[scene.triangles[triangles[i]][c]], i});
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.key() < b.key(); });
-  Sets sets(triangles.size());
+  DisjointSets sets(triangles.size());
   for (std::size_t i = 1; i < corners.size(); ++i)
     if (corners[i].key() == corners[i - 1].key()) sets.join(corners[i - 1].triangle, corners[i].triangle);
   std::map<std::size_t, std::vector<std::uint32_t>> members;

@@ -4,29 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
+
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
-
-// Sets of triangles that grow together.
-class Joined {
- public:
-  explicit Joined(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);  // the first triangle stands for all
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct Corner {
   std::int32_t page;
@@ -71,7 +54,7 @@ void touched_texels(std::array<Vec2, 3> corners, const IVec2& size, const Take& 
 std::vector<std::uint32_t> charts_of(const Mesh& mesh) {
   const std::size_t triangles = mesh.indices.size() / 3;
   std::vector<std::uint32_t> chart(triangles, kNoChart);
-  Joined joined(triangles);
+  DisjointSets joined(triangles);
   std::unordered_map<Corner, std::uint32_t, CornerHash> first;
   for (const MeshPart& part : mesh.parts) {
     if (part.lightmap_page < 0) continue;
@@ -85,7 +68,7 @@ std::vector<std::uint32_t> charts_of(const Mesh& mesh) {
   std::unordered_map<std::uint32_t, std::uint32_t> number;
   for (std::uint32_t t = 0; t < triangles; ++t)
     if (chart[t] != kNoChart)
-      chart[t] = number.try_emplace(joined.find(t), static_cast<std::uint32_t>(number.size())).first->second;
+      chart[t] = number.try_emplace(joined.root(t), static_cast<std::uint32_t>(number.size())).first->second;
   return chart;
 }
 

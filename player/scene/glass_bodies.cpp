@@ -4,9 +4,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <tuple>
+
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 namespace {
@@ -20,24 +21,11 @@ struct Triangle {
   std::int32_t page;
 };
 
-class Joined {
- public:
-  explicit Joined(std::size_t n) : parents_(n) { std::iota(parents_.begin(), parents_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parents_[root(a)] = root(b); }
-
- private:
-  std::vector<std::size_t> parents_;
-};
-
 // Triangles that share positions, in the order of their first ones.
 std::vector<std::vector<Triangle>> connected(const Mesh& mesh, const std::vector<Triangle>& triangles) {
   const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::map<Vec3, std::size_t, decltype(less)> first(less);  // a triangle there
-  Joined joined(triangles.size());
+  DisjointSets joined(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t corner : triangles[t].corners)
       joined.join(t, first.try_emplace(mesh.positions[corner], t).first->second);
