@@ -33,12 +33,6 @@ constexpr float kCoarseError = 0.25f;                   // of bounces that no ga
 constexpr float kFurther = 4;                           // times as far (Goal::longer_look_up)
 constexpr double kGatherGain = 0.5, kDirectGain = 0.6;  // part of the squared error that the next refinement takes away
 
-// Of direct light: its noise lies in penumbrae, which are no wider than the first scale's kernel.
-FilterOptions narrow(FilterOptions options) {
-  options.scales = std::min(options.scales, 1);
-  return options;
-}
-
 class CachedEstimator : public LightEstimator {
  public:
   CachedEstimator(const RadiosityTask& task, Texels texels)
@@ -81,7 +75,7 @@ class CachedEstimator : public LightEstimator {
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
     BookedLight direct = filter_groups(texels_, graph_, direct_.booked_halves(), narrow(options_.filter), context_);
-    direct.add(filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false));
+    direct.add(reflected_booked());
     write_booked(texels_, direct, groups);
     return true;
   }
@@ -89,10 +83,15 @@ class CachedEstimator : public LightEstimator {
   std::optional<TexelLight> texel_light() const override {
     BookedLight booked;
     std::vector<Vec3> beside = smooth_beside(lamps_, texels_, graph_, gathered_, context_, booked);
-    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), shares_};
+    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), estimate_, reflected_booked(),
+                      shares_};
   }
 
  private:
+  BookedLight reflected_booked() const {
+    return filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false);
+  }
+
   // Direct light, its bounces on coarse patches, and the first rays that gather these.
   Status begin(const Goal& goal) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));

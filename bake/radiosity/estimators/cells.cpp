@@ -30,7 +30,14 @@ class PageCells {
       number_[map.texel[i]] = i;
       chart_.push_back(atlas.chart[map.fragments[map.first[i]].triangle]);
     }
-    for (std::uint32_t i = 0; i < map.texel.size(); ++i) bend_.push_back(bend_at(i));
+    const auto error = [&](std::uint32_t i) { return luminance(page.standard_error[map.texel[i]]); };
+    const auto reflected = [&](std::uint32_t i) { return luminance(texels.reflected[i]); };
+    const auto its_error = [&](std::uint32_t i) { return std::sqrt(luminance(texels.reflected_variance[i])); };
+    for (std::uint32_t i = 0; i < map.texel.size(); ++i) {
+      bend_.push_back(bend_at(
+          i, [&](std::uint32_t at) { return light(at); }, error));
+      if (!texels.reflected.empty()) reflected_bend_.push_back(bend_at(i, reflected, its_error).value_or(0));
+    }
   }
 
   // usual: share of frames of a texel. left: cells to leave as they are, none where empty.
@@ -57,7 +64,8 @@ class PageCells {
   }
 
   // The largest second difference, less what noise may bring; nothing where a chart is too narrow for one.
-  std::optional<float> bend_at(std::uint32_t i) const {
+  template <class Light, class Error>
+  std::optional<float> bend_at(std::uint32_t i, const Light& light, const Error& error) const {
     if (!valid(i)) return std::nullopt;
     float most = -1;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
@@ -71,11 +79,11 @@ class PageCells {
         most = std::max(most, std::fabs(light(i) - 2 * light(before) + light(back)));
     }
     if (most < 0) return std::nullopt;
-    return std::max(0.0f, most - kNoise * luminance(page_.standard_error[map_.texel[i]]));
+    return std::max(0.0f, most - kNoise * error(i));
   }
 
   void add_cell(CellCandidate cell, const CellGoal& goal, double usual, std::vector<CellCandidate>& found) const {
-    float bend = 0;
+    float bend = 0, reflected_bend = 0;
     double light_sum = 0, share = 0;
     int corners = 0;
     bool crowded = false, narrow = true;
@@ -85,6 +93,7 @@ class PageCells {
       cell.contact = cell.contact || (i != kNone && visible_[i] < kWhole);
       if (i == kNone || !valid(i)) continue;
       if (bend_[i]) bend = std::max(bend, *bend_[i]), narrow = false;
+      if (!reflected_bend_.empty()) reflected_bend = std::max(reflected_bend, reflected_bend_[i]);
       crowded = crowded || texels_.crowded[i];
       light_sum += double{light(i)}, share += double{texels_.shares[i]};
       ++corners;
@@ -96,6 +105,8 @@ class PageCells {
     cell.error = double{kEdge} * double{bend} / cell.light * cell.weight;
     cell.untold = narrow || (corners < 4 && crowded);
     if (cell.untold) cell.error = std::max(cell.error, kUntold * cell.weight);
+    cell.gathers = reflected_bend_.empty() || crowded || narrow || cell.contact ||
+                   double{kEdge} * double{reflected_bend} / cell.light * cell.weight > goal.error;
     if (cell.contact || cell.error > kBeside * goal.error) found.push_back(cell);
   }
 
@@ -105,6 +116,7 @@ class PageCells {
   std::vector<std::uint32_t> number_;       // by place, into the map
   std::vector<std::uint32_t> chart_;        // by texel of the map
   std::vector<std::optional<float>> bend_;  // likewise
+  std::vector<float> reflected_bend_;       // likewise
   CellTexels texels_;                       // likewise
 };
 
@@ -117,10 +129,10 @@ std::uint8_t level_for(double error, const CellGoal& goal) {
   return level;
 }
 
-// Cells beside each other share the points between them.
-std::uint64_t points_of(std::uint8_t level, const CellGoal& goal) {
+// As CellGoal::most_points counts them, times kDirectPoints. Cells beside each other share the points between them.
+std::uint64_t points_of(std::uint8_t level, bool gathers, const CellGoal& goal) {
   const std::uint64_t side = std::uint64_t{1} << level;
-  return level <= goal.known ? 0 : side * (side + 1);
+  return level <= goal.known ? 0 : side * (side + 1) * (gathers ? kDirectPoints : 1);
 }
 
 // Candidates by place.
@@ -150,7 +162,7 @@ class Chooser {
     const auto take = [&](std::uint32_t k, std::uint8_t level) {
       std::uint8_t& now = levels[found_[k].page][found_[k].place];
       if (level <= now) return;
-      points += points_of(level, goal) - points_of(now, goal);
+      points += points_of(level, found_[k].gathers, goal) - points_of(now, found_[k].gathers, goal);
       now = level;
       chosen.push_back(k);
     };
@@ -185,16 +197,22 @@ class Chooser {
 
 }  // namespace
 
+CellTexels CellTexels::of(std::size_t first, std::size_t count) const {
+  CellTexels some{shares.subspan(first, count), crowded.subspan(first, count), {}, {}};
+  if (reflected.empty()) return some;
+  some.reflected = reflected.subspan(first, count), some.reflected_variance = reflected_variance.subspan(first, count);
+  return some;
+}
+
 std::vector<CellCandidate> find_cells(const Atlas& atlas, std::span<const TexelMapPage> map, const Radiosity& light,
                                       const CellTexels& texels, const CellGoal& goal) {
   std::vector<CellCandidate> found;
-  const std::span<const float> shares = texels.shares;
-  const double usual = std::accumulate(shares.begin(), shares.end(), 0.0) / std::max<double>(1, shares.size());
+  const double usual = std::accumulate(texels.shares.begin(), texels.shares.end(), 0.0) /
+                       std::max<double>(1, static_cast<double>(texels.shares.size()));
   std::size_t first = 0;
   for (std::uint32_t p = 0; p < map.size(); ++p) {
     const std::size_t count = map[p].texel.size();
-    PageCells(atlas, map[p], light.pages[p], light.visible[p],
-              {shares.subspan(first, count), texels.crowded.subspan(first, count)})
+    PageCells(atlas, map[p], light.pages[p], light.visible[p], texels.of(first, count))
         .add(p, goal, usual, light.at_seam.empty() ? std::vector<bool>() : light.at_seam[p], found);
     first += count;
   }
@@ -208,7 +226,7 @@ CellLevels choose_cells(std::span<const LightmapPage> pages, std::span<const Cel
   for (;; allowed.error *= kCoarser) {
     std::uint64_t points = 0;
     CellLevels levels = chooser.choose(allowed, points);
-    if (points <= goal.most_points) return levels;
+    if (points <= kDirectPoints * goal.most_points) return levels;
   }
 }
 

@@ -13,7 +13,7 @@ struct CellGoal {
   double error = 0;  // relative, that interpolation may miss
   double floor = 0;  // luminance, lux: what is darker is held against this
   std::uint32_t most_side = kMostDetail;
-  std::uint64_t most_points = 0;  // of all cells
+  std::uint64_t most_points = 0;  // of all cells; of those that gather nothing kDirectPoints count as one
   std::uint8_t known = 0;         // level up to which points are known already and count for none
 };
 
@@ -21,6 +21,8 @@ struct CellGoal {
 struct CellTexels {
   std::span<const float> shares;  // of frames
   std::span<const char> crowded;  // whether something stands or hangs close to it (Texels::has_many)
+  std::span<const Vec3> reflected, reflected_variance;  // TexelLight; empty: all cells gather
+  CellTexels of(std::size_t first, std::size_t count) const;
 };
 
 // A cell in which interpolation may miss too much.
@@ -32,7 +34,12 @@ struct CellCandidate {
   bool contact = false;  // something stands or hangs on a corner
   bool stays = false;    // it has no points whatever it misses
   bool untold = false;   // texels do not tell what interpolation misses: `error` is a guess
+  bool gathers = true;   // reflected light, too, is more than texels tell; else its points have direct light alone
 };
+
+// Points with direct light alone that take the time of one that gathers, of which rays go on from what is near: a few
+// hundred rays against a few dozen.
+inline constexpr std::uint64_t kDirectPoints = 8;
 
 // Where light bends by D (second difference) from texel to texel, interpolation misses about D / 4 where that is an
 // edge, and n steps between texels leave an nth of it. What noise may bend does not count. In narrow charts, and at the

@@ -14,7 +14,7 @@ namespace oriel {
 namespace {
 
 constexpr std::size_t kFewPoints = 1 << 14;  // small scenes may have more of each pass than this
-constexpr std::size_t kPointsATexel = 2;
+constexpr std::size_t kPointsATexel = 8;
 constexpr double kUsualError = 0.02;  // where none is asked for
 constexpr double kWorth = 0.4;        // of the error allowed: what misses less needs no points that are known
 
@@ -50,10 +50,13 @@ class DetailMaker {
     CellGoal first = goal_;
     first.most_side = 2;
     std::vector<CellCandidate> found =
-        find_cells(task_.atlas, task_.map, light_, {known_.shares, known_.texels.has_many}, goal_);
+        find_cells(task_.atlas, task_.map, light_,
+                   {known_.shares, known_.texels.has_many, known_.reflected.value, known_.reflected.variance}, goal_);
+    mark_gathering(found);
     CellLevels levels = choose_cells(light_.pages, found, first);
     ORIEL_TRY_VOID(light_cells(levels, 1, 0));
     const std::vector<CellCandidate> foretold = std::exchange(found, measured(levels, found));
+    mark_gathering(found);
     CellGoal further = goal_;
     further.known = 1;
     levels = choose_cells(light_.pages, found, further);
@@ -70,6 +73,12 @@ class DetailMaker {
   }
 
  private:
+  void mark_gathering(std::span<const CellCandidate> cells) {
+    gathers_.clear();
+    for (const LightmapPage& page : light_.pages) gathers_.emplace_back(page.state.size());
+    for (const CellCandidate& cell : cells) gathers_[cell.page][cell.place] = cell.gathers;
+  }
+
   void add_all_blocks(const CellLevels& levels, std::vector<LightmapPage>& pages) const {
     for (std::uint32_t p = 0; p < pages.size(); ++p)
       add_blocks(task_.map[p], levels[p], p, {points_[0].get(), points_[1].get(), points_[2].get()}, pages[p]);
@@ -97,7 +106,7 @@ class DetailMaker {
       return {};
     task_.context.foretell("detail", done);
     ORIEL_TRY(const DetailPoints points, list_points(task_.atlas, levels, level, task_.context));
-    ORIEL_TRY(PointLight lit, light_points(own_, known_, points));
+    ORIEL_TRY(PointLight lit, light_points(own_, known_, points, gathers_));
     points_[level - 1u] = std::make_unique<PointLight>(std::move(lit));
     return {};
   }
@@ -112,10 +121,26 @@ class DetailMaker {
         if (cell.page == p && levels[p][cell.place] > 0)
           if (const auto missed = grid.missed(cell.place % width, cell.place / width)) {
             cell.error = *missed / cell.light * cell.weight;
+            cell.gathers = cell.gathers && reflected_missed(p, cell.place) / cell.light * cell.weight > goal_.error;
             measured.push_back(cell);
           }
     }
     return measured;
+  }
+
+  // What texels miss of reflected light in a cell, as its points tell: rms beyond their noise, of luminance.
+  double reflected_missed(std::uint32_t page, std::uint32_t place) const {
+    const PointLight& lit = *points_[0];
+    const std::uint32_t width = light_.pages[page].width;
+    double squares = 0, count = 0;
+    for (std::uint32_t j = 0; j <= 2; ++j)
+      for (std::uint32_t i = 0; i <= 2; ++i) {
+        const std::uint32_t point = lit.texels.at(page, static_cast<int>(DetailPoints::fine(place % width, i, 2)),
+                                                  static_cast<int>(DetailPoints::fine(place / width, j, 2)));
+        if (point == kNoTexel || lit.texels.visible[point] == 0) continue;
+        squares += std::pow(double{lit.reflected_change[point]}, 2) - double{lit.reflected_noise[point]}, ++count;
+      }
+    return std::sqrt(std::max(0.0, squares) / std::max(1.0, count));
   }
 
   // Over the pixels that eyes see. An edge through a cell is missed in half the area with each further level. What no
@@ -175,7 +200,8 @@ class DetailMaker {
   const RadiosityTask own_{task_.transport, task_.atlas,   task_.map, task_.pixels,
                            task_.options,   task_.context, rays_,     quick_rays_};
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points_;
-  std::vector<LevelGrid> grids_;  // by page, of the first pass
+  std::vector<LevelGrid> grids_;            // by page, of the first pass
+  std::vector<std::vector<char>> gathers_;  // by page and place: cells whose points gather light
 };
 
 }  // namespace

@@ -47,6 +47,7 @@ Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional);
 struct Texels;
 class Surroundings;
 struct CachedLight;
+struct Estimate;
 
 // What an estimator knows of the texels beside their light.
 struct TexelLight {
@@ -55,6 +56,8 @@ struct TexelLight {
   const CachedLight& cached;
   std::vector<Vec3> beside;       // by texel: light that no gather ray looks for, lux; empty: none
   BookedLight beside_booked;      // the same by group of lamps, if asked
+  const Estimate& reflected;      // by texel: light that surfaces reflect to it, as it is shown, `beside` in it
+  BookedLight reflected_booked;   // the same by group of lamps, if asked
   std::span<const float> shares;  // of frames, by texel
 };
 

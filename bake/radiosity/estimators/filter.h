@@ -1,6 +1,8 @@
 // Smoothing of light over neighbouring texels, and what is known of its error.
 #pragma once
 
+#include <algorithm>
+
 #include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/radiosity_options.h"
 #include "bake/radiosity/gather/gather.h"
@@ -35,6 +37,12 @@ Halves halves_of(const DirectSums& sums, const std::vector<Vec3>& gathered);
 // compared with the other, unfiltered (E|F_a - b|² = error of F_a + noise of b), pooled over neighbours.
 Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& halves, const FilterOptions& options,
                 Context& context);
+
+// Of direct light: its noise lies in penumbrae, which are no wider than the first scale's kernel.
+inline FilterOptions narrow(FilterOptions options) {
+  options.scales = std::min(options.scales, 1);
+  return options;
+}
 
 // Of the sum of both, over texels that see light, lux.
 float mean_luminance(const Texels& texels, const std::vector<Vec3>& direct, const std::vector<Vec3>& gathered);

@@ -19,6 +19,8 @@ constexpr std::uint32_t kGather = 16, kMostGather = 64;      // rays; where less
 constexpr float kNoisy = 0.05f;                              // relative error of a point's gathered light: then it has
 constexpr std::uint32_t kNoisyGather = 4;                    // times as many
 
+constexpr std::uint32_t kFewerSites = 4;  // times as few as texels try: points are small
+
 // While it lives, random numbers and units of work are the points' own.
 class OwnNumbers {
  public:
@@ -103,6 +105,45 @@ void leave_out_parted(const TexelLight& known, const DetailPoints& points, Texel
   }
 }
 
+// By point, whether a cell that it belongs to gathers.
+std::vector<char> which_gather(const DetailPoints& points, const Texels& texels,
+                               std::span<const std::vector<char>> gathers) {
+  std::vector<char> which(texels.count());
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::uint32_t width = points.atlas.pages[texels.page[i]].width / points.side - 2;
+    const std::vector<char>& cells = gathers[texels.page[i]];
+    // Of a point on a cell's side the cell before has it, too.
+    for (const std::uint32_t y : {texels.y[i], texels.y[i] - 1})
+      for (const std::uint32_t x : {texels.x[i], texels.x[i] - 1}) {
+        const std::size_t place = std::size_t{y / points.side - 1} * width + x / points.side - 1;
+        if (x >= points.side && y >= points.side && place < cells.size() && cells[place]) which[i] = 1;
+      }
+  }
+  return which;
+}
+
+// What texels around a point have of light that surfaces reflect, without what is beside it.
+Vec3 known_reflected(const TexelLight& known, const Texels& points, std::size_t i, std::uint32_t side) {
+  return between_texels(known, points, i, side, [&](std::uint32_t texel) { return known.reflected.value[texel]; }) -
+         beside_at(known, points, i, side);
+}
+
+// Points that do not gather have the texels' light.
+void assume_known(const TexelLight& known, const Texels& points, std::uint32_t side, std::span<const char> gathers,
+                  HalfSums& gathered) {
+  const std::size_t groups = known.reflected_booked.groups;
+  BookedLight booked(groups > 0 ? points.count() : 0, groups);
+  for (std::size_t i = 0; i < points.count(); ++i) {
+    if (gathers[i] || points.visible[i] == 0) continue;
+    for (std::size_t g = 0; g < groups; ++g)
+      booked.of(i)[g] = between_texels(known, points, i, side, [&](std::uint32_t texel) {
+        const Vec3 beside = known.beside_booked.empty() ? Vec3(0) : known.beside_booked.of(texel)[g];
+        return known.reflected_booked.of(texel)[g] - beside;
+      });
+    gathered.assume(i, known_reflected(known, points, i, side), 0, booked);
+  }
+}
+
 void leave_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std::vector<std::uint32_t>& list) {
   std::erase_if(list, [&](std::uint32_t i) {
     const float light = luminance(gathered.value[i] + direct[i]);
@@ -112,12 +153,13 @@ void leave_noisy(const Estimate& gathered, const std::vector<Vec3>& direct, std:
 
 }  // namespace
 
-Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points) {
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points,
+                                std::span<const std::vector<char>> gathers) {
   Context& context = task.context;
   const OwnNumbers own(context, points);
   PointLight result;
   ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, context, task.quick_rays,
-                                       {.eyes = known.texels.eyes, .met = false}));
+                                       {.eyes = known.texels.eyes, .met = false, .fewer = kFewerSites}));
   leave_out_parted(known, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
@@ -128,25 +170,34 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
   HalfSums gathered(n, false, known.around.groups());
   Estimate indirect;
+  const std::vector<char> which = which_gather(points, texels, gathers);
+  assume_known(known, texels, points.side, which, gathered);
   std::vector<std::uint32_t> list = order;
+  std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
   const std::uint32_t first = gathered_rays(task.options);
-  for (std::uint32_t rays = first; rays <= kNoisyGather * first && !list.empty(); rays *= kNoisyGather) {
+  for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
     ORIEL_TRY_VOID(gather(texels, sites, known.around, list, rays, known.cached, context, gathered, task.rays));
     indirect = filter(texels, graph, halves_of(gathered, context), task.options.filter, context);
     leave_noisy(indirect, direct.value, list);
+    if (list.empty()) break;
   }
-  FilterOptions narrow = task.options.filter;
-  narrow.scales = std::min(narrow.scales, 1);
-  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
-  BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), narrow, context);
+  const FilterOptions of_direct = narrow(task.options.filter);
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), of_direct, context);
+  BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), of_direct, context);
   booked.add(filter_groups(texels, graph, gathered.booked_halves(), task.options.filter, context, false));
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
-  result.light.resize(n), result.variance.resize(n);
+  result.light.resize(n), result.variance.resize(n), result.reflected_change.resize(n),
+      result.reflected_noise.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     if (texels.visible[i] == 0) continue;
     result.light[i] = glm::max(lit.value[i] + indirect.value[i] + beside_at(known, texels, i, points.side), Vec3(0));
     result.variance[i] = lit.variance[i] + indirect.variance[i];
+    if (!which[i]) continue;
+    result.reflected_change[i] = luminance(indirect.value[i] - known_reflected(known, texels, i, points.side));
+    const Vec3 of_texels = between_texels(known, texels, i, points.side,
+                                          [&](std::uint32_t texel) { return known.reflected.variance[texel]; });
+    result.reflected_noise[i] = luminance(indirect.variance[i] + of_texels);
   }
   return result;
 }

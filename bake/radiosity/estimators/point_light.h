@@ -15,9 +15,13 @@ struct PointLight {
   std::vector<Vec3> light;     // lux
   std::vector<Vec3> variance;  // of it, stated, lux²
   BookedLight booked;          // light by group of lamps, if asked
+  // Of points that gather: what their reflected light differs by from the texels' around, and the squared error of
+  // that, both of luminance. 0 of others, which have the texels'.
+  std::vector<float> reflected_change, reflected_noise;
 };
 
-// Error kStopped.
-Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points);
+// gathers: by page and place, the cells whose points gather light. Error kStopped.
+Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& known, const DetailPoints& points,
+                                std::span<const std::vector<char>> gathers);
 
 }  // namespace oriel

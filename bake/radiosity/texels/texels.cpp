@@ -27,7 +27,7 @@ class SiteFinder {
  public:
   SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const TexelUse& use,
              std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), onlookers_(t, use.eyes), seed_(seed) {}
+      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), fewer_(use.fewer), onlookers_(t, use.eyes), seed_(seed) {}
 
   struct Found {
     TexelPart part;  // what a wall leaves of the texel
@@ -63,6 +63,7 @@ class SiteFinder {
   void find_unburied(Texels& texels, std::size_t i, std::uint64_t stream, std::uint32_t points, Found& found,
                      std::uint64_t& rays) const {
     std::vector<ShadePoint> shade;
+    const std::uint32_t most = kMostPoints / fewer_, enough_sites = kManySites / fewer_;
     std::uint32_t tried = 0, total = 0;
     bool in_sight = false;
     Onlookers::Nearest eyes;
@@ -72,7 +73,7 @@ class SiteFinder {
       const bool many = total * 16 >= tried && !found.part.covered();
       return (many || in_sight) && !found.many[0].empty() && !found.many[1].empty();
     };
-    for (; tried < points || (tried < kMostPoints && total < kManySites && enough()); ++tried) {
+    for (; tried < points / fewer_ || (tried < most && total < enough_sites && enough()); ++tried) {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
@@ -127,6 +128,7 @@ class SiteFinder {
   const Atlas& atlas_;
   std::span<const TexelMapPage> maps_;
   bool met_;
+  std::uint32_t fewer_;
   Onlookers onlookers_;
   std::uint64_t seed_;
 };
@@ -240,11 +242,11 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met}, context.seed);
+  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met, use.fewer}, context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
-  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.met); };
+  loop.inputs = [&](std::size_t run, Archive& key) { key(run, texels.eyes, use.met, use.fewer); };
   loop.compute = [&](std::size_t run) {
     std::uint64_t traced = 0;
     for (std::size_t i = run * kRun; i < std::min(n, (run + 1) * kRun); ++i) {

@@ -120,6 +120,7 @@ struct TexelUse {
   std::span<const Vec3> eyes{};  // from which somebody looks; what none of them can see in a gap counts as hidden.
                                  // None: nothing does
   bool met = true;               // by rays; false: albedo and diffuse_share are not needed
+  std::uint32_t fewer = 1;       // times as few points are tried of a texel that is partly hidden: small ones need few
 };
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
                            Context& context, std::atomic<std::uint64_t>& rays, const TexelUse& use = {});

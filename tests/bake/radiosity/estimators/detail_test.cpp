@@ -42,7 +42,7 @@ CellLevels chosen(const Listed& floor, const LightmapPage& page, const CellGoal&
   light.pages.push_back(page);
   light.visible.emplace_back(shares.size(), 1.0f);
   const std::vector<char> crowded(shares.size());
-  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {shares, crowded}, goal), goal);
+  return choose_cells(light.pages, find_cells(floor.atlas, floor.map, light, {shares, crowded, {}, {}}, goal), goal);
 }
 
 std::size_t count(const CellLevels& levels, std::uint8_t level) {
@@ -90,6 +90,48 @@ TEST(DetailCells, KeepToTheirPoints) {
   goal.most_points = 1 << 20, goal.most_side = 2;
   EXPECT_EQ(count(chosen(floor, edge, goal), 3), 0);
   EXPECT_GT(count(chosen(floor, edge, goal), 1), 60);
+}
+
+// The candidates on a shadow's edge, where reflected light is as told.
+template <class Reflected>
+std::vector<CellCandidate> on_an_edge(const Listed& floor, const Reflected& of_reflected, bool stands_close) {
+  const auto edge = lit(
+      floor, [](float x, float) { return x < 16 ? 100.0f : 400.0f; }, 0);
+  const std::size_t n = floor.map[0].texel.size();
+  std::vector<Vec3> reflected;
+  for (const std::uint32_t t : floor.map[0].texel)
+    reflected.push_back(Vec3(of_reflected(static_cast<float>(t % edge.width))));
+  const std::vector<float> shares(n, 1.0f);
+  const std::vector<char> crowded(n, stands_close);
+  const std::vector<Vec3> exact(n, Vec3(0));
+  Radiosity light;
+  light.pages.push_back(edge);
+  light.visible.emplace_back(n, 1.0f);
+  return find_cells(floor.atlas, floor.map, light, {shares, crowded, reflected, exact}, {.error = 0.02, .floor = 10});
+}
+
+TEST(DetailCells, GatherWhereReflectedLightBends) {
+  const Listed floor(bare_floor(), 0.1f);
+  const auto slope = [](float x) { return 50 + x; };
+  const auto bend = [](float x) { return x < 16 ? 50.0f : 100.0f; };
+  const auto gathers = [](const CellCandidate& cell) { return cell.gathers; };
+  EXPECT_FALSE(on_an_edge(floor, slope, false).empty());
+  EXPECT_TRUE(std::ranges::none_of(on_an_edge(floor, slope, false), gathers)) << "a shadow of the sun: direct light";
+  EXPECT_TRUE(std::ranges::any_of(on_an_edge(floor, bend, false), gathers));
+  EXPECT_TRUE(std::ranges::all_of(on_an_edge(floor, slope, true), gathers)) << "texels do not tell at contacts";
+}
+
+TEST(DetailCells, OfDirectLightAloneCostLess) {
+  const Listed floor(bare_floor(), 0.1f);
+  std::vector<CellCandidate> found = on_an_edge(
+      floor, [](float) { return 50.0f; }, false);
+  Radiosity light;
+  light.pages.push_back(lit(
+      floor, [](float, float) { return 100.0f; }, 0));
+  const CellGoal goal{.error = 0.02, .floor = 10, .most_points = 1000};
+  EXPECT_GT(count(choose_cells(light.pages, found, goal), 3), 20) << "finest all along the edge";
+  for (CellCandidate& cell : found) cell.gathers = true;
+  EXPECT_EQ(count(choose_cells(light.pages, found, goal), 3), 0) << "for as many points as gather there is no room";
 }
 
 TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
@@ -199,6 +241,30 @@ double profile_error(const Listed& floor, const Radiosity& light) {
     squares += (shown - right) * (shown - right);
   }
   return std::sqrt(squares / number);
+}
+
+// The sun past the edge of a roof: its light steps, what the floor reflects to the roof and back does not.
+TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", matt, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  parts.box("roof", matt, {-1, 2, -1}, {2.03f, 2.1f, 5});
+  Light sun;
+  sun.type = LightType::kDirectional, sun.direction = {0, -1, 0}, sun.intensity = Vec3(1000);
+  parts.scene().lights.push_back(sun);
+  Listed floor(parts.finish(), 0.2f);
+  RadiosityOptions options{.estimator = Estimator::kCached, .samples = 1024, .error = 0.02, .fit_texels = true};
+  options.verify = 0, options.detail = kMostDetail;
+  const Radiosity light = *bake_radiosity(floor.transport(), floor.atlas, floor.map, options, floor.context);
+  ASSERT_GT(light.report.detail.points, 1000);
+  const auto shown = [&](float x) {
+    const Hit hit = floor.accel->intersect({{x, 0.01f, 2.11f}, {0, -1, 0}, 1});
+    const auto& uv = floor.atlas.uv[hit.triangle];
+    return irradiance_at(light.pages[0],
+                         uv[0] + hit.barycentric.x * (uv[1] - uv[0]) + hit.barycentric.y * (uv[2] - uv[0]))
+        .g;
+  };
+  EXPECT_NEAR(shown(2.10f) - shown(1.96f), 1000, 30) << "within three eighths of a texel on each side of the edge";
 }
 
 TEST(Detail, BringsShadowsNearerToTheTruth) {
