@@ -230,7 +230,9 @@ class DirectGroup {
     Tally& tally = tallies_[p.texel];
     const Vec3 light = shot.weight * shot.share * passed;
     tally.passed[p.half] += light;
-    if (shot.group < booked_.groups) booked_passed_[p.half].of(p.texel)[shot.group] += light;
+    if (booked_.groups > 0 && shot.group != kNoGroup)
+      each_owner(scene(), shot.group, shot.direction, light,
+                 [&](std::uint32_t group, const Vec3& part) { booked_passed_[p.half].of(p.texel)[group] += part; });
     const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
     tally.from += moments_of(luminance(light) / cosine, shot.direction);
   }
