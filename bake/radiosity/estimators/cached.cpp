@@ -61,7 +61,7 @@ class CachedEstimator : public LightEstimator {
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
-    ORIEL_TRY_VOID(refine_to(goal.error));
+    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(around_, shares_, direct_, gathered_)));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
