@@ -80,9 +80,7 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    BookedLight direct = filter_groups(texels_, graph_, direct_.booked_halves(), narrow(options_.filter), context_);
-    direct.add(filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false));
-    write_booked(texels_, direct, groups);
+    write_booked(texels_, filter_groups(texels_, graph_, direct_, gathered_, options_.filter, context_), groups);
     return true;
   }
 

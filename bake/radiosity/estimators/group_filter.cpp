@@ -17,14 +17,28 @@ BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const s
   return out;
 }
 
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const DirectSums& direct,
+                          const HalfSums& gathered, const FilterOptions& options, Context& context) {
+  BookedLight out = filter_groups(texels, graph, gathered.booked_halves(), options, context, false);
+  FilterOptions narrow = options;
+  narrow.scales = std::min(narrow.scales, 1);
+  const auto halves = direct.booked_halves();
+  const std::vector<Vec3> none(texels.count(), Vec3(0));
+  for (std::size_t g = 0; g < out.groups; ++g) {
+    if (direct.booked.is_dark(g)) continue;
+    const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
+    std::vector<Vec3> sum = filter(texels, graph, own, narrow, context).value;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.beside[i];
+    out.set_group(g, sum);
+  }
+  return out;
+}
+
 double noise_of_hours(const Surroundings& around, std::span<const float> shares, const DirectSums& direct_light,
                       const HalfSums& gathered_light) {
   const Day& day = around.transport().accel.scene().day;
   if (day.empty() || around.groups() == 0) return 1;
-  const auto direct = direct_light.booked_halves(), gathered = gathered_light.booked_halves();
-  const auto half = [&](std::size_t h, std::size_t i, std::size_t g) {
-    return double{luminance(direct[h].of(i)[g] + gathered[h].of(i)[g])};
-  };
+  const auto gathered = gathered_light.booked_halves();
   struct Noise {
     double mean = 0, squares = 0;
     double light = 0, difference = 0;  // of the texel at hand
@@ -34,14 +48,14 @@ double noise_of_hours(const Surroundings& around, std::span<const float> shares,
       if (by > 0) squares += share * difference * difference / by;
     }
   };
-  const std::size_t groups = direct[0].groups;
+  const std::size_t groups = gathered[0].groups;
   Noise all;
   std::vector<Noise> each(groups);
   const auto look_at = [&](std::size_t i) {
     all.light = all.difference = 0;
     for (std::size_t g = 0; g < groups; ++g) {
-      const double a = half(0, i, g), b = half(1, i, g);
-      each[g].light = 0.5 * (a + b), each[g].difference = 0.5 * (a - b);
+      const double a = luminance(gathered[0].of(i)[g]), b = luminance(gathered[1].of(i)[g]);
+      each[g].light = 0.5 * (a + b) + luminance(direct_light.booked.of(i)[g]), each[g].difference = 0.5 * (a - b);
       all.light += each[g].light, all.difference += each[g].difference;
     }
   };

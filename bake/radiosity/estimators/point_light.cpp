@@ -138,8 +138,7 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   FilterOptions narrow = task.options.filter;
   narrow.scales = std::min(narrow.scales, 1);
   const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow, context);
-  BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), narrow, context);
-  booked.add(filter_groups(texels, graph, gathered.booked_halves(), task.options.filter, context, false));
+  BookedLight booked = filter_groups(texels, graph, direct, gathered, task.options.filter, context);
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n);
