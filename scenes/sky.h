@@ -16,10 +16,6 @@ struct SkyOptions {
   std::uint32_t height = 1024;  // rows; twice as many columns
 };
 
-// Luminance of a sky of that type over the zenith's: gradation times indicatrix. Angles in radians: of the sky element
-// and of the sun from the zenith, and between the two.
-double relative_sky_luminance(int type, double zenith_angle, double sun_zenith_angle, double sun_distance);
-
 // RGB, cd/m², at texel centres. Row 0 ends at +Y; the centre is +X, and +Z lies to its right. The sun's own disk is
 // left out: it is a directional light of the scene. Errors kUsage: a value out of its range.
 Result<FloatImage> make_sky(const SkyOptions& options);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bake/jobs/context.h"
-#include "bake/scene/scene.h"
+#include "bake/scene/daylight.h"
 
 namespace oriel {
 
@@ -16,6 +16,7 @@ struct ImportOptions {
   float sky_scale = 1;                 // cd/m² per unit of that file
   float sky_rotation_deg = 0;          // counter-clockwise seen from above
   std::optional<float> sun_angle_deg;  // angular diameter of every directional light, 0 to 180
+  DayOptions day;                      // instead of a sky
   int light_mirrors = 8;               // Scene::light_mirrors, 0 to 8
   std::vector<std::string> movers;     // names of nodes that move, beside those that the file marks or animates
   double unit_m = 1;                   // metres that one unit of the file is. Light stays what it is on surfaces:

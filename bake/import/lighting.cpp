@@ -117,6 +117,7 @@ Status load_profiles(const ImportOptions& options, gltf::MemoryBudget& budget, I
 Status apply_lighting(const ImportOptions& options, gltf::MemoryBudget& budget, ImportedScene& out, Context& context) {
   ORIEL_TRY_VOID(load_sky(options, budget, out, context));
   ORIEL_TRY_VOID(load_profiles(options, budget, out, context));
+  if (options.day.wanted) ORIEL_TRY_VOID(add_daylight(options.day, out.scene, context));
   out.scene.light_mirrors = options.light_mirrors;
   if (!options.sun_angle_deg) return {};
   if (!(*options.sun_angle_deg >= 0 && *options.sun_angle_deg <= 180))

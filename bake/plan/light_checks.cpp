@@ -65,7 +65,9 @@ void check_lights(const Scene& scene, const LightSet& lights, double area_m2, st
   const bool is_dim = !sky && !sun && mean_lux < kDimRoom_lux;
   bool lamp_named = false;
   for (const Light& light : scene.lights) {
-    if (light.type == LightType::kDirectional) {
+    if (light.hour >= 0) {
+      continue;  // what it is follows from the sun
+    } else if (light.type == LightType::kDirectional) {
       check_directional(light, findings);
     } else if (is_dim && dim_lamp(light)) {
       findings.push_back(dim(light));

@@ -149,6 +149,19 @@ Result<std::vector<FramePixel>> pixels_of(const Transport& transport, const Atla
   }
 }
 
+// Of a day one hour is seen at a time: its light must not change where another hour's sun ends, as a share of what all
+// light was filtered and fitted to would. All light is then the sum of what each group has by itself.
+bool groups_lead(const RadiosityTask& task, const Radiosity& light) {
+  return !task.transport.accel.scene().day.empty() && !light.groups.empty();
+}
+
+void add_up_groups(std::vector<Vec3> LightmapPage::*values, std::size_t page, Radiosity& light) {
+  std::vector<Vec3>& all = light.pages[page].*values;
+  std::ranges::fill(all, Vec3(0));
+  for (const auto& pages : light.groups)
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += (pages[page].*values)[i];
+}
+
 // What is hidden and beyond charts takes the light of texels beside it, and light goes on over seams.
 Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
   if (task.options.hidden == Hidden::kBlack) return {};
@@ -156,6 +169,7 @@ Status fill_and_stitch(const RadiosityTask& task, Radiosity& light) {
     std::vector<LightmapPage*> groups;
     for (auto& pages : light.groups) groups.push_back(&pages[p]);
     if (task.options.fit_texels) fit_texels(task.atlas, task.map[p], light.pages[p], groups);
+    if (groups_lead(task, light)) add_up_groups(&LightmapPage::irradiance, p, light);
     groups.push_back(&light.pages[p]);
     for (LightmapPage* page : groups) {
       fill_buried(task.atlas, task.map[p], *page);
@@ -305,6 +319,8 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
     ORIEL_TRY_VOID(fill_and_stitch(task, light));
     share_out_light(light);
     ORIEL_TRY_VOID(add_detail_in_time(task, *estimator, light));
+    for (std::size_t p = 0; p < light.pages.size() && groups_lead(task, light); ++p)
+      add_up_groups(&LightmapPage::detail, p, light);
     share_out_light(light);
     summarize(task, light);
     std::vector<FramePixel> held_out;

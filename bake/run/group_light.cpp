@@ -94,7 +94,8 @@ class Shares {
     ++rays;
     const Hit hit = baked_.accel.intersect(ray);
     if (!hit) {
-      sum[scene_.sky_group] += DVec3(sky_radiance(scene_, ray.direction));
+      each_owner(scene_, sky_owner(scene_), ray.direction, sky_radiance(scene_, ray.direction),
+                 [&](std::uint32_t group, const Vec3& light) { sum[group] += DVec3(light); });
       return;
     }
     if (!hit.front) return;
@@ -173,6 +174,18 @@ void find_shares(const BakedScene& baked, const std::vector<std::vector<Lightmap
   }
 }
 
+// The pack opens at one hour. Who knows nothing of days shows that too: its group many times, the others not at all.
+void show_day(const Scene& scene, Pack& pack) {
+  if (scene.day.empty()) return;
+  pack.day = scene.day;
+  for (const DayHour& hour : pack.day.hours) {
+    if (hour.group == kNight) continue;
+    LightGroup& group = pack.light_groups[hour.group];
+    group.sky = hour.hour == pack.day.shown_hour;
+    group.value = group.sky ? static_cast<float>(pack.day.lit()) : 0.0f;
+  }
+}
+
 }  // namespace
 
 void assemble_light_groups(const BakedScene& baked, const std::vector<std::vector<LightmapPage>>& light,
@@ -191,7 +204,8 @@ void assemble_light_groups(const BakedScene& baked, const std::vector<std::vecto
     own(group_of_corners(scene, pack.emitters[e].corners), &LightGroup::emitters, e);
   for (std::size_t b = 0; b < pack.light_field.lights.size(); ++b)
     own(group_of(scene, pack.light_field.lights[b]), &LightGroup::bright_lights, b);
-  if (max_component(scene.sky) > 0) pack.light_groups[scene.sky_group].sky = true;
+  if (max_component(scene.sky) > 0 && scene.day.empty()) pack.light_groups[scene.sky_group].sky = true;
+  show_day(scene, pack);
   find_colors(scene, pack);
   find_shares(baked, light, rays, pack);
   for (std::uint32_t p = 0; p < pack.lightmaps.size(); ++p)

@@ -48,7 +48,7 @@ void fields(Archive& archive, const LightsOf& of) {
   // Whose light it is.
   archive(s.light_groups.size());
   if (!s.light_groups.empty()) {
-    archive(s.sky_group);
+    archive(s.sky_group, s.sky_parts.groups, s.sky_parts.luminance);
     for (const Surface& surface : s.surfaces) archive(surface.light_group);
     for (const Light& light : s.lights) archive(light.light_group);
   }

@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "formats/core/check.h"
 #include "formats/core/color.h"
 #include "formats/core/file.h"
 #include "formats/core/text.h"
+#include "formats/query/day_hours.h"
 
 namespace oriel {
 namespace {
@@ -53,10 +55,11 @@ std::vector<Lamp> find_lamps(const Scene& scene) {
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
+    if (light.hour >= 0) continue;
     Lamp& lamp = lamp_at(light.node_path, light.name);
     lamp.lights.push_back(i), lamp.mark = light.group_mark;
   }
-  if (luminance(scene.sky) > 0) lamps.push_back({"sky", "sky", {}, {}, {}, {}, true});
+  if (luminance(scene.sky) > 0 && scene.day.empty()) lamps.push_back({"sky", "sky", {}, {}, {}, {}, true});
   return lamps;
 }
 
@@ -73,6 +76,14 @@ class Groups {
     const auto at = std::ranges::find(names_, name);
     if (at == names_.end()) names_.push_back(name);
     return static_cast<std::uint32_t>(std::ranges::find(names_, name) - names_.begin());
+  }
+
+  // Hours come first: they are numbered so already.
+  void by_hours() {
+    for (const DayHour& hour : scene_.day.hours) {
+      if (hour.group == kNight) continue;
+      ORIEL_CHECK(group("day " + clock_text(hour.hour)) == hour.group);
+    }
   }
 
   Status by_names(const LightGroupOptions& options) {
@@ -140,6 +151,11 @@ class Groups {
     if (std::ranges::any_of(lamps_, [](const Lamp& lamp) { return lamp.group == kNone; })) group(kOtherLamps);
     scene_.light_groups.clear();
     for (const std::string& name : names_) scene_.light_groups.push_back({name, {}});
+    for (const DayHour& hour : scene_.day.hours)
+      if (hour.group != kNight)
+        scene_.light_groups[hour.group].lamps = {"sun " + clock_text(hour.hour), "sky " + clock_text(hour.hour)};
+    for (Light& light : scene_.lights)
+      if (light.hour >= 0) light.light_group = scene_.day.hours[static_cast<std::size_t>(light.hour)].group;
     const auto last = static_cast<std::uint32_t>(names_.size() - 1);
     for (const Lamp& lamp : lamps_) {
       const std::uint32_t number = lamp.group == kNone ? last : lamp.group;
@@ -198,8 +214,9 @@ Result<LightGroupOptions> parse_light_groups(const std::string& text) {
 }
 
 Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context) {
-  if (options.by == LightGrouping::kOff) return {};
+  if (options.by == LightGrouping::kOff && scene.day.empty()) return {};
   Groups groups(scene);
+  groups.by_hours();
   if (options.by == LightGrouping::kNamed) ORIEL_TRY_VOID(groups.by_names(options));
   if (options.by == LightGrouping::kMarked) groups.by_marks(context);
   if (options.by == LightGrouping::kAuto) groups.by_place();

@@ -35,10 +35,11 @@ struct LightGroupOptions {
 // kIo, kInvalid.
 Result<LightGroupOptions> parse_light_groups(const std::string& text);
 
-// Gives every lamp of the scene (a node with an emissive mesh, a punctual light, the sky) its group. Lamps in none of
-// those asked for make one more, kOtherLamps. No groups where there would be that one alone. Of more than
-// kMostLightGroups the last are left to it, with a warning. A mark on nodes without a lamp is a warning. Error kUsage:
-// of a file, a name that no node has, a group without a lamp, a lamp in two groups.
+// The hours of the scene's day are groups whatever is asked for. Gives every lamp of the scene (a node with an emissive
+// mesh, a punctual light, the sky) its group. Lamps in none of those asked for make one more, kOtherLamps. No groups
+// where there would be that one alone. Of more than kMostLightGroups the last are left to it, with a warning. A mark on
+// nodes without a lamp is a warning. Error kUsage: of a file, a name that no node has, a group without a lamp, a lamp
+// in two groups.
 Status assign_light_groups(const LightGroupOptions& options, Scene& scene, Context& context);
 
 }  // namespace oriel

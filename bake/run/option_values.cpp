@@ -160,6 +160,16 @@ OptionValue sky(ImportOptions& o) {
           }};
 }
 
+OptionValue day(ImportOptions& o) {
+  return {"DATE@LAT,LON[,NORTH]", [&o](const std::string& typed) { return parse_day(typed, o.day); },
+          [&o] { return day_text(o.day); }, [&o] { return o.day.wanted ? Json(day_text(o.day)) : Json(); }};
+}
+
+OptionValue hours(ImportOptions& o) {
+  return {"FROM-TO/STEP[+HH:MM]", [&o](const std::string& typed) { return parse_hours(typed, o.day); },
+          [&o] { return hours_text(o.day); }, [&o] { return Json(hours_text(o.day)); }};
+}
+
 OptionValue profiles(ImportOptions& o) {
   OptionValue value = each(o.ies, "NODE=FILE", parse_ies_option,
                            [](const auto& profile) { return profile.first + "=" + profile.second.string(); });

@@ -30,6 +30,8 @@ OptionValue self_shadow(BakeOptions& o);
 OptionValue unit(BakeOptions& o);
 OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);
+OptionValue day(ImportOptions& o);
+OptionValue hours(ImportOptions& o);
 OptionValue profiles(ImportOptions& o);  // --ies
 
 // One that planned and evenly spread viewpoints take alike.

@@ -59,6 +59,7 @@ void remove_movers(Pack& pack) {
 
 void remove_light_groups(Pack& pack) {
   pack.light_groups.clear();
+  pack.day = {};
   pack.page_groups.clear();
 }
 
@@ -83,7 +84,7 @@ const std::array<Removable, 13>& removables() {
       {"visible sets",
        {kVisibleSetsSection, kReflectedSetsSection},
        [](Pack& pack) { pack.visible_sets = {}, pack.reflected_sets = {}; }},
-      {"light groups", {kLightGroupSection, kPageGroupsSection}, remove_light_groups},
+      {"light groups", {kLightGroupSection, kPageGroupsSection, kDaySection}, remove_light_groups},
       {"movers", {kMoverSection, kLightFieldSection}, remove_movers},
   }};
   return kAll;

@@ -7,6 +7,7 @@
 
 #include "bake/brdf/metals.h"
 #include "formats/assets/camera.h"
+#include "formats/assets/day.h"
 #include "formats/assets/material.h"
 #include "formats/assets/mover.h"
 #include "formats/core/vec.h"
@@ -118,6 +119,7 @@ struct Light {
   Vec3 intensity{0};         // colour * intensity: cd (point, spot) or lux on a facing plane (directional)
   float inner_cone_rad = 0, outer_cone_rad = 0.7853982f;  // spot: half angles
   float angular_radius_rad = 0;                           // directional: half its angular diameter, at most π/2
+  std::int32_t hour = -1;                                 // into Scene::day's hours: the sun of that hour
   std::int32_t profile = -1;      // into Scene::profiles: then colour * candela, no cone, no intensity (point, spot)
   std::string node_path{};        // as Surface's
   std::string group_mark{};       // likewise
@@ -136,6 +138,14 @@ struct SkyImage {
   std::uint32_t width = 0, height = 0;
   std::vector<Vec3> texels;  // cd/m², >= 0; width * height; empty: there is no image
   float rotation_rad = 0;
+};
+
+// Whose light a sky image is, where it is of several groups of lamps: grey skies that sum to it.
+struct SkyParts {
+  std::vector<std::uint32_t> groups;  // into Scene::light_groups
+  std::vector<float> luminance;       // cd/m², >= 0; of texel t and part k at t * groups.size() + k
+
+  bool empty() const { return groups.empty(); }
 };
 
 // All surfaces flattened into world-oriented triangles. Scene space is metres relative to `origin`, so that floats stay
@@ -168,6 +178,8 @@ struct Scene {
   std::vector<LightProfile> profiles;
   SkyImage sky_image;  // read it by sky_radiance() in sky.h
   Vec3 sky{0};  // radiance of the sky, cd/m² (an option of the bake, not of glTF): constant, or the image's mean
+  SkyParts sky_parts;  // none: all of it is of sky_group
+  Day day;             // whose suns are among the lights, whose skies are sky_parts
   // Every lamp has one of them; empty: nobody asks whose light it is.
   std::vector<SceneLightGroup> light_groups;
   std::uint32_t sky_group = 0;  // into light_groups

@@ -1,5 +1,7 @@
 #include "bake/scene/sky.h"
 
+#include <array>
+
 namespace oriel {
 
 Vec2 sky_uv(const SkyImage& image, const Vec3& d) {
@@ -7,9 +9,15 @@ Vec2 sky_uv(const SkyImage& image, const Vec3& d) {
   return {u - std::floor(u), std::atan2(std::hypot(d.x, d.z), d.y) / kPi};
 }
 
-Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
-  const SkyImage& image = scene.sky_image;
-  if (image.texels.empty()) return scene.sky;
+namespace {
+
+// The four texels around a direction, rows one after the other, and where between them it is.
+struct Between {
+  std::array<std::size_t, 4> texel;
+  float fx, fy;
+};
+
+Between texels_around(const SkyImage& image, const Vec3& direction) {
   const Vec2 uv = sky_uv(image, direction);
   const float x = uv.x * static_cast<float>(image.width) - 0.5f;
   const float y =
@@ -18,9 +26,31 @@ Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
   const auto x0 = left < 0 ? image.width - 1 : std::min(static_cast<std::uint32_t>(left), image.width - 1);
   const auto y0 = static_cast<std::uint32_t>(y);
   const std::uint32_t x1 = x0 + 1 < image.width ? x0 + 1 : 0, y1 = std::min(y0 + 1, image.height - 1);
-  const auto texel = [&](std::uint32_t i, std::uint32_t j) { return image.texels[std::size_t{j} * image.width + i]; };
-  const float fx = x - left, fy = y - static_cast<float>(y0);
-  return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
+  const auto texel = [&](std::uint32_t i, std::uint32_t j) { return std::size_t{j} * image.width + i; };
+  return {{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)}, x - left, y - static_cast<float>(y0)};
+}
+
+}  // namespace
+
+Vec3 sky_radiance(const Scene& scene, const Vec3& direction) {
+  const SkyImage& image = scene.sky_image;
+  if (image.texels.empty()) return scene.sky;
+  const auto [at, fx, fy] = texels_around(image, direction);
+  const std::vector<Vec3>& texels = image.texels;
+  return glm::mix(glm::mix(texels[at[0]], texels[at[1]], fx), glm::mix(texels[at[2]], texels[at[3]], fx), fy);
+}
+
+void shares_of_sky(const Scene& scene, const Vec3& direction, std::vector<float>& shares) {
+  const auto [at, fx, fy] = texels_around(scene.sky_image, direction);
+  const std::size_t parts = scene.sky_parts.groups.size();
+  shares.resize(parts);
+  const std::vector<float>& luminance = scene.sky_parts.luminance;
+  float sum = 0;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const auto of = [&](std::size_t corner) { return luminance[at[corner] * parts + k]; };
+    sum += shares[k] = glm::mix(glm::mix(of(0), of(1), fx), glm::mix(of(2), of(3), fx), fy);
+  }
+  for (float& share : shares) share = sum > 0 ? share / sum : 1 / static_cast<float>(parts);
 }
 
 SkyRow sky_row(const SkyImage& image, std::uint32_t k) {

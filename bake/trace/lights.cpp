@@ -178,7 +178,7 @@ LightSample LightSet::sample_sky(const Vec2& v) const {
   LightSample s;
   s.direction = sky.direction;
   s.pdf = sky.pdf;
-  s.group = scene_->sky_group;
+  s.group = sky_owner(*scene_);
   if (s.pdf > 0) s.estimate = sky_radiance(*scene_, s.direction) / s.pdf;
   return s;
 }

@@ -21,6 +21,7 @@ struct FromEmitter {
   Vec3 light{0};
   bool near = false;        // LightSample::near
   std::uint32_t group = 0;  // LightSample::group
+  Vec3 direction{0, 0, 1};  // LightSample::direction
 };
 template <class Reflect, class Pdf>
 FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampler& sampler, std::uint64_t& rays,
@@ -39,10 +40,16 @@ FromEmitter sample_lights(const Transport& t, const SurfacePoint& surface, Sampl
     t.accel.dropped().add(surface.triangle);
     return {};
   }
-  if (!(light.distance > 0)) return {value, light.near, light.group};  // touching
+  if (!(light.distance > 0)) return {value, light.near, light.group, light.direction};  // touching
   ++rays;
   const Ray ray{origin, light.direction, light.distance, light.pdf == 0};
-  return {value * t.accel.transmittance(ray), light.near, light.group};
+  return {value * t.accel.transmittance(ray), light.near, light.group, light.direction};
+}
+
+void book(const Transport& t, LightBook::Kind kind, std::uint32_t group, const Vec3& direction, const Vec3& light) {
+  if (!t.book) return;
+  each_owner(t.accel.scene(), group, direction, light,
+             [&](std::uint32_t owner, const Vec3& part) { t.book->add(kind, owner, part); });
 }
 
 // The same of lights in mirrors, which no other strategy finds, by way of so many at most. add(direction, group,
@@ -116,7 +123,7 @@ class PathTracer {
         const float weight = pdf_ > 0 ? balance(pdf_, t_.lights.pdf(ray.direction)) : 1.0f;
         const Vec3 sky = throughput_ * sky_radiance(t_.accel.scene(), ray.direction) * weight;
         (first ? light.sky : light.scattered) += sky;
-        if (t_.book) t_.book->add(first ? LightBook::kSky : LightBook::kScattered, t_.accel.scene().sky_group, sky);
+        book(t_, first ? LightBook::kSky : LightBook::kScattered, sky_owner(t_.accel.scene()), ray.direction, sky);
         if (t_.listener) t_.listener->add("sky", sky);
         break;
       }
@@ -204,9 +211,8 @@ class PathTracer {
     const Shading shading(surface, -ray.direction);
     const FromEmitter from = sample_lights_bsdf(t_, surface, shading, sampler_, rays_);
     (mirrored_ && from.near ? light.lamps : light.scattered) += throughput_ * from.light;
-    if (t_.book)
-      t_.book->add(mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group,
-                   throughput_ * from.light);
+    book(t_, mirrored_ && from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction,
+         throughput_ * from.light);
     if (t_.listener) t_.listener->add("lamps", throughput_ * from.light);
     add_mirrored(surface, shading, bounce, light);
     const float u = sampler_.next1();
@@ -266,7 +272,7 @@ PathLight reflect_light(const Transport& t, const SurfacePoint& surface, const V
   const Shading shading(surface, wo);
   const FromEmitter from = sample_lights_bsdf(t, surface, shading, sampler, rays);
   (on_diffuse && from.near ? light.lamps : light.scattered) += from.light;
-  if (t.book) t.book->add(from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.light);
+  book(t, from.near ? LightBook::kLamps : LightBook::kScattered, from.group, from.direction, from.light);
   if (t.listener) t.listener->add("lamps", from.light);
   sample_mirrored(
       t, surface, sampler, rays, t.options.max_bounces - 1, [&](const Vec3& wi) { return shading.eval(wi); },

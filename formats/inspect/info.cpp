@@ -12,6 +12,7 @@
 #include "formats/pack/index.h"
 #include "formats/pack/reader.h"
 #include "formats/pack/validate.h"
+#include "formats/query/day_hours.h"
 
 namespace oriel::inspect {
 namespace {
@@ -128,6 +129,26 @@ Json light_groups_json(const Pack& pack) {
   return out;
 }
 
+Json day_json(const Day& day) {
+  if (day.empty()) return nullptr;
+  Json hours = Json::array();
+  for (const DayHour& hour : day.hours)
+    hours.push_back({{"hour", hour.hour},
+                     {"group", hour.group == kNight ? Json() : Json(hour.group)},
+                     {"to_sun", triple(hour.to_sun)},
+                     {"sun_lux", hour.sun_lux},
+                     {"sky_lux", hour.sky_lux},
+                     {"sky", triple(hour.sky)}});
+  return {{"date", day.date},
+          {"latitude_deg", day.latitude_deg},
+          {"longitude_deg", day.longitude_deg},
+          {"north_deg", day.north_deg},
+          {"clock", clock_name(day)},
+          {"sky_type", day.sky_type},
+          {"shown_hour", day.shown_hour},
+          {"hours", hours}};
+}
+
 Json materials_json(const Pack& pack) {
   Json out = Json::array();
   for (const auto& m : pack.materials)
@@ -229,6 +250,7 @@ Json describe(const std::filesystem::path& path, const PackIndex& index, const P
   out["movers"] = movers_json(pack);
   out["light_field"] = light_field_json(pack.light_field);
   out["light_groups"] = light_groups_json(pack);
+  out["day"] = day_json(pack.day);
   return small_maps_json(pack, std::move(out));
 }
 
@@ -293,6 +315,20 @@ void print_maps(const PackIndex& index, const Pack& pack) {
   print_material_maps(pack);
 }
 
+void print_day(const Day& day) {
+  if (day.empty()) return;
+  fmt::print("day {} at {:g}, {:g} ({}), sky of type {}; texels hold the mean of {} hours, the pack opens at {}\n",
+             day.date, day.latitude_deg, day.longitude_deg, clock_name(day), day.sky_type, day.lit(),
+             clock_text(day.shown_hour));
+  for (const DayHour& hour : day.hours)
+    if (hour.group == kNight)
+      fmt::print("hour {}: night\n", clock_text(hour.hour));
+    else
+      fmt::print("hour {}: sun {:.1f}° high, {:.0f} lux facing it, sky {:.0f} lux on level ground\n",
+                 clock_text(hour.hour), std::asin(std::clamp(hour.to_sun.y, -1.0f, 1.0f)) * 180 / kPi, hour.sun_lux,
+                 hour.sky_lux);
+}
+
 void print_movers(const Pack& pack) {
   for (const Mover& m : pack.movers)
     fmt::print(
@@ -326,6 +362,7 @@ void print_text(const std::filesystem::path& path, const PackIndex& index, const
   fmt::print("\n");
   print_maps(index, pack);
   print_visible_sets(pack);
+  print_day(pack.day);
   print_movers(pack);
   for (const auto& camera : pack.cameras) fmt::print("camera '{}'\n", camera.name);
   for (const auto& p : pack.paths) fmt::print("path '{}': {} keys\n", p.name, p.keys.size());

@@ -99,9 +99,10 @@ inline constexpr std::uint32_t kMoverSection = fourcc("MOVR");
 inline constexpr std::uint32_t kLightFieldSection = fourcc("PROB");
 inline constexpr std::uint32_t kLightGroupSection = fourcc("LGRP");
 inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
+inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 28> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
@@ -129,6 +130,7 @@ inline constexpr std::array<SectionKind, 27> kSectionKinds = {{
     {kLightFieldSection, "light field", true, false, false},
     {kLightGroupSection, "light groups", true, false, false},
     {kPageGroupsSection, "light of groups on a page", true, false, true},
+    {kDaySection, "hours of a day", true, false, false},
 }};
 
 // nullptr for a kind that this version does not know.

@@ -54,4 +54,17 @@ void describe(Serial& s, PageGroups& page) {
   });
 }
 
+void describe(Serial& s, Day& day) {
+  s(day.date);
+  s(day.latitude_deg, day.longitude_deg, day.north_deg);
+  s.choice("clock", 1, day.solar_time);
+  s.as<std::uint8_t>(day.sky_type);
+  s.reserved(2);
+  s(day.utc_offset_h, day.shown_hour);
+  const std::uint32_t hours = s.count(day.hours);
+  if (hours > kMaxDayHours) s.refuse("found {} hours, expected at most {}", hours, kMaxDayHours);
+  s.list(day.hours, hours,
+         [&](DayHour& hour) { s(hour.hour, hour.group, hour.to_sun, hour.sun_lux, hour.sky_lux, hour.sky); });
+}
+
 }  // namespace oriel

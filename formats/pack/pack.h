@@ -6,6 +6,7 @@
 
 #include "formats/assets/brdf_kernel.h"
 #include "formats/assets/camera.h"
+#include "formats/assets/day.h"
 #include "formats/assets/emitter.h"
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/light_field.h"
@@ -62,6 +63,7 @@ struct Pack {
   std::vector<Mover> movers;
   std::vector<LightGroup> light_groups;  // none: lamps shine as they were baked
   std::vector<PageGroups> page_groups;   // of each lightmap page at most one
+  Day day;                               // whose hours are light groups; none where it is empty
   LightField light_field;                // that movers are lit by; none where bands is 0
   std::vector<UnknownSection> unknown;
 };

@@ -31,6 +31,7 @@ void describe(Serial& s, Mover& mover);
 void describe(Serial& s, LightField& field);
 void describe(Serial& s, LightGroup& group);
 void describe(Serial& s, PageGroups& page);
+void describe(Serial& s, Day& day);
 
 // The beginning of an image's section: all but what is there by texel.
 struct RadianceMapScale {
@@ -99,6 +100,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.one(kLightFieldSection, pack.light_field, pack.light_field.bands > 0);
   v.list(kLightGroupSection, pack.light_groups);
   v.each(kPageGroupsSection, pack.page_groups);
+  v.one(kDaySection, pack.day, !pack.day.empty());
 }
 inline void describe(Serial& s, Vec3& sky) {
   s(sky);

@@ -80,6 +80,32 @@ void validate_page(const Pack& pack, const PageGroups& page, IssueList& list) {
   }
 }
 
+void validate_day(const Pack& pack, IssueList& list) {
+  const Day& day = pack.day;
+  if (day.empty()) return;
+  list.in_section(kDaySection);
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!(std::abs(day.latitude_deg) <= 90) || !(std::abs(day.longitude_deg) <= 180) || !finite(day.north_deg) ||
+      !finite(day.utc_offset_h) || !(day.shown_hour >= day.hours.front().hour) ||
+      !(day.shown_hour <= day.hours.back().hour))
+    list.error(769, "found latitude {}, longitude {} and the hour {}, expected a place on earth and one of the hours",
+               day.latitude_deg, day.longitude_deg, day.shown_hour);
+  std::set<std::uint32_t> groups;
+  for (std::size_t i = 0; i < day.hours.size(); ++i) {
+    const DayHour& hour = day.hours[i];
+    if (!finite(hour.hour) || (i > 0 && !(hour.hour > day.hours[i - 1].hour)))
+      list.error(770, "found the hour {} at {}, expected later ones", hour.hour, i);
+    if (hour.group != kNight && (hour.group >= pack.light_groups.size() || !groups.insert(hour.group).second))
+      list.error(770, "found group {} of the hour {}, expected less than {} and each once", hour.group, hour.hour,
+                 pack.light_groups.size());
+    if (!is_finite(hour.to_sun) || !not_negative(hour.sun_lux) || !not_negative(hour.sky_lux) ||
+        !not_negative(hour.sky))
+      list.error(770, "found {} lux of the sun, {} of the sky at {}, expected finite numbers from 0 up", hour.sun_lux,
+                 hour.sky_lux, hour.hour);
+  }
+  if (groups.empty()) list.error(770, "found no hour with a sun, expected one at least");
+}
+
 }  // namespace
 
 void validate_light_groups(const Pack& pack, IssueList& list) {
@@ -96,6 +122,7 @@ void validate_light_groups(const Pack& pack, IssueList& list) {
     emitters.check(group, group.emitters, list);
     bright.check(group, group.bright_lights, list);
   }
+  validate_day(pack, list);
   std::set<std::uint32_t> pages;
   for (std::size_t i = 0; i < pack.page_groups.size(); ++i) {
     list.in_section(kPageGroupsSection, i);

@@ -83,6 +83,7 @@ Result<Bytes> scene_piece(const Pack& pack) {
   out.list(kPathSection, pack.paths);
   out.list(kWalkSection, pack.walk_grids);
   out.list(kLightGroupSection, pack.light_groups);
+  if (!pack.day.empty()) out.one(kDaySection, pack.day);
   return out.file();
 }
 

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "formats/pack/deferred.h"
+#include "formats/query/day_hours.h"
 #include "formats/query/path.h"
 #include "player/app/compare.h"
 #include "player/app/offscreen.h"
@@ -29,6 +30,10 @@ void list_cameras(const Pack& pack) {
     const DVec3 at = DVec3(mover.rest.position) + pack.mesh.origin;
     fmt::print("mover {} at {:.2f},{:.2f},{:.2f}\n", mover.name, at.x, at.y, at.z);
   }
+  if (!pack.day.empty())
+    fmt::print("day {} at {:g},{:g}: --hour {:g} to {:g} ({}), opens at {:g}\n", pack.day.date, pack.day.latitude_deg,
+               pack.day.longitude_deg, pack.day.hours.front().hour, pack.day.hours.back().hour, clock_name(pack.day),
+               pack.day.shown_hour);
   for (const LightGroup& group : pack.light_groups)
     fmt::print("lights {}: {}\n", group.name, fmt::join(group.lamps, ", "));
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
@@ -42,6 +47,7 @@ Result<std::vector<LightSetting>> choose_lights(const Pack& pack, const PlayArgu
     ORIEL_TRY_VOID(set_lights(pack, changes, settings));
   }
   ORIEL_TRY_VOID(set_lights(pack, arguments.lights, settings));
+  if (arguments.hour) ORIEL_TRY_VOID(set_hour(pack, *arguments.hour, settings));
   return settings;
 }
 

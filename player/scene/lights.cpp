@@ -15,8 +15,9 @@ void BakedLamps::shine(std::span<const Vec3> factors, Pack& pack) const {
     for (const std::uint32_t m : group.materials) pack.materials[m].emission = factors[g] * emission_[m];
     for (const std::uint32_t e : group.emitters) pack.emitters[e].radiance = factors[g] * emitters_[e];
     for (const std::uint32_t b : group.bright_lights) pack.light_field.lights[b].intensity = factors[g] * bright_[b];
-    if (group.sky) pack.sky = factors[g] * sky_;
+    if (group.sky && pack.day.empty()) pack.sky = factors[g] * sky_;
   }
+  if (!factors.empty() && !pack.day.empty()) pack.sky = sky_of_day(pack.day, factors);
   for (std::size_t p = 0; p < harmonics_.size(); ++p) {
     const Vec3 factor = mean_factor(pack, factors, &LightGroup::probes, p);
     std::vector<float>& sh = pack.light_field.probes[p].sh;
@@ -31,6 +32,13 @@ Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Ve
   for (std::size_t g = 0; g < factors.size(); ++g)
     factor += (factors[g] - Vec3(1)) * (pack.light_groups[g].*shares)[index];
   return glm::max(factor, Vec3(0));
+}
+
+Vec3 sky_of_day(const Day& day, std::span<const Vec3> factors) {
+  Vec3 sky(0);
+  for (const DayHour& hour : day.hours)
+    if (hour.group != kNight) sky += factors[hour.group] / static_cast<float>(day.lit()) * hour.sky;
+  return sky;
 }
 
 }  // namespace oriel

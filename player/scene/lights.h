@@ -25,6 +25,9 @@ class BakedLamps {
   Vec3 sky_{0};
 };
 
+// The mean radiance of a day's sky, cd/m², its hours being shown that many times as they were baked.
+Vec3 sky_of_day(const Day& day, std::span<const Vec3> factors);
+
 // What light of which groups have these shares becomes, over what it was; exactly 1 where all factors are 1.
 Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,
                  std::size_t index);

@@ -34,6 +34,7 @@ struct PlayArguments {
   std::vector<std::string> cameras;  // as written; "all" is every camera of the pack
   std::vector<std::string> lights;   // as written, for set_lights(); of a file before others
   std::string lights_file;
+  std::optional<float> hour;                 // of the pack's day, after both
   std::vector<LightSetting> light_settings;  // what both make of the pack's, once it is open; frame.lights too
   std::vector<MoverMove> moves;
   double time_s = 0;           // of animations; the window's clock starts there

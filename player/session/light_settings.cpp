@@ -8,10 +8,12 @@
 #include "formats/core/color.h"
 #include "formats/core/file.h"
 #include "formats/core/text.h"
+#include "formats/query/day_hours.h"
 
 namespace oriel {
 namespace {
 
+constexpr const char* kHour = "hour";
 constexpr float kMostValue = 100;   // of a dimmer
 constexpr float kLeastOwn = 0.01f;  // of a lamp's own colour: what it has less of is not made more of
 
@@ -96,7 +98,22 @@ std::vector<LightSetting> settings_of(const Pack& pack) {
     setting.value = group.value;
     if (group.color != Vec3(1)) setting.color = of_luminance_one(group.color * group.own_color);
   }
+  for (const DayHour& hour : pack.day.hours)
+    if (hour.group != kNight) settings[hour.group].value = 1, settings[hour.group].hour = pack.day.shown_hour;
   return settings;
+}
+
+Status set_hour(const Pack& pack, float hour, std::vector<LightSetting>& settings) {
+  ORIEL_TRY_VOID(hours_around(pack.day, hour));
+  for (const DayHour& of : pack.day.hours)
+    if (of.group != kNight) settings[of.group].hour = hour;
+  return {};
+}
+
+std::optional<float> shown_hour(const Pack& pack, const std::vector<LightSetting>& settings) {
+  for (const DayHour& hour : pack.day.hours)
+    if (hour.group != kNight) return settings[hour.group].hour;
+  return std::nullopt;
 }
 
 Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings) {
@@ -106,6 +123,15 @@ Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std
       return fail(ErrorCode::kUsage, "--light", "found \"{}\", expected NAME=0.3, NAME=off, NAME=2700K or NAME=#rrggbb",
                   change);
     const std::string name = change.substr(0, divides);
+    const auto known = [&](const LightGroup& group) { return group.name == name; };
+    if (name == kHour && std::ranges::none_of(pack.light_groups, known)) {
+      const auto hour = number_of(change.substr(divides + 1));
+      if (!hour)
+        return fail(ErrorCode::kUsage, "--light", "found \"{}\" for the hour, expected a time as 14.5",
+                    change.substr(divides + 1));
+      ORIEL_TRY_VOID(set_hour(pack, *hour, settings));
+      continue;
+    }
     bool any = false;
     for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
       if (name != "*" && name != pack.light_groups[g].name) continue;
@@ -145,8 +171,10 @@ Result<std::vector<std::string>> read_lights(const std::string& file) {
 std::string lights_json(const Pack& pack, const std::vector<LightSetting>& settings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const std::vector<LightSetting> before = settings_of(pack);
+  if (shown_hour(pack, settings) != shown_hour(pack, before)) json[kHour] = *shown_hour(pack, settings);
   for (std::size_t g = 0; g < settings.size(); ++g) {
-    const LightSetting& s = settings[g];
+    LightSetting s = settings[g];
+    s.hour = before[g].hour;
     if (s == before[g]) continue;
     std::string text = fmt::format("{}", s.value);
     if (s.kelvin) {
@@ -166,11 +194,14 @@ std::string lights_json(const Pack& pack, const std::vector<LightSetting>& setti
 }
 
 std::vector<Vec3> factors_of(const Pack& pack, const std::vector<LightSetting>& settings) {
+  std::vector<float> weights(settings.size(), 1.0f);
+  if (const auto hour = shown_hour(pack, settings))
+    if (auto of_hour = weights_at(pack.day, *hour, settings.size())) weights = std::move(*of_hour);
   std::vector<Vec3> factors;
   for (std::size_t g = 0; g < settings.size(); ++g) {
     const LightSetting& s = settings[g];
     const Vec3 tint = s.color ? *s.color / glm::max(pack.light_groups[g].own_color, Vec3(kLeastOwn)) : Vec3(1);
-    factors.push_back(s.on ? s.value * tint : Vec3(0));
+    factors.push_back(s.on ? weights[g] * s.value * tint : Vec3(0));
   }
   return factors;
 }

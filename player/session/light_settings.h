@@ -16,6 +16,7 @@ struct LightSetting {
   float value = 1;              // times the light that was baked
   std::optional<Vec3> color;    // of its light, linear, of luminance 1, instead of its own
   std::optional<float> kelvin;  // that color is of, if any
+  std::optional<float> hour;    // of a group that is an hour of the pack's day: the time shown, by which it counts
 
   bool operator==(const LightSetting&) const = default;
 };
@@ -29,11 +30,17 @@ Vec3 color_of_kelvin(float kelvin);
 std::vector<LightSetting> settings_of(const Pack& pack);
 
 // "NAME=0.3", "NAME=off", "NAME=on", "NAME=2700K" or "NAME=#rrggbb" (sRGB; how bright it is does not count), one after
-// the other; several values of a name with spaces between. The last = divides. NAME may be * for all groups. Error
-// kUsage: what was found and expected, a name that the pack does not know with those that it knows.
+// the other; several values of a name with spaces between. The last = divides. NAME may be * for all groups, or hour,
+// whose value is a time of the pack's day. Error kUsage: what was found and expected, a name that the pack does not
+// know with those that it knows.
 Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings);
 
-// A JSON file, {"desk": "0.3 2700K", "hall": "off"}, as changes. Errors kIo, kInvalid.
+// Shows the pack's day at that time; other lamps stay as they are. Error kUsage: none of its hours, or no day.
+Status set_hour(const Pack& pack, float hour, std::vector<LightSetting>& settings);
+// The time that is shown; nothing where the pack has no day.
+std::optional<float> shown_hour(const Pack& pack, const std::vector<LightSetting>& settings);
+
+// A JSON file, {"hour": 14.5, "desk": "0.3 2700K", "hall": "off"}, as changes. Errors kIo, kInvalid.
 Result<std::vector<std::string>> read_lights(const std::string& file);
 // The same of what was set; an empty text where all is as the pack has it.
 std::string lights_json(const Pack& pack, const std::vector<LightSetting>& settings);

@@ -1,6 +1,7 @@
 #include "player/window/lights_panel.h"
 
 #include "formats/core/file.h"
+#include "formats/query/day_hours.h"
 #include "player/window/widgets.h"
 
 namespace oriel {
@@ -29,6 +30,16 @@ bool draw_setting(const std::string& name, LightSetting& setting) {
   return changed;
 }
 
+bool draw_hour(const Pack& pack, std::vector<LightSetting>& lights) {
+  const auto hour = shown_hour(pack, lights);
+  if (!hour) return false;
+  float chosen = *hour;
+  const Day& day = pack.day;
+  const std::string text = clock_text(chosen) + " " + clock_name(day);
+  if (!ImGui::SliderFloat("hour", &chosen, day.hours.front().hour, day.hours.back().hour, text.c_str())) return false;
+  return set_hour(pack, chosen, lights).has_value();
+}
+
 void keep(const Pack& pack, Session& session) {
   const std::string json = lights_json(pack, session.lights) + "\n";
   const auto* bytes = reinterpret_cast<const std::byte*>(json.data());
@@ -36,13 +47,19 @@ void keep(const Pack& pack, Session& session) {
   session.said = kept ? fmt::format("{}: what lamps are set to; --lights reads it", kFile) : kept.error().text();
 }
 
+std::vector<LightSetting> as_baked(const std::vector<LightSetting>& lights) {
+  std::vector<LightSetting> baked(lights.size());
+  for (std::size_t g = 0; g < lights.size(); ++g) baked[g].hour = lights[g].hour;
+  return baked;
+}
+
 }  // namespace
 
 void draw_lights(const Pack& pack, Session& session) {
   std::vector<LightSetting>& lights = session.lights;
   if (lights.size() != pack.light_groups.size()) lights = settings_of(pack);
-  bool changed = false;
-  if (ImGui::Button("all as baked")) lights.assign(lights.size(), {}), changed = true;
+  bool changed = draw_hour(pack, lights);
+  if (ImGui::Button("all as baked")) lights = as_baked(lights), changed = true;
   ImGui::SameLine();
   if (ImGui::Button("all off")) {
     for (LightSetting& setting : lights) setting.on = false;
@@ -51,6 +68,7 @@ void draw_lights(const Pack& pack, Session& session) {
   ImGui::SameLine();
   if (ImGui::Button("keep")) keep(pack, session);
   for (std::size_t g = 0; g < lights.size(); ++g) {
+    if (lights[g].hour) continue;  // the hour tells
     ImGui::PushID(static_cast<int>(g));
     changed |= draw_setting(pack.light_groups[g].name, lights[g]);
     ImGui::PopID();

@@ -35,7 +35,7 @@ const Arrows kRestsOn = {
     {"formats/inspect", {"formats/export", "formats/web"}},
     {"bake/jobs", {"formats/core"}},
     {"bake/brdf", {"formats/core"}},
-    {"bake/scene", {"bake/jobs", "bake/brdf", "formats/assets"}},
+    {"bake/scene", {"bake/jobs", "bake/brdf", "formats/query"}},
     {"bake/import", {"bake/scene", "formats/query"}},
     {"bake/trace", {"bake/scene", "formats/query"}},
     {"bake/atlas", {"bake/scene"}},

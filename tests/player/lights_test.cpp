@@ -60,5 +60,24 @@ TEST_F(LightsTest, ShowWhatIsLeft) {
   expect({165, 220, 200}, {10, 10, 0}, {0, 15, 150}, {Vec3(0.5f, 1, 0), Vec3(0.5f, 0.5f, 2.5f)});
 }
 
+// Nothing but sky is seen; the hours have skies of their own.
+TEST_F(LightsTest, TheSkyFollowsTheHour) {
+  Pack pack = lit_wall();
+  pack.sky = Vec3(50, 60, 70);  // their mean
+  for (std::uint32_t g = 0; g < 2; ++g) {
+    DayHour hour;
+    hour.hour = 9 + 6 * static_cast<float>(g), hour.group = g;
+    hour.sky = g == 0 ? Vec3(100) : Vec3(0, 20, 40);
+    pack.day.hours.push_back(hour);
+  }
+  Camera away = camera();
+  away.forward = {0, 0, 1};
+  for (const float share : {0.0f, 0.25f, 1.0f}) {
+    const Picture picture = draw(pack, away, 8, 8, {.lights = {Vec3(2 * (1 - share)), Vec3(2 * share)}});
+    const Vec3 wanted = (1 - share) * pack.day.hours[0].sky + share * pack.day.hours[1].sky;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.at(4, 4)[c], wanted[c], 1e-3f * wanted[c] + 1e-3f);
+  }
+}
+
 }  // namespace
 }  // namespace oriel

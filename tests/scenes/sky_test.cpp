@@ -1,7 +1,7 @@
 // CIE standard skies.
 #include <gtest/gtest.h>
 
-#include "formats/core/vec.h"
+#include "formats/core/daylight.h"
 #include "scenes/sky.h"
 
 namespace oriel::sample {

@@ -267,6 +267,11 @@ void add_tiny_groups(Pack& pack) {
     for (std::vector<Vec3>* values : {&light[g][0].irradiance, &light[g][0].detail})
       for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] *= (i % 3 == 0) == (g == 0) ? 0.75f : 0.25f;
   pack.page_groups = {groups_of_page(page, 0, light)};
+  DayHour night, morning;
+  night.hour = 4.5f;
+  morning.hour = 8, morning.group = 1, morning.to_sun = {0.6f, 0.8f, 0};
+  morning.sun_lux = 70000, morning.sky_lux = 12000, morning.sky = Vec3(3000, 3500, 4000);
+  pack.day = {"2026-06-21", 52.5f, 13.5f, -30, false, 2, 12, 8, {night, morning}};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {
-  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, CurvedReflector, Surround,
+  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround,
 } from './types';
 import type { Vec3 } from './vec';
 
@@ -196,6 +196,28 @@ export function readGroup(r: ByteReader): LightGroup {
   for (let i = 0; i < 3; ++i) r.choice(0, 'reserved byte');
   if (!(group.value >= 0) || [...group.color, ...group.ownColor].some((c) => c < 0)) r.fail(`found negative light in group '${group.name}'`);
   return { ...group, reflectors: shares(), surrounds: shares(), probes: shares() };
+}
+
+export function readDay(r: ByteReader): Day {
+  r.text(), r.floats(3);
+  const solar = r.choice(1, 'clock') > 0;
+  r.choice(16, 'sky type');
+  for (let i = 0; i < 2; ++i) r.choice(0, 'reserved byte');
+  const offset = r.f32(), shown = r.f32(), minutes = Math.round(Math.abs(offset) * 60);
+  const clock = solar ? 'solar time' : `UTC${offset < 0 ? '-' : '+'}${clockText(minutes / 60)}`;
+  const hours = list(r, r.count(40), () => {
+    const hour = r.f32(), group = r.u32();
+    r.floats(5);
+    return { hour, group, sky: r.floats(3) };
+  });
+  if (hours.some((h, i) => i > 0 && !(h.hour > hours[i - 1]!.hour))) r.fail('found hours that do not rise');
+  return { clock, shown, hours };
+}
+
+/** "14:30". */
+export function clockText(hour: number): string {
+  const minutes = Math.round(hour * 60), two = (n: number): string => String(n).padStart(2, '0');
+  return `${two(Math.floor(minutes / 60))}:${two(minutes % 60)}`;
 }
 
 export function readCodes(r: ByteReader, n: number): Uint16Array {

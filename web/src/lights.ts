@@ -1,9 +1,10 @@
 // Lamps that are switched, dimmed or coloured: the twin of player/session/light_settings.h and formats/query/group_light.h.
 import { halfFromFloat, halfToFloat } from './bytes';
-import type { LightGroup, Page, PageGroups } from './sections';
+import type { Day, LightGroup, Page, PageGroups } from './sections';
 import type { Vec3 } from './vec';
 
-export interface Setting { on: boolean; value: number; color?: Vec3; kelvin?: number; }
+/** hour: of a group that is an hour of the day, the time shown, by which it counts. */
+export interface Setting { on: boolean; value: number; color?: Vec3; kelvin?: number; hour?: number; }
 
 export const leastKelvin = 1667, mostKelvin = 25000;
 const kMostValue = 100, kLeastOwn = 0.01;
@@ -42,8 +43,9 @@ function hexOf(color: Vec3): string {
 }
 
 /** As when the pack is opened. */
-export const settingsOf = (groups: LightGroup[]): Setting[] => groups.map((g) => {
+export const settingsOf = (groups: LightGroup[], day?: Day): Setting[] => groups.map((g, i) => {
   const setting: Setting = { on: true, value: g.value };
+  if (day?.hours.some((h) => h.group === i)) setting.value = 1, setting.hour = day.shown;
   if (g.color.some((c) => c !== 1)) setting.color = ofLuminanceOne(g.color.map((c, i) => c * g.ownColor[i]!) as Vec3);
   return setting;
 });
@@ -61,25 +63,44 @@ export function setLampKelvin(setting: Setting, kelvin: number): void {
 }
 
 /** NAME=0.3, NAME=off, NAME=2700K, NAME=#rrggbb, several with spaces; * is all. What is none of these changes nothing. */
-export function setLights(groups: LightGroup[], changes: string[], settings: Setting[]): void {
+export function setLights(groups: LightGroup[], changes: string[], settings: Setting[], day?: Day): void {
   for (const change of changes) {
     const divides = change.lastIndexOf('='), name = change.slice(0, divides);
+    if (day && name === 'hour' && groups.every((g) => g.name !== name)) setHour(day, Number(change.slice(divides + 1)), settings);
     groups.forEach((g, i) => {
       if (divides > 0 && (name === '*' || name === g.name)) change.slice(divides + 1).split(/\s+/).forEach((v) => takeValue(v, settings[i]!));
     });
   }
 }
 
+/** Hours that the day has; others change nothing. */
+export function setHour(day: Day, hour: number, settings: Setting[]): void {
+  if (!(hour >= day.hours[0]!.hour && hour <= day.hours.at(-1)!.hour)) return;
+  for (const s of settings) if (s.hour !== undefined) s.hour = hour;
+}
+
+/** By group, how many times what was baked it is shown at its hour: linear between the two around it. */
+function weightsOf(settings: Setting[], day?: Day): number[] {
+  const hour = settings.find((s) => s.hour !== undefined)?.hour;
+  if (!day || hour === undefined) return settings.map(() => 1);
+  const { hours } = day, lit = hours.filter((h) => h.group < settings.length).length;
+  const after = Math.max(hours.findIndex((h) => h.hour >= hour), 0), before = Math.max(after - 1, 0);
+  const from = hours[before]!.hour, to = hours[after]!.hour, share = to > from ? (hour - from) / (to - from) : 1;
+  return settings.map((s, i) => s.hour === undefined ? 1
+    : lit * ((hours[after]!.group === i ? share : 0) + (before < after && hours[before]!.group === i ? 1 - share : 0)));
+}
+
 /** What differs from how the pack is opened, as setLights() reads it. */
-export function changesOf(groups: LightGroup[], settings: Setting[]): string[] {
+export function changesOf(groups: LightGroup[], settings: Setting[], day?: Day): string[] {
   const text = (s: Setting): string => [String(+s.value.toFixed(3)), s.kelvin ? `${Math.round(s.kelvin)}K` : s.color ? hexOf(s.color) : '', s.on ? '' : 'off'].filter(Boolean).join(' ');
-  const before = settingsOf(groups);
-  return settings.flatMap((s, i) => (text(s) === text(before[i]!) ? [] : [`${groups[i]!.name}=${text(s)}`]));
+  const before = settingsOf(groups, day), hour = settings.find((s) => s.hour !== undefined)?.hour;
+  const changes = settings.flatMap((s, i) => (text(s) === text(before[i]!) ? [] : [`${groups[i]!.name}=${text(s)}`]));
+  return hour === undefined || hour === day?.shown ? changes : [`hour=${hour}`, ...changes];
 }
 
 /** By group, how many times what was baked its lamps shine. */
-export const factorsOf = (groups: LightGroup[], settings: Setting[]): Vec3[] => settings.map((s, i) =>
-  [0, 1, 2].map((c) => (s.on ? s.value * (s.color ? s.color[c]! / Math.max(groups[i]!.ownColor[c]!, kLeastOwn) : 1) : 0)) as Vec3);
+export const factorsOf = (groups: LightGroup[], settings: Setting[], day?: Day, weights = weightsOf(settings, day)): Vec3[] => settings.map((s, i) =>
+  [0, 1, 2].map((c) => (s.on ? weights[i]! * s.value * (s.color ? s.color[c]! / Math.max(groups[i]!.ownColor[c]!, kLeastOwn) : 1) : 0)) as Vec3);
 
 // The light of all codes there are.
 let lightOfCode: Float32Array | undefined;
@@ -106,6 +127,12 @@ export function relit(page: Page, groups: PageGroups | undefined, factors: Vec3[
     ...page, scale, light: relight(groups, false, factors, page.light, page.scale, scale),
     detail: page.detail && relight(groups, true, factors, page.detail, page.scale, scale),
   };
+}
+
+/** The day's sky, cd/m²: the twin of sky_of_day() in player/scene/lights.h. */
+export function skyOfDay(day: Day, factors: Vec3[]): number[] {
+  const lit = day.hours.filter((h) => h.group < factors.length);
+  return [0, 1, 2].map((c) => lit.reduce((sum, h) => sum + (factors[h.group]![c]! / lit.length) * h.sky[c]!, 0));
 }
 
 /** What light of which groups have these shares becomes, over what it was: the twin of mean_factor() in player/scene/lights.h. */

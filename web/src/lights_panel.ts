@@ -1,7 +1,8 @@
 // Switches, dimmers and colour temperatures of light groups: the twin of player/window/lights_panel.h.
-import { changesOf, colorOfKelvin, factorsOf, setLampKelvin, setLights, settingsOf } from './lights';
+import { clockText } from './elements';
+import { changesOf, colorOfKelvin, factorsOf, setHour, setLampKelvin, setLights, settingsOf } from './lights';
 import type { Setting } from './lights';
-import type { LightGroup } from './sections';
+import type { Day, LightGroup } from './sections';
 import type { Vec3 } from './vec';
 
 const kMostDimmed = 2, kWarmest = 1800, kColdest = 10000, kWarm = 2700;
@@ -27,22 +28,23 @@ export class LightsPanel {
   private readonly dialog = byId('lights') as HTMLDialogElement;
 
   /** wanted: called when lamps are to shine otherwise. */
-  constructor(private readonly groups: LightGroup[], private readonly wanted: () => void) {
-    this.settings = settingsOf(groups);
+  constructor(private readonly groups: LightGroup[], private readonly day: Day | undefined, private readonly wanted: () => void) {
+    this.settings = settingsOf(groups, day);
     if (groups.length === 0) return;
     byId('lamps').hidden = false;
     byId('lamps').addEventListener('click', () => this.toggle());
     byId('lights-close').addEventListener('click', () => this.toggle());
-    byId('lights-baked').addEventListener('click', () => this.all(() => ({ on: true, value: 1 })));
+    byId('lights-baked').addEventListener('click', () => this.all(({ hour }) => ({ on: true, value: 1, hour })));
     byId('lights-off').addEventListener('click', () => this.all((s) => ({ ...s, on: false })));
     this.dialog.addEventListener('keydown', (e) => {
       if (e.key === 'Escape' || (e.key === 'o' && !(e.ctrlKey || e.altKey || e.metaKey))) this.toggle(), e.preventDefault();
     });
-    groups.forEach((_, i) => byId('lights-groups').append(this.rowsOf(i)));
+    if (day) byId('lights-groups').append(this.rowOfHour(day));
+    groups.forEach((_, i) => { if (this.settings[i]!.hour === undefined) byId('lights-groups').append(this.rowsOf(i)); });
     this.fromHash();
   }
 
-  get factors(): Vec3[] { return factorsOf(this.groups, this.settings); }
+  get factors(): Vec3[] { return factorsOf(this.groups, this.settings, this.day); }
   /** Some lamp shines otherwise than it was baked. */
   get changed(): boolean { return this.factors.some((f) => f.some((x) => x !== 1)); }
 
@@ -59,13 +61,13 @@ export class LightsPanel {
   fromHash(): void {
     const changes = new URLSearchParams(location.hash.slice(1)).getAll('light');
     if (changes.length === 0) return;
-    this.settings = settingsOf(this.groups);
-    setLights(this.groups, changes, this.settings);
+    this.settings = settingsOf(this.groups, this.day);
+    setLights(this.groups, changes, this.settings, this.day);
     this.refresh();
   }
 
   toHash(): string {
-    return changesOf(this.groups, this.settings).map((c) => `&light=${encodeURIComponent(c)}`).join('');
+    return changesOf(this.groups, this.settings, this.day).map((c) => `&light=${encodeURIComponent(c)}`).join('');
   }
 
   private all(to: (s: Setting) => Setting): void {
@@ -76,6 +78,15 @@ export class LightsPanel {
   private refresh(): void {
     for (const refresh of this.refreshes) refresh();
     this.wanted();
+  }
+
+  private rowOfHour(day: Day): HTMLElement {
+    const label = document.createElement('label'), time = document.createElement('output'), shown = (): number => this.settings.find((s) => s.hour !== undefined)!.hour!;
+    const hour = range(input('range', `hour, ${day.clock}`, () => { setHour(day, Number(hour.value), this.settings), this.refresh(); }), day.hours[0]!.hour, day.hours.at(-1)!.hour, 0.25);
+    label.append('hour', hour, time);
+    this.refreshes.push(() => { hour.value = String(shown()), time.textContent = `${clockText(shown())} ${day.clock}`; });
+    this.refreshes.at(-1)!();
+    return label;
   }
 
   private rowsOf(index: number): HTMLElement {
@@ -107,7 +118,7 @@ export class LightsPanel {
       light.textContent = `× ${s.value.toFixed(2)}`, degrees.textContent = `${Math.round(s.kelvin ?? 0)} K`;
       kelvin.style.setProperty('accent-color', s.kelvin ? tint(s.kelvin) : '');
     });
-    this.refreshes[index]!();
+    this.refreshes.at(-1)!();
     return box;
   }
 }

@@ -38,7 +38,7 @@ class Walkthrough {
   show?: Show;
   readonly lights: LightsPanel;
   constructor(readonly gl: WebGL2RenderingContext, readonly scene: Sections, readonly walk: Walk) {
-    this.lights = new LightsPanel(scene.groups, () => this.show?.dim());
+    this.lights = new LightsPanel(scene.groups, scene.day, () => this.show?.dim());
   }
 
   begin(renderer = new Renderer(makeDevice(this.gl))): void {

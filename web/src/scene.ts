@@ -4,7 +4,7 @@ import { Program, bind, makeTexture } from './gl';
 import { trianglesOf, uploadEmitters } from './emitters';
 import { halfToFloat } from './bytes';
 import { cutoutMips } from './cutout_mips';
-import { meanFactor, relit } from './lights';
+import { meanFactor, relit, skyOfDay } from './lights';
 import { Movers } from './movers';
 import { uploadSurround } from './surround';
 import { lobeRows, lobeTexels, makeTaps } from './kernel';
@@ -177,6 +177,7 @@ export class GpuScene {
       for (const e of group.emitters) changed[e] = { ...emitters[e]!, radiance: times(emitters[e]!.radiance, factors[g]!) };
       if (group.sky) this.sky = times(this.data.sky, factors[g]!);
     });
+    if (this.data.day) this.sky = skyOfDay(this.data.day, factors);
     for (const r of this.reflectors) {
       const old = r.emitters;
       if (!old) continue;

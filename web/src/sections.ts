@@ -2,7 +2,7 @@
 import { decompress } from 'fzstd';
 import { ByteReader, PieceError } from './bytes';
 import {
-  readMesh, readMaterial, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readCurved, readSurround, list, mostGroups,
+  readMesh, readMaterial, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
 } from './elements';
 import { readField, readMover } from './mover_elements';
 import type { LightField, Mover, Page, PageGroups, Sections } from './types';
@@ -31,6 +31,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'PROB': out.field = readField(r); break;
     case 'LGRP': out.groups = list(r, count, readGroup); break;
     case 'GLMP': out.pageGroups.push(...list(r, count, readPageGroups)); break;
+    case 'DAYH': out.day = readDay(r); break;
     case 'WALK': out.grids = list(r, count, readGrid); break;
     default: r.fail('found a section that a piece does not have');
   }

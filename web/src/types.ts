@@ -67,7 +67,11 @@ export interface LightField {
   depth: Uint16Array; depthSquared: Uint16Array; lights: BrightLight[];
 }
 
+/** Sun and sky by the hour: groups of which texels hold the mean. group of a night: one that there is not. */
+export interface Day { clock: string; shown: number; hours: { hour: number; group: number; sky: number[] }[]; }
+
 export interface Sections {
+  day?: Day;
   movers: Mover[]; field?: LightField;
   curved: CurvedReflector[]; surrounds: Surround[];
   groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; textures: Texture[]; normals: Texture[]; pages: Page[];

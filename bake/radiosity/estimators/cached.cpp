@@ -55,7 +55,7 @@ class CachedEstimator : public LightEstimator {
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
     if (goal.longer_look_up) ORIEL_TRY_VOID(gather_from_further());
-    ORIEL_TRY_VOID(refine_to(goal.error));
+    ORIEL_TRY_VOID(refine_to(goal.error / noise_of_hours(around_, shares_, direct_, gathered_)));
     // What took light from elsewhere is not passed on: errors would add up from edit to edit.
     if (context_.units && !ended_early_ && !(reuse_ && reuse_->report().kept > 0)) remember();
     return {};
@@ -74,24 +74,19 @@ class CachedEstimator : public LightEstimator {
   }
 
   bool write_groups(std::vector<std::vector<LightmapPage>>& groups) const override {
-    BookedLight direct = filter_groups(texels_, graph_, direct_.booked_halves(), narrow(options_.filter), context_);
-    direct.add(reflected_booked());
-    write_booked(texels_, direct, groups);
+    write_booked(texels_, filter_groups(texels_, graph_, direct_, gathered_, options_.filter, context_), groups);
     return true;
   }
 
   std::optional<TexelLight> texel_light() const override {
     BookedLight booked;
     std::vector<Vec3> beside = smooth_beside(lamps_, texels_, graph_, gathered_, context_, booked);
-    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), estimate_, reflected_booked(),
+    BookedLight reflected = filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false);
+    return TexelLight{texels_, around_, cached_, std::move(beside), std::move(booked), estimate_, std::move(reflected),
                       shares_};
   }
 
  private:
-  BookedLight reflected_booked() const {
-    return filter_groups(texels_, graph_, gathered_.booked_halves(), options_.filter, context_, false);
-  }
-
   // Direct light, its bounces on coarse patches, and the first rays that gather these.
   Status begin(const Goal& goal) {
     ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));

@@ -44,13 +44,14 @@ class DirectGroup {
     }
     for (std::uint32_t l = 0; !d_.many_punctual_ && l < d_.t_.accel.scene().lights.size(); ++l) {
       aim_at_punctual(l);
-      finish_light(Vec3(1), scene().lights[l].light_group);
+      finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]));
     }
     const VirtualLights& mirrored = d_.t_.lights.mirrored();
     for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
       if (mirrored[i].order > d_.t_.options.max_bounces) continue;
       aim_at_mirrored(i);
-      finish_light(Vec3(1), scene().lights[mirrored[i].light].light_group);
+      const Light& light = scene().lights[mirrored[i].light];
+      finish_light(Vec3(1), light.light_group, hours_of(light));
     }
     const auto any = [&](const Point& p, Sampler& sampler) {
       const float u = sampler.next1();
@@ -230,7 +231,9 @@ class DirectGroup {
     Tally& tally = tallies_[p.texel];
     const Vec3 light = shot.weight * shot.share * passed;
     tally.passed[p.half] += light;
-    if (shot.group < booked_.groups) booked_passed_[p.half].of(p.texel)[shot.group] += light;
+    if (booked_.groups > 0 && shot.group != kNoGroup)
+      each_owner(scene(), shot.group, shot.direction, light,
+                 [&](std::uint32_t group, const Vec3& part) { booked_passed_[p.half].of(p.texel)[group] += part; });
     const float cosine = std::max(incidence(p.site.receiver(), shot.direction), 1e-6f);
     tally.from += moments_of(luminance(light) / cosine, shot.direction);
   }
@@ -252,7 +255,7 @@ class DirectGroup {
   // Visibility as a ratio of weights (Heitz et al. 2018): exact where all is lit or all is dark, noise in penumbrae
   // only. One ratio over all samples: its bias falls with their number. A half none of whose samples weigh anything,
   // the light being mostly below its points' horizon, knows no ratio of its own.
-  void finish_light(const Vec3& radiance, std::uint32_t group) {
+  void finish_light(const Vec3& radiance, std::uint32_t group, float hours = 1) {
     trace();
     const auto n = static_cast<float>(kHalves * per_half_);
     for (std::size_t i = 0; i < tallies_.size(); ++i) {
@@ -268,9 +271,9 @@ class DirectGroup {
       t.total += value;
       add_moments(t, value);
       // A mix of lit and dark: Bernoulli's spread, falling as n^-1.5 for stratified points on a discontinuity.
-      t.variance += open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
+      t.variance += hours * open * open * share * (Vec3(1) - share) / std::pow(n, 1.5f);
       // The closed form is exact at a point; the texel's mean is had from a few.
-      t.uneven += radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
+      t.uneven += std::sqrt(hours) * radiance * share * (t.open[0] - t.open[1]) / static_cast<float>(per_half_);
       const Vec3 difference =
           radiance * (t.open[0] * of_half[0] - t.open[1] * of_half[1]) / static_cast<float>(per_half_);
       t.difference += difference;
@@ -278,6 +281,9 @@ class DirectGroup {
       forget_light(t);
     }
   }
+  // A sun of a day is seen without the other hours. Relative to its own light, a share of all, noise is so much more:
+  // the mean square over hours, were they alike.
+  float hours_of(const Light& light) const { return light.hour >= 0 ? static_cast<float>(scene().day.lit()) : 1.0f; }
   // The light of `value` came as the samples did.
   static void add_moments(Tally& t, const Vec3& value) {
     const float seen = luminance(t.passed[0] + t.passed[1]);

@@ -1,5 +1,8 @@
 #include "bake/radiosity/estimators/group_filter.h"
 
+#include "bake/radiosity/texels/frame_error.h"
+#include "formats/core/color.h"
+
 namespace oriel {
 
 BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const std::array<BookedLight, kHalves>& halves,
@@ -12,6 +15,59 @@ BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const s
     out.set_group(g, filter(texels, graph, own, options, context).value);
   }
   return out;
+}
+
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const DirectSums& direct,
+                          const HalfSums& gathered, const FilterOptions& options, Context& context) {
+  BookedLight out = filter_groups(texels, graph, gathered.booked_halves(), options, context, false);
+  const auto halves = direct.booked_halves();
+  const std::vector<Vec3> none(texels.count(), Vec3(0));
+  for (std::size_t g = 0; g < out.groups; ++g) {
+    if (direct.booked.is_dark(g)) continue;
+    const Halves own{{halves[0].of_group(g), halves[1].of_group(g)}, none, out.of_group(g)};
+    std::vector<Vec3> sum = filter(texels, graph, own, narrow(options), context).value;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.beside[i];
+    out.set_group(g, sum);
+  }
+  return out;
+}
+
+double noise_of_hours(const Surroundings& around, std::span<const float> shares, const DirectSums& direct_light,
+                      const HalfSums& gathered_light) {
+  const Day& day = around.transport().accel.scene().day;
+  if (day.empty() || around.groups() == 0) return 1;
+  const auto gathered = gathered_light.booked_halves();
+  struct Noise {
+    double mean = 0, squares = 0;
+    double light = 0, difference = 0;  // of the texel at hand
+    void add_to_mean(double share) { mean += share * light; }
+    void add(double share) {
+      const double by = light * light + kFrameFloor * kFrameFloor * mean * mean;
+      if (by > 0) squares += share * difference * difference / by;
+    }
+  };
+  const std::size_t groups = gathered[0].groups;
+  Noise all;
+  std::vector<Noise> each(groups);
+  const auto look_at = [&](std::size_t i) {
+    all.light = all.difference = 0;
+    for (std::size_t g = 0; g < groups; ++g) {
+      const double a = luminance(gathered[0].of(i)[g]), b = luminance(gathered[1].of(i)[g]);
+      each[g].light = 0.5 * (a + b) + luminance(direct_light.booked.of(i)[g]), each[g].difference = 0.5 * (a - b);
+      all.light += each[g].light, all.difference += each[g].difference;
+    }
+  };
+  for (const bool means : {true, false})
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      if (!(shares[i] > 0)) continue;
+      look_at(i);
+      means ? all.add_to_mean(shares[i]) : all.add(shares[i]);
+      for (Noise& one : each) means ? one.add_to_mean(shares[i]) : one.add(shares[i]);
+    }
+  double hours = 0;
+  for (const DayHour& hour : day.hours)
+    if (hour.group != kNight) hours += each[hour.group].squares / static_cast<double>(day.lit());
+  return all.squares > 0 ? std::max(1.0, std::sqrt(hours / all.squares)) : 1;
 }
 
 }  // namespace oriel

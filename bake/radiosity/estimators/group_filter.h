@@ -1,7 +1,9 @@
 // Smoothing of the light of groups of lamps.
 #pragma once
 
+#include "bake/radiosity/estimators/direct_light.h"
 #include "bake/radiosity/estimators/filter.h"
+#include "bake/radiosity/gather/gather.h"
 #include "bake/radiosity/texels/booked.h"
 
 namespace oriel {
@@ -11,5 +13,15 @@ namespace oriel {
 // any more; share_out() sees to that. steps: as Halves'.
 BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const std::array<BookedLight, kHalves>& halves,
                           const FilterOptions& options, Context& context, bool steps = true);
+// Direct and gathered light of each group, filtered so and added up; direct light beside what the group gathers, as
+// that of all is.
+BookedLight filter_groups(const Texels& texels, const TexelGraph& graph, const DirectSums& direct,
+                          const HalfSums& gathered, const FilterOptions& options, Context& context);
+
+// Hours of the scene's day are seen one at a time. How much noisier gathered light of theirs is than that of all,
+// relative to all that the hour or they have, by what the halves differ by before the filter: root mean squares over
+// texels by their share of frames, and over hours; 1 at least, and without a day.
+double noise_of_hours(const Surroundings& around, std::span<const float> shares, const DirectSums& direct_light,
+                      const HalfSums& gathered_light);
 
 }  // namespace oriel

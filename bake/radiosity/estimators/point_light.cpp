@@ -181,10 +181,8 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
     leave_noisy(indirect, direct.value, list);
     if (list.empty()) break;
   }
-  const FilterOptions of_direct = narrow(task.options.filter);
-  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), of_direct, context);
-  BookedLight booked = filter_groups(texels, graph, direct.booked_halves(), of_direct, context);
-  booked.add(filter_groups(texels, graph, gathered.booked_halves(), task.options.filter, context, false));
+  const Estimate lit = filter(texels, graph, halves_of(direct, indirect.value), narrow(task.options.filter), context);
+  BookedLight booked = filter_groups(texels, graph, direct, gathered, task.options.filter, context);
   result.booked = add_beside(known, texels, points.side, std::move(booked));
   if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");  // the filter ended half way
   result.light.resize(n), result.variance.resize(n), result.reflected_change.resize(n),

@@ -49,7 +49,9 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     if (!hit) {
       answers.unreflected[i] = sky_radiance(scene(), rays[i].direction) * sky_weight(rays[i].direction, about[i]);
       answers.light[i] = answers.unreflected[i];
-      if (groups() > 0) answers.booked[i * groups() + scene().sky_group] = answers.light[i];
+      if (groups() > 0)
+        each_owner(scene(), sky_owner(scene()), rays[i].direction, answers.light[i],
+                   [&](std::uint32_t group, const Vec3& light) { answers.booked[i * groups() + group] = light; });
       continue;
     }
     const Kind kind = kinds_[hit.triangle];

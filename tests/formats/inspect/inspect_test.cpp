@@ -137,7 +137,10 @@ TEST_F(Inspect, InfoForPrograms) {
   EXPECT_EQ(json["visible_sets"]["eye_cells"], 3);
   EXPECT_NEAR(json["visible_sets"]["seen_share"].get<double>(), 4.0 / 6, 1e-12);
   EXPECT_EQ(json["visible_sets"]["made_for_this"], true);
-  EXPECT_EQ(json["sections"].size(), 32u);
+  EXPECT_EQ(json["day"]["clock"], "UTC+02:00");
+  EXPECT_EQ(json["day"]["hours"][0]["group"], nullptr);
+  EXPECT_EQ(json["day"]["hours"][1]["group"], 1);
+  EXPECT_EQ(json["sections"].size(), 33u);
   EXPECT_EQ(json["bytes"], std::filesystem::file_size(pack_));
 }
 

@@ -275,7 +275,7 @@ TEST(Hostile, OrderOfSectionsDoesNotMatter) {
   // All but the radiance maps and their meshes, whose number is their order; and what counts reflectors.
   std::erase_if(forge.sections, [](const auto& s) {
     return s.record.kind == kRadianceMapSection || s.record.kind == kReflectorSection ||
-           s.record.kind == kLightGroupSection || s.record.kind == kPageGroupsSection ||
+           s.record.kind == kLightGroupSection || s.record.kind == kPageGroupsSection || s.record.kind == kDaySection ||
            s.record.kind == kMapMeshSection || s.record.kind == kReflectedSetsSection;
   });
   const auto pack = decode_pack(forge.file());

@@ -26,6 +26,28 @@ TEST(Pack, LightGroupsComeBack) {
               std::tie(b.others[k].group, b.others[k].light, b.others[k].detail));
 }
 
+TEST(Pack, DaysComeBack) {
+  const Day in = tiny_mapped_pack().day, out = decode_pack(tiny_file()).value().day;
+  EXPECT_EQ(std::tie(out.date, out.latitude_deg, out.longitude_deg, out.north_deg, out.solar_time, out.utc_offset_h,
+                     out.sky_type, out.shown_hour),
+            std::tie(in.date, in.latitude_deg, in.longitude_deg, in.north_deg, in.solar_time, in.utc_offset_h,
+                     in.sky_type, in.shown_hour));
+  ASSERT_EQ(out.hours.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const DayHour &a = out.hours[i], &b = in.hours[i];
+    EXPECT_EQ(std::tie(a.hour, a.group, a.to_sun, a.sun_lux, a.sky_lux, a.sky),
+              std::tie(b.hour, b.group, b.to_sun, b.sun_lux, b.sky_lux, b.sky));
+  }
+  EXPECT_EQ(out.lit(), 1u);
+}
+
+TEST(Hostile, Days) {
+  const std::string day = "section DAYH (hours of a day): ";
+  expect_refusal(with_raw(kDaySection, 0, ~0u), day + "its counts need more");  // date
+  expect_refusal(with_raw(kDaySection, 38, ~0u), day + "found 4294967295 hours");
+  expect_refusal(with_raw(kDaySection, 38, 3u), day + "its counts need more");
+}
+
 TEST(Hostile, LightGroups) {
   const std::string group = "section LGRP (light groups): ", page = "section GLMP 0 (light of groups on a page): ";
   expect_refusal(with_raw(kLightGroupSection, 0, ~0u), group + "its counts need more");

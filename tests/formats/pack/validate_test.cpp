@@ -234,6 +234,14 @@ const Break kBreaks[] = {
          added.name += std::to_string(i), added.materials = {}, added.emitters = {}, added.bright_lights = {};
        }
      }},
+    {769, "DAYH", [](Pack& p) { p.day.latitude_deg = 91; }},
+    {769, "DAYH", [](Pack& p) { p.day.shown_hour = 9; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[1].hour = 4.5f; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[1].group = 2; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[0].group = 1; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[1].group = kNight; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[1].sky_lux = -1; }},
+    {770, "DAYH", [](Pack& p) { p.day.hours[1].sky.g = kNan; }},
     {801, "PROV", [](Pack& p) { p.provenance = "{\"a\":"; }},
     {802, "PROV", [](Pack& p) { p.provenance.clear(); }},
     {803, "PLAN", [](Pack& p) { p.plan = "[1]"; }},

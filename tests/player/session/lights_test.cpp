@@ -13,6 +13,7 @@ namespace {
 Pack pack_as_baked() {
   Pack pack = testing::tiny_mapped_pack();
   pack.light_groups[0].value = 1, pack.light_groups[0].color = Vec3(1);
+  pack.day = {};
   return pack;
 }
 
@@ -95,6 +96,47 @@ TEST(Lights, AreKeptInAFile) {
   ASSERT_TRUE(write_file_atomically(file, std::as_bytes(std::span(broken))));
   EXPECT_FALSE(read_lights(file.string()));
   EXPECT_FALSE(read_lights((folder.path() / "none.json").string()));
+}
+
+// The pack's groups as the hours 9 and 15 of a day.
+Pack pack_of_a_day() {
+  Pack pack = pack_as_baked();
+  for (std::uint32_t g = 0; g < 2; ++g) {
+    DayHour hour;
+    hour.hour = 9 + 6 * static_cast<float>(g), hour.group = g;
+    pack.day.hours.push_back(hour);
+    pack.light_groups[g].value = g == 0 ? 2.0f : 0.0f;
+  }
+  pack.day.shown_hour = 9;
+  return pack;
+}
+
+TEST(Hours, AreShownByTheirSharesOfTheDay) {
+  const Pack pack = pack_of_a_day();
+  EXPECT_EQ(factors(pack, {}), (std::vector<Vec3>{Vec3(2), Vec3(0)})) << "as it opens";
+  EXPECT_EQ(factors(pack, {"hour=15"}), (std::vector<Vec3>{Vec3(0), Vec3(2)}));
+  EXPECT_EQ(factors(pack, {"hour=10.5"}), (std::vector<Vec3>{Vec3(1.5f), Vec3(0.5f)}));
+  EXPECT_EQ(factors(pack, {"hour=10.5", "*=off"}), std::vector<Vec3>(2, Vec3(0)));
+  EXPECT_EQ(factors(pack, {"hour=10.5", "*=0.5"}), (std::vector<Vec3>{Vec3(0.75f), Vec3(0.25f)}));
+  EXPECT_NE(refusal(pack, "hour=16").find("expected 9 to 15 (solar time)"), std::string::npos)
+      << refusal(pack, "hour=16");
+  EXPECT_NE(refusal(pack, "hour=noon"), "");
+  EXPECT_NE(refusal(pack_as_baked(), "hour=12").find("no day"), std::string::npos);
+}
+
+TEST(Hours, AreKeptInAFile) {
+  const Pack pack = pack_of_a_day();
+  std::vector<LightSetting> settings = settings_of(pack), again = settings;
+  EXPECT_EQ(lights_json(pack, settings), "");
+  ASSERT_TRUE(set_hour(pack, 13.25f, settings));
+  EXPECT_EQ(shown_hour(pack, settings), 13.25f);
+  const std::string json = lights_json(pack, settings);
+  EXPECT_EQ(json, "{\n  \"hour\": 13.25\n}");
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "afternoon.json";
+  ASSERT_TRUE(write_file_atomically(file, std::as_bytes(std::span(json))));
+  ASSERT_TRUE(set_lights(pack, read_lights(file.string()).value(), again));
+  EXPECT_EQ(again, settings);
 }
 
 }  // namespace
