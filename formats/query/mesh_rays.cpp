@@ -62,31 +62,50 @@ void MeshRays::build(std::uint32_t node, std::uint32_t first, std::uint32_t coun
   build(children + 1, first + half, count - half, centres);
 }
 
-std::optional<TriangleHit> MeshRays::first(const Vec3& from, const Vec3& direction, float farthest) const {
-  if (triangles_.empty()) return std::nullopt;
+template <class Visit>
+void MeshRays::along(const Vec3& from, const Vec3& direction, const float& farthest, const Visit& visit) const {
+  if (triangles_.empty()) return;
   const Vec3 inverse = 1.0f / direction;
-  std::optional<TriangleHit> best;
-  float nearest = farthest;
   std::uint32_t stack[kDeepest + 1] = {0};
   int top = 1;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
-    if (!meets(node.lower, node.upper, from, inverse, nearest)) continue;
+    if (!meets(node.lower, node.upper, from, inverse, farthest)) continue;
     if (node.count == 0) {
       stack[top++] = node.first;
       stack[top++] = node.first + 1;
       continue;
     }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const auto hit = meet_triangle(*mesh_, std::size_t{3} * triangles_[k], from, direction);
-      if (!hit || !(hit->distance <= nearest)) continue;
-      // Of several in one place the first of the mesh, however the boxes lie.
-      if (best && hit->distance == nearest && hit->first_index > best->first_index) continue;
-      best = hit;
-      nearest = hit->distance;
-    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+      if (!visit(std::size_t{3} * triangles_[k])) return;
   }
+}
+
+std::optional<TriangleHit> MeshRays::first(const Vec3& from, const Vec3& direction, float farthest) const {
+  std::optional<TriangleHit> best;
+  float nearest = farthest;
+  along(from, direction, nearest, [&](std::size_t first_index) {
+    const auto hit = meet_triangle(*mesh_, first_index, from, direction);
+    if (!hit || !(hit->distance <= nearest)) return true;
+    // Of several in one place the first of the mesh, however the boxes lie.
+    if (best && hit->distance == nearest && hit->first_index > best->first_index) return true;
+    best = hit;
+    nearest = hit->distance;
+    return true;
+  });
   return best;
+}
+
+bool MeshRays::blocks(const Vec3& from, const Vec3& to) const {
+  constexpr float kEnd = 1 - 1e-4f;
+  const Vec3 direction = to - from;
+  bool found = false;
+  along(from, direction, kEnd, [&](std::size_t first_index) {
+    const auto hit = meet_triangle(*mesh_, first_index, from, direction);
+    found = hit && hit->distance < kEnd;
+    return !found;
+  });
+  return found;
 }
 
 std::optional<std::uint32_t> MeshRays::part(std::size_t first_index) const {

@@ -14,10 +14,15 @@ class MeshRays {
   // As first_triangle(), up to `farthest`.
   std::optional<TriangleHit> first(const Vec3& from, const Vec3& direction,
                                    float farthest = std::numeric_limits<float>::infinity()) const;
+  // Whether anything is between two points; what is within a share of 1e-4 of `to` does not count.
+  bool blocks(const Vec3& from, const Vec3& to) const;
   // As part_of_triangle(), at once; none: a damaged mesh.
   std::optional<std::uint32_t> part(std::size_t first_index) const;
 
  private:
+  // visit(index of a triangle): false ends it. farthest: of boxes that are asked, which it may change.
+  template <class Visit>
+  void along(const Vec3& from, const Vec3& direction, const float& farthest, const Visit& visit) const;
   struct Node {
     Vec3 lower{0}, upper{0};
     std::uint32_t first = 0, count = 0;  // of triangles_; count 0: the children are at first and first + 1

@@ -18,6 +18,7 @@
 #include "player/scene/gpu_mesh.h"
 #include "player/scene/kernel_taps.h"
 #include "player/scene/lights.h"
+#include "player/scene/live_lamps.h"
 #include "player/scene/textures.h"
 
 namespace oriel {
@@ -55,6 +56,8 @@ struct GpuKernel {
   bool blurs() const { return count > 1; }
 };
 
+std::uint64_t next_scene_serial();
+
 class GpuScene {
  public:
   // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
@@ -66,9 +69,12 @@ class GpuScene {
     return create(DeferredPack{std::move(pack), nullptr}, device, loading);
   }
 
-  // By group of lamps, how many times they shine as they were baked; of another number of groups, or none: once. Takes
-  // time where that changes: light of lightmaps is added up anew. Errors of images.
-  Status set_lights(std::span<const Vec3> factors);
+  // By group of lamps, how many times they shine as they were baked, and where they are; of another number of groups, or
+  // none: once, there. Takes time where that changes: light of lightmaps is added up anew, for lamps that moved it is
+  // computed (live_lamps.h). Errors of images.
+  Status set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live);
+  // Of lamps that moved since the last call.
+  std::vector<LiveReport> take_reports() { return live_.take_reports(); }
 
   // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
   // background all of that is there afterwards, but for maps. Errors of images.
@@ -171,6 +177,7 @@ class GpuScene {
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
+  void move_lamps(std::span<const MoverPose> poses);
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;
   SeenGroups seen_groups_;
@@ -196,7 +203,9 @@ class GpuScene {
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
+  LiveLamps live_;
   std::vector<Vec3> lights_;             // by group
+  std::vector<MoverPose> lamps_;         // by group: where the drawn ones are
   std::unique_ptr<SceneImages> images_;  // reads pack_
 };
 

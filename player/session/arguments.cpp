@@ -7,6 +7,7 @@
 #include "formats/cli/command.h"
 #include "formats/core/text.h"
 #include "player/session/keys.h"
+#include "player/session/live_options.h"
 #include "player/session/option_names.h"
 
 namespace oriel {
@@ -151,7 +152,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
 
 std::vector<Option> mover_options(PlayArguments& out) {
   return {
-      {"--move", kMovers, "Puts a mover there, world metres, and turns it about up by degrees; repeatable",
+      {"--move", kMovers, "Puts a mover or a lamp there, world metres, and turns it about up by degrees; repeatable",
        each(out.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); }),
        Use::kEveryday},
       {"--time", kMovers, "Seconds into the movers' animations, which repeat; the window goes on from there",
@@ -319,6 +320,7 @@ std::vector<Option> window_options(PlayArguments& out) {
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
   for (auto&& more : {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
+                      live_options(kLights, out.frame.live),
                       path_options(out), compare_options(out)})
     append(options, more);
   return options;

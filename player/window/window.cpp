@@ -9,6 +9,7 @@
 #include "formats/query/path.h"
 #include "player/images/loading_watch.h"
 #include "player/navigation/path_file.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/navigation/zone.h"
 #include "player/output/frame_record.h"
@@ -157,6 +158,7 @@ class Loop {
     session_.frame.white = white_of_exposure(session_.shown_ev100);
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
+    ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves));
     view_ = view_of(width, height);
     load_images();
     const IVec2 window(width, height);
