@@ -27,8 +27,7 @@ Vec3 base_color_at(const Mesh& mesh, const Material& material, std::span<const T
   if (material.base_color_texture < 0) return color;
   const Texture& texture = textures[static_cast<std::size_t>(material.base_color_texture)];
   if (texture.texels.empty()) return color;
-  const Vec2 at =
-      mesh.uvs[corners[0]] * (1 - uv.x - uv.y) + mesh.uvs[corners[1]] * uv.x + mesh.uvs[corners[2]] * uv.y;
+  const Vec2 at = mesh.uvs[corners[0]] * (1 - uv.x - uv.y) + mesh.uvs[corners[1]] * uv.x + mesh.uvs[corners[2]] * uv.y;
   const std::size_t row = texel_at(at.y, texture.height, texture.wrap_t);
   const std::uint8_t* rgb = &texture.texels[4 * (row * texture.width + texel_at(at.x, texture.width, texture.wrap_s))];
   return color * Vec3(linear_from_srgb8(rgb[0]), linear_from_srgb8(rgb[1]), linear_from_srgb8(rgb[2]));

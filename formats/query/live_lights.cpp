@@ -113,18 +113,18 @@ Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, V
   return facing / std::max(d2 + light.disk, kLeastDistance2);
 }
 
-struct LiveScene::Start {
+struct LampScene::Start {
   Vec3 from{0}, direction{0}, flux{0};  // flux: as if this walk were the only one
   float footprint = 0;                  // 1 / density of directions, steradians
 };
 
-struct LiveScene::Surface {
+struct LampScene::Surface {
   bool met = false;  // from its front, and it is none of the lamp
   Vec3 at{0}, normal{0}, albedo{0};
   float distance = 0;
 };
 
-LiveScene::LiveScene(const LiveSurfaces& surfaces, LiveLamp lamp)
+LampScene::LampScene(const LiveSurfaces& surfaces, LiveLamp lamp)
     : surfaces_(surfaces),
       lamp_(std::move(lamp)),
       still_mesh_(parts_where(surfaces.mesh,
@@ -166,10 +166,9 @@ LiveScene::LiveScene(const LiveSurfaces& surfaces, LiveLamp lamp)
     const std::uint32_t part = lamp_rays_.part(i).value_or(0);  // of lamp_mesh_, whose parts are in the mesh's order
     const Material& material = surfaces.materials[lamp_mesh_.parts[part].material];
     const auto corner = [&](std::size_t c) { return lamp_mesh_.positions[lamp_mesh_.indices[i + c]]; };
-    const Piece& piece =
-        pieces_.emplace_back(Piece{corner(0), corner(1) - corner(0), corner(2) - corner(0),
-                                   triangle_normal(lamp_mesh_, i), lamp_.radiance[part], area_of(lamp_mesh_, i),
-                                   material.double_sided});
+    const Piece& piece = pieces_.emplace_back(Piece{corner(0), corner(1) - corner(0), corner(2) - corner(0),
+                                                    triangle_normal(lamp_mesh_, i), lamp_.radiance[part],
+                                                    area_of(lamp_mesh_, i), material.double_sided});
     take(kPi * piece.area * (piece.two_sided ? 2.0f : 1.0f) * piece.radiance);
   }
   for (const BrightLight& point : lamp_.points) {
@@ -178,7 +177,7 @@ LiveScene::LiveScene(const LiveSurfaces& surfaces, LiveLamp lamp)
   }
 }
 
-Vec3 LiveScene::albedo(const TriangleHit& hit) const {
+Vec3 LampScene::albedo(const TriangleHit& hit) const {
   const Material& material = surfaces_.materials[still_mesh_.parts[still_.part(hit.first_index).value_or(0)].material];
   // The same three vertices, of the mesh that has colours.
   const std::uint32_t* corners = &still_mesh_.indices[hit.first_index];
@@ -187,18 +186,18 @@ Vec3 LiveScene::albedo(const TriangleHit& hit) const {
           (1 - max_component(reflectance_[still_mesh_.parts[still_.part(hit.first_index).value_or(0)].material])));
 }
 
-bool LiveScene::sees(const Vec3& from, const Vec3& to, const DMat4& lamp_from_pack) const {
+bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack) const {
   if (still_.blocks(from, to)) return false;
   return pieces_.empty() ||
-         !lamp_rays_.blocks(Vec3(lamp_from_pack * DVec4(from, 1)), Vec3(lamp_from_pack * DVec4(to, 1)));
+         !lamp_rays_.blocks(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(to, 1)));
 }
 
-LiveScene::Surface LiveScene::meet(const Vec3& from, const Vec3& direction, const DMat4& lamp_from_pack) const {
+LampScene::Surface LampScene::meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const {
   Surface out;
   const auto hit = still_.first(from, direction);
   if (!hit) return out;
-  if (!pieces_.empty() && lamp_rays_.first(Vec3(lamp_from_pack * DVec4(from, 1)),
-                                           Vec3(lamp_from_pack * DVec4(direction, 0)), hit->distance))
+  if (!pieces_.empty() &&
+      lamp_rays_.first(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(direction, 0)), hit->distance))
     return out;
   out.normal = triangle_normal(still_mesh_, hit->first_index);
   const Material& material = surfaces_.materials[still_mesh_.parts[still_.part(hit->first_index).value_or(0)].material];
@@ -213,10 +212,10 @@ LiveScene::Surface LiveScene::meet(const Vec3& from, const Vec3& direction, cons
   return out;
 }
 
-LiveScene::Start LiveScene::start(std::uint32_t walk, const Mat4& pack_from_lamp) const {
+LampScene::Start LampScene::start(std::uint32_t walk, const Mat4& pack_from_lamp) const {
   const float total = chosen_.back(), at = halton(walk, kWho) * total;
-  const auto index = std::min(static_cast<std::size_t>(std::ranges::upper_bound(chosen_, at) - chosen_.begin()),
-                              chosen_.size() - 1);
+  const auto index =
+      std::min(static_cast<std::size_t>(std::ranges::upper_bound(chosen_, at) - chosen_.begin()), chosen_.size() - 1);
   const float share = (chosen_[index] - (index > 0 ? chosen_[index - 1] : 0.0f)) / total;
   const Vec2 where = halton2(walk, kWhere), u = halton2(walk, kDirection);
   Start out;
@@ -239,13 +238,13 @@ LiveScene::Start LiveScene::start(std::uint32_t walk, const Mat4& pack_from_lamp
                                           Vec3(r * std::cos(phi), r * std::sin(phi), z));
   out.from = Vec3(pack_from_lamp * Vec4(point.position, 1));
   out.footprint = 2 * kPi * (1 - least);
-  out.flux = out.footprint / share * point.intensity *
-             (spot ? spot_factor(z, std::cos(point.inner_cone_rad), least) : 1.0f);
+  out.flux =
+      out.footprint / share * point.intensity * (spot ? spot_factor(z, std::cos(point.inner_cone_rad), least) : 1.0f);
   return out;
 }
 
 // Each point light once, the rest on triangles, by their flux.
-void LiveScene::add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const {
+void LampScene::add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const {
   for (std::size_t i = 0; i < std::min(count, lamp_.points.size()); ++i) {
     const BrightLight& point = lamp_.points[i];
     LiveLight& light = out.lights.emplace_back();
@@ -271,14 +270,14 @@ void LiveScene::add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLi
     const float share = (chosen_[index] - (index > 0 ? chosen_[index - 1] : 0.0f)) / total;
     for (std::size_t i = 0; i < points; ++i) {
       const float area = piece.area / (share * static_cast<float>(left));
-      const Vec2 w = in_triangle({(static_cast<float>(i) + 0.5f) / static_cast<float>(points),
-                                  halton(static_cast<std::uint32_t>(i), 0)});
+      const Vec2 w = in_triangle(
+          {(static_cast<float>(i) + 0.5f) / static_cast<float>(points), halton(static_cast<std::uint32_t>(i), 0)});
       add_point(piece, w, area, pack_from_lamp, out);
     }
   }
 }
 
-void LiveScene::add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out) {
+void LampScene::add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out) {
   LiveLight& light = out.lights.emplace_back();
   light.normal = Mat3(pack_from_lamp) * piece.normal;
   light.position = Vec3(pack_from_lamp * Vec4(piece.a + at.x * piece.ab + at.y * piece.ac, 1));
@@ -289,11 +288,12 @@ void LiveScene::add_point(const Piece& piece, const Vec2& at, float area, const 
 
 // Of the walks as many go on after a bounce as surfaces reflect on average, the first ones; what they carry makes up
 // for those that end (Keller 1997, section 3.2).
-void LiveScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const {
+void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const {
   float sum = 0, power = 1;
   for (std::uint32_t j = 0; j < bounces; ++j, power *= mean_albedo_) sum += power;
   if (count == 0 || !(sum > 0) || chosen_.empty() || !(chosen_.back() > 0)) return;
-  const DMat4 pack_from_lamp = pack_from_object(pose), lamp_from_pack = glm::inverse(pack_from_lamp);
+  const DMat4 pack_from_lamp = pack_from_object(pose);
+  const Mat4 lamp_from_pack(glm::inverse(pack_from_lamp));
   std::vector<std::uint32_t> walks;  // by bounce
   float wanted = static_cast<float>(count) / sum;
   for (std::uint32_t j = 0; j < bounces; ++j, wanted *= mean_albedo_)
@@ -322,7 +322,7 @@ void LiveScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverP
   }
 }
 
-LiveLights LiveScene::lights(const LiveOptions& options, const MoverPose& pose) const {
+LiveLights LampScene::lights(const LiveOptions& options, const MoverPose& pose) const {
   LiveLights out;
   out.flux = flux_;
   const float share = std::clamp(options.direct_share, 0.0f, 1.0f);
@@ -333,7 +333,7 @@ LiveLights LiveScene::lights(const LiveOptions& options, const MoverPose& pose) 
   return out;
 }
 
-std::string LiveScene::passes_through(const MoverPose& pose) const {
+std::string LampScene::passes_through(const MoverPose& pose) const {
   constexpr float kWithin = 0.99f;  // lamps may touch what they hang on
   const Mat4 pack_from_lamp(pack_from_object(pose));
   Vec3 middle(0);

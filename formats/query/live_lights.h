@@ -9,19 +9,11 @@
 #include "formats/assets/fresnel_map.h"
 #include "formats/assets/light_field.h"
 #include "formats/assets/material.h"
+#include "formats/query/live_options.h"
 #include "formats/query/mesh_rays.h"
 #include "formats/query/mover_pose.h"
 
 namespace oriel {
-
-struct LiveOptions {
-  std::uint32_t lights = 300;  // in all, for each lamp; 0: none
-  float direct_share = 0.5f;   // of them on the lamp, [0,1]
-  std::uint32_t bounces = 3;   // that walks are followed for; 0: direct light alone
-
-  bool operator==(const LiveOptions&) const = default;
-};
-inline constexpr std::uint32_t kMostLiveLights = 100000, kMostLiveBounces = 16;
 
 // Shines with intensity · cosine from the front of a surface; without a normal to all sides alike.
 struct LiveLight {
@@ -63,17 +55,18 @@ struct LiveSurfaces {
 
 // A lamp, and what stands still around it. A pose moves the lamp from where the mesh has it: pack space to pack space.
 // See-through surfaces are no obstacle; cut-outs are obstacles as a whole.
-class LiveScene {
+class LampScene {
  public:
   // Copies positions: the mesh's may change.
-  LiveScene(const LiveSurfaces& surfaces, LiveLamp lamp);
+  LampScene(const LiveSurfaces& surfaces, LiveLamp lamp);
 
   // By the same random numbers for every pose: what differs between two poses is the poses'.
   LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
   // Whether light comes from one place to the other, both off their surfaces.
-  bool sees(const Vec3& from, const Vec3& to, const DMat4& lamp_from_pack) const;
+  bool sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack) const;
   // The part that the lamp's surface passes through, but does not where the mesh has it; empty: none.
   std::string passes_through(const MoverPose& pose) const;
+  float luminous_flux() const { return chosen_.empty() ? 0.0f : chosen_.back(); }  // of the lamp, lm
   // That rays keep from surfaces.
   float offset_m() const { return offset_m_; }
 
@@ -88,7 +81,7 @@ class LiveScene {
   struct Start;
   struct Surface;
   Start start(std::uint32_t walk, const Mat4& pack_from_lamp) const;
-  Surface meet(const Vec3& from, const Vec3& direction, const DMat4& lamp_from_pack) const;
+  Surface meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const;
   void add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const;
   // A point of the piece that stands for that area of it.
   static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);

@@ -8,46 +8,76 @@
 namespace oriel {
 namespace {
 
-// Of pairs of numbers.
-struct Moments {
-  double a = 0, b = 0, ab = 0, bb = 0, count = 0;
-  void add(double x, double y) { a += x, b += y, ab += x * y, bb += y * y, count += 1; }
-  double covariance() const { return count > 0 ? ab - a * b / count : 0; }
-  double variance() const { return count > 0 ? bb - b * b / count : 0; }
+// Of lights that face the point.
+struct Seen {
+  std::size_t all = 0, seen = 0;
+  SeenLights sight() const {
+    return all == 0      ? SeenLights::kFacesNone
+           : seen == 0   ? SeenLights::kNone
+           : seen == all ? SeenLights::kAll
+                         : SeenLights::kSome;
+  }
 };
 
 }  // namespace
 
-PosedLights pose_lights(const LiveScene& scene, const LiveOptions& options, const MoverPose& pose) {
-  return {scene.lights(options, pose), glm::inverse(pack_from_object(pose))};
+PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose) {
+  return {scene.lights(options, pose), Mat4(glm::inverse(pack_from_object(pose)))};
 }
 
-LiveSum live_sum(const LiveScene& scene, const PosedLights& now, const PosedLights& baked, const Vec3& point,
+LiveSum& LiveSum::operator+=(const LiveSum& other) {
+  now += other.now, baked += other.baked, missing += other.missing;
+  products += other.products, squares += other.squares;
+  return *this;
+}
+
+float LiveSum::kept() const {
+  return squares > 0 ? static_cast<float>(std::clamp(products / squares, 0.0, 1.0)) : 1.0f;
+}
+
+LiveSum live_sum(const LampScene& scene, const LightPair& lights, LivePart part, const Vec3& point,
                  const Vec3& normal) {
-  ORIEL_CHECK(now.of.lights.size() == baked.of.lights.size() && now.of.direct == baked.of.direct);
+  const LiveLights &now = lights.now.of, &baked = lights.baked.of;
+  ORIEL_CHECK(now.lights.size() == baked.lights.size() && now.direct == baked.direct);
+  const bool direct = part == LivePart::kDirect;
+  const std::size_t first = direct ? 0 : now.direct, end = direct ? now.direct : now.lights.size();
   const Vec3 from = point + scene.offset_m() * normal;
-  const auto light_of = [&](const PosedLights& posed, std::size_t i, Vec3* missing) {
+  const auto light_of = [&](const PosedLights& posed, std::size_t i, Seen& seen, Vec3* missing) {
     const LiveLight& light = posed.of.lights[i];
-    const Vec3 light_there = unshadowed(light, point, normal, missing);
-    if (light_there == Vec3(0)) return light_there;
-    const Vec3 off = scene.offset_m() * (glm::dot(light.normal, from - light.position) < 0 ? -light.normal : light.normal);
-    if (scene.sees(from, light.position + off, posed.lamp_from_pack)) return light_there;
+    const Vec3 given = unshadowed(light, point, normal, missing);
+    if (given == Vec3(0)) return given;
+    ++seen.all;
+    const float side = glm::dot(light.normal, from - light.position) < 0 ? -1.0f : 1.0f;
+    if (scene.sees(from, light.position + side * scene.offset_m() * light.normal, posed.lamp_from_pack)) {
+      ++seen.seen;
+      return given;
+    }
     if (missing != nullptr) *missing = Vec3(0);
     return Vec3(0);
   };
   LiveSum out;
-  Moments parts[2];
-  for (std::size_t i = 0; i < now.of.lights.size(); ++i) {
-    const bool indirect = i >= now.of.direct;
+  Seen seen_now, seen_baked;
+  for (std::size_t i = first; i < end; ++i) {
     Vec3 missing(0);
-    const Vec3 a = light_of(now, i, indirect ? &missing : nullptr), b = light_of(baked, i, nullptr);
+    const Vec3 a = light_of(lights.now, i, seen_now, direct ? nullptr : &missing),
+               b = light_of(lights.baked, i, seen_baked, nullptr);
     out.now += a, out.baked += b;
     if (is_finite(missing)) out.missing += missing;
-    parts[indirect ? 1 : 0].add(double{luminance(a)}, double{luminance(b)});
+    const double x = luminance(a), y = luminance(b);
+    out.products += x * y, out.squares += y * y;
   }
-  const double variance = parts[0].variance() + parts[1].variance();
-  const double covariance = parts[0].covariance() + parts[1].covariance();
-  if (variance > 0) out.kept = static_cast<float>(std::clamp(covariance / variance, 0.0, 1.0));
+  out.sees_now = seen_now.sight(), out.sees_baked = seen_baked.sight();
+  return out;
+}
+
+LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares) {
+  LiveSum out;
+  for (int c = 0; c < 4; ++c) {
+    const float weight = ((c & 1) != 0 ? shares.x : 1 - shares.x) * ((c & 2) != 0 ? shares.y : 1 - shares.y);
+    const LiveSum& corner = *corners[c];
+    out.now += weight * corner.now, out.baked += weight * corner.baked, out.missing += weight * corner.missing;
+    out.products += double{weight} * corner.products, out.squares += double{weight} * corner.squares;
+  }
   return out;
 }
 

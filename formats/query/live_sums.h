@@ -8,22 +8,38 @@ namespace oriel {
 // A lamp's lights at one pose.
 struct PosedLights {
   LiveLights of;
-  DMat4 lamp_from_pack{1};
+  Mat4 lamp_from_pack{1};
 };
-PosedLights pose_lights(const LiveScene& scene, const LiveOptions& options, const MoverPose& pose);
+PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose);
+// now, baked: by the same options, so that lights of the same index belong together.
+struct LightPair {
+  const PosedLights &now, &baked;
+};
+
+enum class LivePart { kDirect, kIndirect };
+// How much is seen of the lights that face a point.
+enum class SeenLights : std::uint8_t { kNone, kSome, kAll, kFacesNone };
 
 // Irradiance, lux.
 struct LiveSum {
   Vec3 now{0}, baked{0};
-  // How much of what the bake knows of the lamp here still tells about it, [0,1]: the coefficient of the regression of
-  // the lights now on the same ones as baked, direct ones and others apart (Owen 2013, "Monte Carlo theory, methods and
-  // examples", section 8.9). Where nothing has changed it is 1 exactly; nothing in common: 0.
-  float kept = 1;
-  Vec3 missing{0};  // of `now`, what its indirect lights would give more without extent; without what is infinite
+  double products = 0, squares = 0;  // of the lights' luminances: now times baked, baked
+  SeenLights sees_now = SeenLights::kFacesNone, sees_baked = SeenLights::kFacesNone;
+  // Of `now`, what its indirect lights would give more without extent; without what is infinite.
+  Vec3 missing{0};
+
+  // Of both parts; what is seen is the first's.
+  LiveSum& operator+=(const LiveSum& other);
+  // How much of what the bake knows of the lamp here still tells about it, [0,1]: the coefficient of the regression,
+  // through the origin, of the lights now on the same ones as baked, as for control variates (Owen 2013, "Monte Carlo
+  // theory, methods and examples", section 8.9). Where nothing has changed it is 1 exactly; with nothing in common 0.
+  float kept() const;
 };
 
-// now, baked: by the same options, so that lights of the same index belong together. normal: unit.
-LiveSum live_sum(const LiveScene& scene, const PosedLights& now, const PosedLights& baked, const Vec3& point,
-                 const Vec3& normal);
+// normal: unit.
+LiveSum live_sum(const LampScene& scene, const LightPair& lights, LivePart part, const Vec3& point, const Vec3& normal);
+
+// Between the four texels around, the shares (x, y) being those of the right and the lower ones.
+LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares);
 
 }  // namespace oriel

@@ -1,6 +1,8 @@
 // Rays against a pack's mesh by a hierarchy of boxes: for what is asked hundreds of times.
 #pragma once
 
+#include <span>
+
 #include "formats/query/triangle_hit.h"
 
 namespace oriel {
@@ -20,17 +22,25 @@ class MeshRays {
   std::optional<std::uint32_t> part(std::size_t first_index) const;
 
  private:
-  // visit(index of a triangle): false ends it. farthest: of boxes that are asked, which it may change.
+  struct Node {
+    Vec3 lower{0};
+    std::uint32_t first = 0;  // of corners_; of an inner node its children are at first and first + 1
+    Vec3 upper{0};
+    std::uint32_t count = 0;  // 0: an inner node
+  };
+  struct Corners {  // of a triangle: one of them, and the ways to the others
+    Vec3 a{0}, ab{0}, ac{0};
+    std::uint32_t triangle = 0;  // first index over 3
+  };
+  struct Boxed;
+  void build(std::uint32_t node, std::span<Boxed> triangles, int depth);
+  // visit(corners): false ends it. farthest: of boxes that are asked, which it may change.
   template <class Visit>
   void along(const Vec3& from, const Vec3& direction, const float& farthest, const Visit& visit) const;
-  struct Node {
-    Vec3 lower{0}, upper{0};
-    std::uint32_t first = 0, count = 0;  // of triangles_; count 0: the children are at first and first + 1
-  };
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, const std::vector<Vec3>& centres);
+
   const Mesh* mesh_;
-  std::vector<std::uint32_t> triangles_;  // first indices over 3
-  std::vector<std::uint32_t> part_of_;    // by triangle; ~0u: none
+  std::vector<Corners> corners_;
+  std::vector<std::uint32_t> part_of_;  // by triangle; ~0u: none
   std::vector<Node> nodes_;
 };
 

@@ -13,7 +13,8 @@ constexpr float kInside = 0.01f;  // of the way to the triangle's middle: off th
 struct Nearest {
   float distance2 = std::numeric_limits<float>::infinity();
   std::uint32_t first_index = 0;
-  Vec2 at{0};  // shares of the second and third corner
+  Vec2 at{0};     // shares of the second and third corner
+  Vec2 texel{0};  // that it is the nearest to
 };
 
 float cross(const Vec2& a, const Vec2& b) {
@@ -27,7 +28,7 @@ Nearest nearest_in(const std::array<Vec2, 3>& corners, const Vec2& p) {
   Nearest out;
   if (area != 0) {
     const Vec2 at(cross(to, ac) / area, cross(ab, to) / area);
-    if (at.x >= 0 && at.y >= 0 && at.x + at.y <= 1) return {0, 0, at};
+    if (at.x >= 0 && at.y >= 0 && at.x + at.y <= 1) return {0, 0, at, p};
   }
   constexpr std::array<Vec2, 3> kAt{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
   for (std::size_t e = 0; e < 3; ++e) {
@@ -36,7 +37,7 @@ Nearest nearest_in(const std::array<Vec2, 3>& corners, const Vec2& p) {
     const float along = length2 > 0 ? std::clamp(glm::dot(p - a, side) / length2, 0.0f, 1.0f) : 0.0f;
     const Vec2 off = p - a - along * side;
     if (const float d2 = glm::dot(off, off); d2 < out.distance2)
-      out = {d2, 0, glm::mix(kAt[e], kAt[(e + 1) % 3], along)};
+      out = {d2, 0, glm::mix(kAt[e], kAt[(e + 1) % 3], along), p};
   }
   return out;
 }
@@ -86,7 +87,7 @@ PagePoint point_at(const Mesh& mesh, const Nearest& nearest) {
   const auto between = [&](const std::vector<Vec3>& values) {
     return values[corners[0]] * (1 - at.x - at.y) + values[corners[1]] * at.x + values[corners[2]] * at.y;
   };
-  return {0, between(mesh.positions), normalize_or(between(mesh.normals), Vec3(0, 1, 0))};
+  return {0, nearest.texel, between(mesh.positions), normalize_or(between(mesh.normals), Vec3(0, 1, 0))};
 }
 
 }  // namespace

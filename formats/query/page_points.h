@@ -11,7 +11,8 @@ namespace oriel {
 
 // A texel's centre, or a point of a finer cell; beside its chart: what of the chart is nearest.
 struct PagePoint {
-  std::uint32_t index = 0;  // into LightmapPage::irradiance, or from its size on into detail
+  std::uint32_t index = 0;            // into LightmapPage::irradiance, or from its size on into detail
+  Vec2 at{0};                         // in texels, (0, 0) being the centre of the first
   Vec3 position{0}, normal{0, 1, 0};  // normal: unit, of the front
 };
 
@@ -20,8 +21,8 @@ struct PagePoint {
 std::vector<PagePoint> page_points(const Mesh& mesh, std::span<const std::uint32_t> without, std::uint32_t number,
                                    const LightmapPage& page);
 
-// Texels that surfaces do not need (filled from neighbours, buried) take the mean of those neighbours that have a value,
-// round by round. known: by texel, which it changes.
+// Texels that surfaces do not need (filled from neighbours, buried) take the mean of those neighbours that have a
+// value, round by round. known: by texel, which it changes.
 void fill_from_neighbours(const LightmapPage& page, std::vector<std::uint8_t>& known, std::span<Vec3> values);
 
 }  // namespace oriel

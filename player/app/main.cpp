@@ -38,8 +38,7 @@ void list_cameras(const Pack& pack) {
     const DVec3 at = DVec3(mover.rest.position) + pack.mesh.origin;
     fmt::print("mover {} at {:.2f},{:.2f},{:.2f}\n", mover.name, at.x, at.y, at.z);
   }
-  for (const LightGroup& group : pack.light_groups)
-    list_lamp(pack, group);
+  for (const LightGroup& group : pack.light_groups) list_lamp(pack, group);
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
 

@@ -104,7 +104,7 @@ class Studio {
   }
 
   void tell(const Shot& shot, const FrameRecord& record) const {
-    for (const LiveReport& report : scene_.take_reports()) fmt::print(stderr, "{}\n", text_of(report));
+    for (const std::string& news : scene_.take_live_news()) fmt::print(stderr, "{}\n", news);
     fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file.empty() ? "frame" : shot.file,
                arguments_.width, arguments_.height, record.ms, session_.shown_ev100,
                describe(record.stats, record.in_zone), shot.name);

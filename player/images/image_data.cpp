@@ -167,9 +167,10 @@ HalfPage changed(HalfPage page, const PageChange& change) {
   float brightest = 0;
   const auto look = [&](const Half4&, const Vec3& light) { brightest = std::max(brightest, max_component(light)); };
   each(page.light, change.light, look), each(page.detail, change.detail, look);
-  if (!(brightest > 0) && !(page.scale > 0)) return page;
   // A power of two more, if need be: no bits of what stays are lost but those of the faintest light.
-  const float scale = std::max(page.scale, std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120)));
+  const float needed = brightest > 0 ? std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120)) : 0.0f;
+  const float scale = std::max(page.scale, needed);
+  if (!(scale > 0)) return page;
   const auto scaled = [&](std::vector<Half4>& light) {
     if (scale != page.scale)
       for (Half4& texel : light) texel = halves_of(floats_of(texel), page.scale / scale);

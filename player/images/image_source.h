@@ -51,8 +51,8 @@ class ImageSource {
   ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
               std::vector<std::vector<ReflectorElement>> elements);
 
-  // Pages of light are made of groups of lamps that shine so many times as they were baked, and of that, from now on. Not while
-  // prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
+  // Pages of light are made of groups of lamps that shine so many times as they were baked, and of that, from now on.
+  // Not while prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
   void set_lights(std::span<const Vec3> factors, std::shared_ptr<const PageChanges> changes);
   std::uint64_t lights() const;  // rises with each change
   // A group's own light of a page, as it was baked. Errors as prepare().

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "formats/assets/mover.h"
-#include "formats/query/live_lights.h"
+#include "formats/query/live_options.h"
 #include "player/images/map_choice.h"
 #include "player/scene/kernel_taps.h"
 

@@ -4,6 +4,7 @@
 
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
+#include "player/scene/live_lamps.h"
 
 namespace oriel {
 namespace {
@@ -64,13 +65,13 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
   scene->serial_ = scene->geometry_serial_ = next_scene_serial();
   scene->pack_ = std::move(pack.pack);
   scene->baked_ = BakedLamps(scene->pack_);
-  scene->live_ = LiveLamps(scene->pack_);
   scene->lamps_.resize(scene->pack_.light_groups.size());
   scene->lights_.assign(scene->pack_.light_groups.size(), Vec3(1));
   scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
   scene->upload_geometry();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
   scene->upload_images(std::move(pack.images), loading);
+  scene->live_ = std::make_unique<LiveLamps>(scene->pack_, scene->images_->source());
   if (!loading.background && loading.limit == kNoLimit) ORIEL_TRY_VOID(first_of(scene->advance_all()));
   ORIEL_TRY_VOID(gpu::check_gl("uploading the pack"));
   return scene;

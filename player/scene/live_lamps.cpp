@@ -1,140 +1,196 @@
 #include "player/scene/live_lamps.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <cmath>
+#include <future>
 
 #include "formats/core/color.h"
 #include "formats/core/parallel.h"
+#include "player/scene/live_page.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::size_t kRun = 128;  // points that a thread takes at once
-
-struct Totals {
-  double now = 0, missing = 0, kept = 0, points = 0;
-};
-
-// What is added at a point. own: what the bake knows of the lamp there.
-Vec3 added_light(const LiveSum& sum, LiveMode mode, const Vec3& own) {
-  switch (mode) {
-    case LiveMode::kDifferential:
-      return sum.now - sum.baked;
-    case LiveMode::kOnly:
-      return sum.now - own;
-    case LiveMode::kFitted:
-      break;
-  }
-  return sum.now - sum.kept * sum.baked - (1 - sum.kept) * own;
-}
+constexpr std::uint32_t kCoarseShare = 16, kFewestCoarse = 16;  // of the lights, while a lamp is on its way
 
 }  // namespace
 
 std::string text_of(const LiveReport& report) {
   std::string text = fmt::format(
-      "lamp \"{}\": {} live lights, {} on it, at {} points in {:.2f} s; {:.2f} % of its light is cut near lights, {:.1f} "
-      "% of its flux was not followed; {:.0f} % of the bake kept",
-      report.lamp, report.lights, report.direct, report.points, report.seconds, 100 * report.missing,
+      "lamp \"{}\": {} live lights, {} on it, at {} points, {} of them between others, in {:.2f} s; {:.2f} % of its "
+      "light is cut near lights, {:.1f} % of its flux was not followed; {:.0f} % of the bake kept",
+      report.lamp, report.lights, report.direct, report.points, report.between, report.seconds, 100 * report.missing,
       100 * report.left, 100 * report.kept);
   if (!report.through.empty()) text += fmt::format("; it goes through \"{}\"", report.through);
   if (report.reaches_nothing) text += "; its light reaches no surface: is it inside something?";
   return text;
 }
 
-LiveLamps::LiveLamps(const Pack& pack) : lights_(pack.light_field.lights) {
-  for (const Material& material : pack.materials) emission_.push_back(material.emission);
-}
+struct LiveLamps::Lamp {
+  std::unique_ptr<LampScene> scene;
+  std::vector<std::vector<PagePoint>> points;  // by page
+  std::vector<LightmapPage> pages;             // what live_change() wants of them
+  MoverPose wanted;
+  MoverPose told;           // that `added` is for
+  bool whole = true;        // it is of all lights
+  std::uint64_t stale = 0;  // calls since it was told otherwise than wanted
+  PageChanges added;        // with its light as it was baked
+};
 
-Result<bool> LiveLamps::place(const Pack& pack, const ImageSource& images, std::span<const MoverPose> poses,
-                              const LiveSettings& settings) {
-  bool changed = false;
-  const bool other_settings = settings_ != settings;
-  settings_ = settings;
-  for (std::size_t group = 0; group < pack.light_groups.size(); ++group) {
-    const MoverPose pose = group < poses.size() ? poses[group] : MoverPose{};
-    auto& lamp = lamps_[group];
-    if (!lamp && is_rest(pose)) continue;
-    if (lamp && lamp->pose == pose && (is_rest(pose) || !other_settings)) continue;
-    if (!lamp) {
-      ORIEL_TRY(lamp, begin(pack, images, group));
-    }
-    changed = true;
-    lamp->pose = pose;
-    lamp->added.clear();
-    if (is_rest(pose)) continue;
-    LiveReport report;
-    report.lamp = pack.light_groups[group].name;
-    ORIEL_TRY_VOID(compute(images, group, settings, *lamp, report));
-    reports_.push_back(std::move(report));
-  }
-  return changed;
-}
+// One lamp's light at one pose.
+struct LiveLamps::Job {
+  std::size_t group = 0;
+  const Lamp* lamp = nullptr;
+  MoverPose pose;
+  LiveSettings settings;
+  bool coarse = false;
+  PosedLights now, baked;
+  std::atomic<bool> stop{false};
+  // What comes of it.
+  PageChanges added;
+  LiveReport report;
+  Status status;
+  std::future<void> done;  // last: what it writes outlives it
 
-Result<std::unique_ptr<LiveLamps::Lamp>> LiveLamps::begin(const Pack& pack, const ImageSource& images,
-                                                          std::size_t group) const {
-  const LampShape shape = shape_of_lamp(pack, pack.light_groups[group]);
-  auto lamp = std::make_unique<Lamp>();
-  LiveLamp live{shape.parts, {}, {}};
-  for (const std::uint32_t part : shape.parts) live.radiance.push_back(emission_[pack.mesh.parts[part].material]);
-  for (const std::uint32_t light : shape.lights) live.points.push_back(lights_[light]);
-  lamp->scene = std::make_unique<LiveScene>(
-      LiveSurfaces{pack.mesh, pack.materials, pack.textures, pack.fresnel_maps}, std::move(live));
-  for (std::uint32_t p = 0; p < pack.lightmaps.size(); ++p) {
-    ORIEL_TRY(LightmapPage page, images.whole_page(p));
-    lamp->points.push_back(page_points(pack.mesh, shape.parts, p, page));
-    page.standard_error.clear(), page.direction.clear();
-    lamp->pages.push_back(std::move(page));
-  }
-  return lamp;
-}
+  void run(const ImageSource& images);
+};
 
-Status LiveLamps::compute(const ImageSource& images, std::size_t group, const LiveSettings& settings, Lamp& lamp,
-                          LiveReport& report) const {
+void LiveLamps::Job::run(const ImageSource& images) {
   const auto start = std::chrono::steady_clock::now();
-  const PosedLights now = pose_lights(*lamp.scene, settings.lights, lamp.pose),
-                    baked = pose_lights(*lamp.scene, settings.lights, {});
-  Totals totals;
-  for (std::size_t p = 0; p < lamp.points.size(); ++p) {
-    const std::vector<PagePoint>& points = lamp.points[p];
-    const LightmapPage& page = lamp.pages[p];
-    PageChange own;
-    if (settings.mode != LiveMode::kDifferential) {
-      ORIEL_TRY(own, images.light_of_group(static_cast<std::uint32_t>(p), group));
+  LiveTotals totals;
+  for (std::size_t p = 0; p < lamp->points.size() && !stop; ++p) {
+    Result<PageChange> own = PageChange{};
+    if (settings.mode != LiveMode::kDifferential) own = images.light_of_group(static_cast<std::uint32_t>(p), group);
+    if (!own) {
+      status = tl::unexpected<Error>(own.error());
+      return;
     }
-    const std::size_t texels = page.irradiance.size();
-    PageChange change{std::vector<Vec3>(texels, Vec3(0)), std::vector<Vec3>(page.detail.size(), Vec3(0))};
-    std::vector<Totals> of_run((points.size() + kRun - 1) / kRun);
-    for_each_parallel(of_run.size(), core_count(), [&](std::size_t run) {
-      for (std::size_t i = run * kRun; i < std::min((run + 1) * kRun, points.size()); ++i) {
-        const PagePoint& point = points[i];
-        const bool detail = point.index >= texels;
-        const std::size_t at = detail ? point.index - texels : point.index;
-        const LiveSum sum = live_sum(*lamp.scene, now, baked, point.position, point.normal);
-        const std::vector<Vec3>& known = detail ? own.detail : own.light;
-        (detail ? change.detail : change.light)[at] =
-            added_light(sum, settings.mode, known.empty() ? Vec3(0) : known[at]);
-        of_run[run].now += double{luminance(sum.now)}, of_run[run].missing += double{luminance(sum.missing)};
-        of_run[run].kept += double{sum.kept}, of_run[run].points += 1;
-      }
-    });
-    for (const Totals& t : of_run)
-      totals.now += t.now, totals.missing += t.missing, totals.kept += t.kept, totals.points += t.points;
-    std::vector<std::uint8_t> known(texels, 0);
-    for (const PagePoint& point : points)
-      if (point.index < texels) known[point.index] = 1;
-    fill_from_neighbours(page, known, change.light);
-    lamp.added.push_back(std::move(change));
+    added.push_back(live_change(
+        {*lamp->scene, {now, baked}, settings.mode, lamp->pages[p], lamp->points[p], *own, coarse, &stop}, totals));
   }
   report.lights = now.of.lights.size(), report.direct = now.of.direct;
-  report.points = static_cast<std::size_t>(totals.points);
+  report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
   report.missing = totals.now > 0 ? static_cast<float>(totals.missing / totals.now) : 0.0f;
   report.kept = totals.points > 0 ? static_cast<float>(totals.kept / totals.points) : 0.0f;
   report.left = luminance(now.of.left) / std::max(luminance(now.of.flux), 1e-30f);
-  report.through = lamp.scene->passes_through(lamp.pose);
+  report.through = lamp->scene->passes_through(pose);
   report.reaches_nothing = !now.of.lights.empty() && !(totals.now > 0);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {};
+}
+
+LiveLamps::LiveLamps(const Pack& pack, const ImageSource& images)
+    : pack_(pack), images_(images), lights_(pack.light_field.lights) {
+  for (const Material& material : pack.materials) emission_.push_back(material.emission);
+}
+
+LiveLamps::~LiveLamps() {
+  if (job_) job_->stop = true;
+}
+
+// Made when first moved.
+Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
+  std::unique_ptr<Lamp>& known = lamps_[group];
+  if (known) return known.get();
+  const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[group]);
+  auto lamp = std::make_unique<Lamp>();
+  LiveLamp live{shape.parts, {}, {}};
+  for (const std::uint32_t part : shape.parts) live.radiance.push_back(emission_[pack_.mesh.parts[part].material]);
+  for (const std::uint32_t light : shape.lights) live.points.push_back(lights_[light]);
+  lamp->scene = std::make_unique<LampScene>(
+      LiveSurfaces{pack_.mesh, pack_.materials, pack_.textures, pack_.fresnel_maps}, std::move(live));
+  for (std::uint32_t p = 0; p < pack_.lightmaps.size(); ++p) {
+    ORIEL_TRY(LightmapPage page, images_.whole_page(p));
+    lamp->points.push_back(page_points(pack_.mesh, shape.parts, p, page));
+    page.standard_error = {}, page.direction = {};
+    lamp->pages.push_back(std::move(page));
+  }
+  known = std::move(lamp);
+  return known.get();
+}
+
+// Its walks look at textures, which come while the job runs: they are made here.
+std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
+  auto job = std::make_unique<Job>();
+  const Lamp& lamp = *lamps_[group];
+  job->group = group, job->lamp = &lamp;
+  job->pose = lamp.wanted;
+  job->settings = settings;
+  job->coarse = coarse;
+  LiveOptions lights = settings.lights;
+  if (coarse) lights.lights = std::min(lights.lights, std::max(lights.lights / kCoarseShare, kFewestCoarse));
+  job->now = pose_lights(*lamp.scene, lights, lamp.wanted);
+  job->baked = pose_lights(*lamp.scene, lights, {});
+  job->report.lamp = pack_.light_groups[group].name;
+  return job;
+}
+
+// Whether it changed anything.
+bool LiveLamps::finish(Job& job) {
+  if (job.stop || !job.status) return false;
+  Lamp& lamp = *lamps_[job.group];
+  lamp.added = std::move(job.added);
+  lamp.told = job.pose;
+  lamp.whole = !job.coarse;
+  lamp.stale = 0;
+  if (lamp.whole) reports_.push_back(std::move(job.report));
+  return true;
+}
+
+Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettings& settings, bool in_background) {
+  bool changed = false;
+  const bool other_settings = settings_ != settings;
+  settings_ = settings;
+  for (std::size_t group = 0; group < poses.size(); ++group) {
+    if (is_rest(poses[group]) && !lamps_.contains(group)) continue;
+    ORIEL_TRY(Lamp* const lamp, lamp_of(group));
+    lamp->wanted = poses[group];
+    if (other_settings) lamp->whole = false;
+    if (is_rest(poses[group])) {
+      changed = changed || !lamp->added.empty();
+      lamp->added.clear();
+      lamp->told = poses[group], lamp->whole = true;
+    } else if (!in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
+      const auto job = begin(group, settings, false);
+      job->run(images_);
+      ORIEL_TRY_VOID(job->status);
+      changed = finish(*job) || changed;
+    }
+  }
+  if (!in_background) return changed;
+  ORIEL_TRY(const bool more, step_in_background(settings));
+  return changed || more;
+}
+
+Result<bool> LiveLamps::step_in_background(const LiveSettings& settings) {
+  bool changed = false;
+  if (job_) {
+    const Lamp& lamp = *lamps_[job_->group];
+    // Few lights are told though the lamp has gone on; many are not waited for.
+    if (is_rest(lamp.wanted) || (!job_->coarse && lamp.wanted != job_->pose)) job_->stop = true;
+    if (job_->done.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    const auto job = std::exchange(job_, nullptr);
+    ORIEL_TRY_VOID(job->status);
+    changed = finish(*job);
+  }
+  std::optional<std::size_t> next;
+  double most = -1;
+  for (auto& [group, lamp] : lamps_) {
+    const bool late = lamp->told != lamp->wanted;
+    if (!late && lamp->whole) continue;
+    // What has not followed at all comes before what is coarse.
+    const double rank = (late ? 1e12 : 1) * double{lamp->scene->luminous_flux()} * static_cast<double>(++lamp->stale);
+    if (rank > most) most = rank, next = group;
+  }
+  if (!next) return changed;
+  const bool coarse = lamps_[*next]->told != lamps_[*next]->wanted;
+  job_ = begin(*next, settings, coarse);
+  job_->done = std::async(std::launch::async, [job = job_.get(), this] { job->run(images_); });
+  return changed;
+}
+
+bool LiveLamps::ready() const {
+  return job_ && job_->done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 std::shared_ptr<const PageChanges> LiveLamps::changes(std::span<const Vec3> factors) const {

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "player/scene/gpu_scene.h"
+#include "player/scene/live_lamps.h"
 
 namespace oriel {
 namespace {
@@ -24,14 +25,26 @@ std::uint64_t next_scene_serial() {
   return ++scenes;
 }
 
+GpuScene::~GpuScene() = default;
+
+bool GpuScene::has_live_news() const {
+  return live_->ready();
+}
+
+std::vector<std::string> GpuScene::take_live_news() {
+  std::vector<std::string> news;
+  for (const LiveReport& report : live_->take_reports()) news.push_back(text_of(report));
+  return news;
+}
+
 Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live) {
   const std::size_t groups = pack_.light_groups.size();
   std::vector<Vec3> wanted(groups, Vec3(1));
   if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
   std::vector<MoverPose> places(groups);
   if (poses.size() == groups) places.assign(poses.begin(), poses.end());
-  ORIEL_TRY(const bool moved, live_.place(pack_, images_->source(), places, live));
-  if (wanted == lights_ && !moved) return {};
+  ORIEL_TRY(const bool other_light, live_->place(places, live, images_->in_background()));
+  if (wanted == lights_ && !other_light && places == lamps_) return {};
   lights_ = std::move(wanted);
   serial_ = next_scene_serial();
   baked_.shine(lights_, pack_);
@@ -43,7 +56,7 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
     of_maps.reflectors.push_back(mean_factor(pack_, lights_, &LightGroup::reflectors, r));
   for (std::size_t m = 0; m < pack_.surround_maps.size(); ++m)
     of_maps.surrounds.push_back(mean_factor(pack_, lights_, &LightGroup::surrounds, m));
-  return images_->set_lights(lights_, std::move(of_maps), live_.changes(lights_));
+  return images_->set_lights(lights_, std::move(of_maps), live_->changes(lights_));
 }
 
 // What is drawn of them. The pack's mesh stays as it was baked: poses count from there.

@@ -320,8 +320,7 @@ std::vector<Option> window_options(PlayArguments& out) {
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
   for (auto&& more : {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
-                      live_options(kLights, out.frame.live),
-                      path_options(out), compare_options(out)})
+                      live_options(kLights, out.frame.live), path_options(out), compare_options(out)})
     append(options, more);
   return options;
 }

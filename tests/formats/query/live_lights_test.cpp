@@ -30,7 +30,8 @@ struct Room {
       mesh.uvs.emplace_back(0), mesh.lightmap_uvs.emplace_back(0);
     }
     if (material == 1) lamp.push_back(static_cast<std::uint32_t>(mesh.parts.size()));
-    mesh.parts.push_back({std::to_string(mesh.parts.size()), static_cast<std::uint32_t>(mesh.indices.size()), 6, material, 0});
+    mesh.parts.push_back(
+        {std::to_string(mesh.parts.size()), static_cast<std::uint32_t>(mesh.indices.size()), 6, material, 0});
     for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
   }
   // Fronts inside.
@@ -40,7 +41,7 @@ struct Room {
     quad(a, x, y, 0), quad(a + z, y, x, 0);
     quad(a, y, z, 0), quad(a + x, z, y, 0);
   }
-  LiveScene scene() const {
+  LampScene scene() const {
     LiveLamp live{lamp, std::vector<Vec3>(lamp.size(), materials[1].emission), {}};
     return {{mesh, materials, {}, {}}, live};
   }
@@ -67,14 +68,16 @@ Vec3 exact_on_floor(const Vec3& point, const Vec3& shift, const Vec3& radiance) 
   return radiance * std::abs(polygon_vector(polygon).y);
 }
 
-LiveSum sum_at(const LiveScene& scene, const LiveOptions& options, const MoverPose& pose, const Vec3& point,
+LiveSum sum_at(const LampScene& scene, const LiveOptions& options, const MoverPose& pose, const Vec3& point,
                const Vec3& normal) {
-  return live_sum(scene, pose_lights(scene, options, pose), pose_lights(scene, options, {}), point, normal);
+  const PosedLights now = pose_lights(scene, options, pose), baked = pose_lights(scene, options, {});
+  LiveSum sum = live_sum(scene, {now, baked}, LivePart::kDirect, point, normal);
+  return sum += live_sum(scene, {now, baked}, LivePart::kIndirect, point, normal);
 }
 
 TEST(LiveLights, DirectLightIsTheClosedForm) {
   const Room room = lamp_over_floor();
-  const LiveScene scene = room.scene();
+  const LampScene scene = room.scene();
   for (const Vec3& shift : {Vec3(0), Vec3(1, 0, 0.5f), Vec3(0, -1.5f, 0)})
     for (const Vec3& point : {Vec3(0), Vec3(0.7f, 0, -0.2f), Vec3(3, 0, 2)}) {
       const LiveSum sum = sum_at(scene, {256, 1, 0}, shifted(shift), point, {0, 1, 0});
@@ -93,7 +96,7 @@ TEST(LiveLights, PointsAndSpots) {
   spot.intensity = Vec3(100, 50, 25);
   spot.position = {0, 1.5f, 0}, spot.direction = {0, -1, 0};
   spot.inner_cone_rad = 0.2f, spot.outer_cone_rad = 0.3f;
-  const LiveScene scene({room.mesh, room.materials, {}, {}}, {{}, {}, {spot}});
+  const LampScene scene({room.mesh, room.materials, {}, {}}, {{}, {}, {spot}});
   const Vec3 below = sum_at(scene, {8, 1, 0}, {}, Vec3(0), {0, 1, 0}).now;
   EXPECT_LT(glm::length(below - spot.intensity / 2.25f), 1e-2f);
   EXPECT_EQ(sum_at(scene, {8, 1, 0}, {}, {1.5f, 0, 0}, {0, 1, 0}).now, Vec3(0));
@@ -103,11 +106,11 @@ TEST(LiveLights, PointsAndSpots) {
 TEST(LiveLights, WhereNothingMovedTheBakeStays) {
   Room room = lamp_over_floor();
   room.quad({-0.3f, 1, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0);
-  const LiveScene scene = room.scene();
+  const LampScene scene = room.scene();
   for (float x = -4; x < 4; x += 0.37f) {
     const LiveSum sum = sum_at(scene, {300, 0.5f, 3}, {}, {x, 0, 0.1f}, {0, 1, 0});
     EXPECT_EQ(sum.now, sum.baked);
-    EXPECT_EQ(sum.kept, 1);
+    EXPECT_EQ(sum.kept(), 1);
   }
 }
 
@@ -128,12 +131,13 @@ TEST(LiveLights, WalksCarryWhatSurfacesReflect) {
 
 TEST(LiveLights, WhatIsCutNearALightIsReported) {
   Room room = lamp_over_floor();
-  const LiveScene scene = room.scene();
+  const LampScene scene = room.scene();
   PosedLights lights = pose_lights(scene, {64, 0, 1}, {});
-  const auto brightest = std::ranges::max_element(lights.of.lights, {}, [](const LiveLight& l) { return l.intensity.x; });
+  const auto brightest =
+      std::ranges::max_element(lights.of.lights, {}, [](const LiveLight& l) { return l.intensity.x; });
   // A point that the light touches: without extent its light would have no bound.
   const Vec3 point = brightest->position + Vec3(0, 5e-3f, 0);
-  const LiveSum sum = live_sum(scene, lights, lights, point, {0, -1, 0});
+  const LiveSum sum = live_sum(scene, {lights, lights}, LivePart::kIndirect, point, {0, -1, 0});
   EXPECT_GT(luminance(sum.missing), 100 * luminance(sum.now));
   EXPECT_LT(luminance(sum.now), luminance(lights.of.flux));
   EXPECT_TRUE(is_finite(sum.missing));
@@ -149,14 +153,14 @@ TEST(LiveLights, ExtremesAreFinite) {
   boxed.box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
   boxed.quad({-0.1f, 0, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}, 1);
   for (const Room* room : {&slit, &boxed}) {
-    const LiveScene scene = room->scene();
+    const LampScene scene = room->scene();
     for (const std::uint32_t lights : {0u, 1u, 2u, 300u})
       for (const float share : {0.0f, 0.5f, 1.0f})
         for (const std::uint32_t bounces : {0u, 1u, 16u})
           for (const Vec3& shift : {Vec3(0), Vec3(0.1f, 0, 0), Vec3(1e6f, 0, 0)}) {
             const LiveSum sum = sum_at(scene, {lights, share, bounces}, shifted(shift), {0.01f, 0, 5e-4f}, {0, 1, 0});
             ASSERT_TRUE(is_finite(sum.now) && is_finite(sum.baked) && is_finite(sum.missing));
-            ASSERT_TRUE(sum.kept >= 0 && sum.kept <= 1);
+            ASSERT_TRUE(sum.kept() >= 0 && sum.kept() <= 1);
           }
   }
   EXPECT_EQ(luminance(sum_at(boxed.scene(), {300, 0.5f, 3}, shifted({0.1f, 0, 0}), {2, -3, 0}, {0, 1, 0}).now), 0);
@@ -166,7 +170,7 @@ TEST(LiveLights, ExtremesAreFinite) {
 TEST(LiveLights, ALampInAWallIsTold) {
   Room room = lamp_over_floor();
   room.quad({1, 0, -5}, {0, 3, 0}, {0, 0, 10}, 0);
-  const LiveScene scene = room.scene();
+  const LampScene scene = room.scene();
   EXPECT_EQ(scene.passes_through({}), "");
   EXPECT_EQ(scene.passes_through(shifted({0.3f, 0, 0})), "");
   EXPECT_EQ(scene.passes_through(shifted({0.8f, 0, 0})), "2");
