@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kOffset = 1e-4f, kMostOffset_m = 2e-3f;  // of the scene's size
 constexpr float kLeastDistance2 = 1e-8f;                 // m², to a light without extent
+constexpr float kLeastFacing = 0.05f;                    // cosine: footprints of grazing rays end there
 // Dimensions of a walk: who shines, where on it, on which side; the direction; two for each further bounce.
 constexpr std::uint32_t kWho = 0, kWhere = 1, kSide = 3, kDirection = 4;
 constexpr std::array<std::uint32_t, 16> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
@@ -227,7 +228,7 @@ LampScene::Start LampScene::start(std::uint32_t walk, const Mat4& pack_from_lamp
     out.from = Vec3(pack_from_lamp * Vec4(piece.a + w.x * piece.ab + w.y * piece.ac, 1)) + offset_m_ * normal;
     out.direction = cosine_direction(u, normal);
     out.flux = kPi * piece.area * (piece.two_sided ? 2.0f : 1.0f) / share * piece.radiance;
-    out.footprint = kPi / std::max(glm::dot(out.direction, normal), 0.05f);
+    out.footprint = kPi / std::max(glm::dot(out.direction, normal), kLeastFacing);
     return out;
   }
   const BrightLight& point = lamp_.points[index - pieces_.size()];
@@ -286,19 +287,28 @@ void LampScene::add_point(const Piece& piece, const Vec2& at, float area, const 
   light.two_sided = piece.two_sided;
 }
 
-// Of the walks as many go on after a bounce as surfaces reflect on average, the first ones; what they carry makes up
-// for those that end (Keller 1997, section 3.2).
-void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const {
+// By bounce: as many walks go on after one as surfaces reflect on average.
+std::vector<std::uint32_t> LampScene::walks_by_bounce(std::size_t count, std::uint32_t bounces) const {
   float sum = 0, power = 1;
   for (std::uint32_t j = 0; j < bounces; ++j, power *= mean_albedo_) sum += power;
-  if (count == 0 || !(sum > 0) || chosen_.empty() || !(chosen_.back() > 0)) return;
-  const DMat4 pack_from_lamp = pack_from_object(pose);
-  const Mat4 lamp_from_pack(glm::inverse(pack_from_lamp));
-  std::vector<std::uint32_t> walks;  // by bounce
+  std::vector<std::uint32_t> walks;
+  if (count == 0 || !(sum > 0) || chosen_.empty() || !(chosen_.back() > 0)) return walks;
   float wanted = static_cast<float>(count) / sum;
   for (std::uint32_t j = 0; j < bounces; ++j, wanted *= mean_albedo_)
     if (const auto w = static_cast<std::uint32_t>(std::lround(wanted)); w > 0) walks.push_back(w);
+  return walks;
+}
+
+// The first walks go on; what they carry makes up for those that end (Keller 1997, section 3.2). A light where a walk
+// first meets a surface stands for the walk's footprint there; a later one for an even share of what these cover.
+void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const {
+  const std::vector<std::uint32_t> walks = walks_by_bounce(count, bounces);
   if (walks.empty()) return;
+  const DMat4 pack_from_lamp = pack_from_object(pose);
+  const Mat4 lamp_from_pack(glm::inverse(pack_from_lamp));
+  std::vector<std::size_t> bounce_of;  // of lights from `first` on
+  const std::size_t first = out.lights.size();
+  float lit = 0;  // m², about, that the lamp shines on
   for (std::uint32_t w = 0; w < walks[0]; ++w) {
     const Start begun = start(w, Mat4(pack_from_lamp));
     Vec3 from = begun.from, direction = begun.direction, flux = begun.flux / static_cast<float>(walks[0]);
@@ -307,18 +317,25 @@ void LampScene::add_walks(std::size_t count, std::uint32_t bounces, const MoverP
       const Surface surface = max_component(flux) > 0 ? meet(from, direction, lamp_from_pack) : Surface{};
       flux = surface.met ? flux * surface.albedo : Vec3(0);  // a walk that ends keeps its place among the lights
       LiveLight& light = out.lights.emplace_back();
+      bounce_of.push_back(j);
       if (!surface.met) continue;
-      const float even = area_ / static_cast<float>(walks[j]);
-      const float seen = std::max(-glm::dot(direction, surface.normal), 0.05f);
-      const float footprint =
-          begun.footprint * surface.distance * surface.distance / (seen * static_cast<float>(walks[0]));
       light.position = surface.at, light.normal = surface.normal;
       light.intensity = flux / kPi;
-      light.disk = (j == 0 ? std::min(footprint, even) : even) / kPi;
+      if (j == 0) {
+        const float facing = std::max(-glm::dot(direction, surface.normal), kLeastFacing);
+        const float footprint = begun.footprint * surface.distance * surface.distance / facing;
+        light.disk = std::min(footprint, area_) / static_cast<float>(walks[0]) / kPi;
+        lit += kPi * light.disk;
+      }
       from = surface.at;
       direction = cosine_direction(halton2(w, kDirection + 2 + 2 * static_cast<std::uint32_t>(j)), surface.normal);
       if (j + 1 == walks.size()) out.left += flux * mean_albedo_;
     }
+  }
+  for (std::size_t i = 0; i < bounce_of.size(); ++i) {
+    float& disk = out.lights[first + i].disk;
+    const float even = lit / static_cast<float>(walks[bounce_of[i]]) / kPi;
+    disk = bounce_of[i] == 0 ? std::min(disk, even) : even;
   }
 }
 

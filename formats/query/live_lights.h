@@ -85,6 +85,7 @@ class LampScene {
   void add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const;
   // A point of the piece that stands for that area of it.
   static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);
+  std::vector<std::uint32_t> walks_by_bounce(std::size_t count, std::uint32_t bounces) const;
   void add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const;
   Vec3 albedo(const TriangleHit& hit) const;
 
