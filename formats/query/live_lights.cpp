@@ -187,10 +187,10 @@ Vec3 LampScene::albedo(const TriangleHit& hit) const {
           (1 - max_component(reflectance_[still_mesh_.parts[still_.part(hit.first_index).value_or(0)].material])));
 }
 
-bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack) const {
-  if (still_.blocks(from, to)) return false;
+bool LampScene::sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const {
+  if (still_.blocks(from, to, last.still)) return false;
   return pieces_.empty() ||
-         !lamp_rays_.blocks(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(to, 1)));
+         !lamp_rays_.blocks(Vec3(lamp_from_pack * Vec4(from, 1)), Vec3(lamp_from_pack * Vec4(to, 1)), last.lamp);
 }
 
 LampScene::Surface LampScene::meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const {

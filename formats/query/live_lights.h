@@ -62,8 +62,12 @@ class LampScene {
 
   // By the same random numbers for every pose: what differs between two poses is the poses'.
   LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
+  // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
+  struct Blockers {
+    std::uint32_t still = ~0u, lamp = ~0u;
+  };
   // Whether light comes from one place to the other, both off their surfaces.
-  bool sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack) const;
+  bool sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const;
   // The part that the lamp's surface passes through, but does not where the mesh has it; empty: none.
   std::string passes_through(const MoverPose& pose) const;
   float luminous_flux() const { return chosen_.empty() ? 0.0f : chosen_.back(); }  // of the lamp, lm

@@ -35,20 +35,23 @@ float LiveSum::kept() const {
   return squares > 0 ? static_cast<float>(std::clamp(products / squares, 0.0, 1.0)) : 1.0f;
 }
 
-LiveSum live_sum(const LampScene& scene, const LightPair& lights, LivePart part, const Vec3& point,
-                 const Vec3& normal) {
-  const LiveLights &now = lights.now.of, &baked = lights.baked.of;
-  ORIEL_CHECK(now.lights.size() == baked.lights.size() && now.direct == baked.direct);
+LiveSums::LiveSums(const LampScene& scene, const LightPair& lights)
+    : scene_(scene), lights_(lights), now_(lights.now.of.lights.size()), baked_(now_.size()) {
+  ORIEL_CHECK(now_.size() == lights.baked.of.lights.size() && lights.now.of.direct == lights.baked.of.direct);
+}
+
+LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
   const bool direct = part == LivePart::kDirect;
-  const std::size_t first = direct ? 0 : now.direct, end = direct ? now.direct : now.lights.size();
-  const Vec3 from = point + scene.offset_m() * normal;
+  const std::size_t split = lights_.now.of.direct, first = direct ? 0 : split, end = direct ? split : now_.size();
+  const Vec3 from = point + scene_.offset_m() * normal;
   const auto light_of = [&](const PosedLights& posed, std::size_t i, Seen& seen, Vec3* missing) {
     const LiveLight& light = posed.of.lights[i];
     const Vec3 given = unshadowed(light, point, normal, missing);
     if (given == Vec3(0)) return given;
     ++seen.all;
     const float side = glm::dot(light.normal, from - light.position) < 0 ? -1.0f : 1.0f;
-    if (scene.sees(from, light.position + side * scene.offset_m() * light.normal, posed.lamp_from_pack)) {
+    const Vec3 to = light.position + side * scene_.offset_m() * light.normal;
+    if (scene_.sees(from, to, posed.lamp_from_pack, (&posed == &lights_.now ? now_ : baked_)[i])) {
       ++seen.seen;
       return given;
     }
@@ -59,8 +62,8 @@ LiveSum live_sum(const LampScene& scene, const LightPair& lights, LivePart part,
   Seen seen_now, seen_baked;
   for (std::size_t i = first; i < end; ++i) {
     Vec3 missing(0);
-    const Vec3 a = light_of(lights.now, i, seen_now, direct ? nullptr : &missing),
-               b = light_of(lights.baked, i, seen_baked, nullptr);
+    const Vec3 a = light_of(lights_.now, i, seen_now, direct ? nullptr : &missing),
+               b = light_of(lights_.baked, i, seen_baked, nullptr);
     out.now += a, out.baked += b;
     if (is_finite(missing)) out.missing += missing;
     const double x = luminance(a), y = luminance(b);

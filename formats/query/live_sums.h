@@ -36,8 +36,19 @@ struct LiveSum {
   float kept() const;
 };
 
-// normal: unit.
-LiveSum live_sum(const LampScene& scene, const LightPair& lights, LivePart part, const Vec3& point, const Vec3& normal);
+// For one thread, point after point that lie together: what was in the way of a light is asked first for the next.
+class LiveSums {
+ public:
+  // All outlive it.
+  LiveSums(const LampScene& scene, const LightPair& lights);
+  // normal: unit. The same whatever was asked before.
+  LiveSum at(LivePart part, const Vec3& point, const Vec3& normal);
+
+ private:
+  const LampScene& scene_;
+  const LightPair lights_;
+  std::vector<LampScene::Blockers> now_, baked_;  // by light
+};
 
 // Between the four texels around, the shares (x, y) being those of the right and the lower ones.
 LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares);

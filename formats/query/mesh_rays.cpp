@@ -150,13 +150,18 @@ std::optional<TriangleHit> MeshRays::first(const Vec3& from, const Vec3& directi
   return best;
 }
 
-bool MeshRays::blocks(const Vec3& from, const Vec3& to) const {
+bool MeshRays::blocks(const Vec3& from, const Vec3& to, std::uint32_t& last) const {
   constexpr float kEnd = 1 - 1e-4f;
   const Vec3 direction = to - from;
+  const auto is_met = [&](const Corners& c) {
+    const auto hit = meet_triangle(c.a, c.ab, c.ac, from, direction);
+    return hit && hit->distance < kEnd;
+  };
+  if (last < corners_.size() && is_met(corners_[last])) return true;
   bool found = false;
   along(from, direction, kEnd, [&](const Corners& c) {
-    const auto hit = meet_triangle(c.a, c.ab, c.ac, from, direction);
-    found = hit && hit->distance < kEnd;
+    found = is_met(c);
+    if (found) last = static_cast<std::uint32_t>(&c - corners_.data());
     return !found;
   });
   return found;

@@ -16,8 +16,9 @@ class MeshRays {
   // As first_triangle(), up to `farthest`.
   std::optional<TriangleHit> first(const Vec3& from, const Vec3& direction,
                                    float farthest = std::numeric_limits<float>::infinity()) const;
-  // Whether anything is between two points; what is within a share of 1e-4 of `to` does not count.
-  bool blocks(const Vec3& from, const Vec3& to) const;
+  // Whether anything is between two points; what is within a share of 1e-4 of `to` does not count. last: what was in
+  // the way of a ray nearby, to be asked first; becomes what is in this one's. Any number will do.
+  bool blocks(const Vec3& from, const Vec3& to, std::uint32_t& last) const;
   // As part_of_triangle(), at once; none: a damaged mesh.
   std::optional<std::uint32_t> part(std::size_t first_index) const;
 

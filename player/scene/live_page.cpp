@@ -40,9 +40,11 @@ class Work {
     const auto first_finer = std::ranges::lower_bound(points, texels, {}, &PagePoint::index) - points.begin();
     const auto of_texels = points.first(static_cast<std::size_t>(first_finer)),
                finer = points.subspan(static_cast<std::size_t>(first_finer));
-    LiveTotals totals = each(of_texels, [&](const PagePoint& point, LiveTotals& sums) { at_texel(point, sums); });
+    LiveTotals totals =
+        each(of_texels, [&](const PagePoint& point, LiveSums& live, LiveTotals& sums) { at_texel(point, live, sums); });
     for (const PagePoint& point : of_texels) known_[point.index] = 1;
-    totals += each(finer, [&](const PagePoint& point, LiveTotals& sums) { at_finer(point, sums); });
+    totals +=
+        each(finer, [&](const PagePoint& point, LiveSums& live, LiveTotals& sums) { at_finer(point, live, sums); });
     fill_from_neighbours(in_.page, known_, change_.light);
     return totals;
   }
@@ -54,16 +56,13 @@ class Work {
     std::vector<LiveTotals> runs((points.size() + kRun - 1) / kRun);
     for_each_parallel(runs.size(), core_count(), [&](std::size_t run) {
       if (in_.stop != nullptr && *in_.stop) return;
+      LiveSums live(in_.scene, in_.lights);
       for (const PagePoint& point : points.subspan(run * kRun, std::min(kRun, points.size() - run * kRun)))
-        at(point, runs[run]);
+        at(point, live, runs[run]);
     });
     LiveTotals totals;
     for (const LiveTotals& sums : runs) totals += sums;
     return totals;
-  }
-
-  LiveSum sum(LivePart part, const PagePoint& point) const {
-    return live_sum(in_.scene, in_.lights, part, point.position, point.normal);
   }
 
   Vec3 settle(const LiveSum& direct, const LiveSum& indirect, const Vec3& own, LiveTotals& sums) const {
@@ -74,9 +73,10 @@ class Work {
     return added_light(both, in_.mode, own);
   }
 
-  void at_texel(const PagePoint& point, LiveTotals& sums) {
+  void at_texel(const PagePoint& point, LiveSums& live, LiveTotals& sums) {
     LiveSum &direct = direct_[point.index], &indirect = indirect_[point.index];
-    direct = sum(LivePart::kDirect, point), indirect = sum(LivePart::kIndirect, point);
+    direct = live.at(LivePart::kDirect, point.position, point.normal),
+    indirect = live.at(LivePart::kIndirect, point.position, point.normal);
     change_.light[point.index] = settle(direct, indirect, in_.own.empty() ? Vec3(0) : in_.own.light[point.index], sums);
   }
 
@@ -95,19 +95,21 @@ class Work {
 
   // Bounced light is smooth between texels. So is direct light where all four see all of the lamp, or nothing
   // (Barczak's classes of patches); elsewhere a finer point has rays of its own.
-  void at_finer(const PagePoint& point, LiveTotals& sums) {
+  void at_finer(const PagePoint& point, LiveSums& live, LiveTotals& sums) {
     const LiveSum* corners[4];
     Vec2 shares;
     around(point, indirect_, corners, shares);
     const bool surrounded = std::ranges::find(corners, nullptr) == std::end(corners);
-    const LiveSum indirect = surrounded ? mix_sums(corners, shares) : sum(LivePart::kIndirect, point);
+    const LiveSum indirect =
+        surrounded ? mix_sums(corners, shares) : live.at(LivePart::kIndirect, point.position, point.normal);
     bool smooth = surrounded;
     around(point, direct_, corners, shares);
     for (int c = 0; c < 4 && smooth; ++c)
       smooth = corners[c]->sees_now != SeenLights::kSome && corners[c]->sees_baked != SeenLights::kSome &&
                corners[c]->sees_now == corners[0]->sees_now && corners[c]->sees_baked == corners[0]->sees_baked;
     smooth = smooth || (in_.coarse && surrounded);
-    const LiveSum direct = smooth ? mix_sums(corners, shares) : sum(LivePart::kDirect, point);
+    const LiveSum direct =
+        smooth ? mix_sums(corners, shares) : live.at(LivePart::kDirect, point.position, point.normal);
     if (smooth) sums.between += 1;
     const std::size_t i = point.index - in_.page.irradiance.size();
     change_.detail[i] = settle(direct, indirect, in_.own.empty() ? Vec3(0) : in_.own.detail[i], sums);

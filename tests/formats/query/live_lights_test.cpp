@@ -71,8 +71,9 @@ Vec3 exact_on_floor(const Vec3& point, const Vec3& shift, const Vec3& radiance) 
 LiveSum sum_at(const LampScene& scene, const LiveOptions& options, const MoverPose& pose, const Vec3& point,
                const Vec3& normal) {
   const PosedLights now = pose_lights(scene, options, pose), baked = pose_lights(scene, options, {});
-  LiveSum sum = live_sum(scene, {now, baked}, LivePart::kDirect, point, normal);
-  return sum += live_sum(scene, {now, baked}, LivePart::kIndirect, point, normal);
+  LiveSums sums(scene, {now, baked});
+  LiveSum sum = sums.at(LivePart::kDirect, point, normal);
+  return sum += sums.at(LivePart::kIndirect, point, normal);
 }
 
 TEST(LiveLights, DirectLightIsTheClosedForm) {
@@ -137,7 +138,7 @@ TEST(LiveLights, WhatIsCutNearALightIsReported) {
       std::ranges::max_element(lights.of.lights, {}, [](const LiveLight& l) { return l.intensity.x; });
   // A point that the light touches: without extent its light would have no bound.
   const Vec3 point = brightest->position + Vec3(0, 5e-3f, 0);
-  const LiveSum sum = live_sum(scene, {lights, lights}, LivePart::kIndirect, point, {0, -1, 0});
+  const LiveSum sum = LiveSums(scene, {lights, lights}).at(LivePart::kIndirect, point, {0, -1, 0});
   EXPECT_GT(luminance(sum.missing), 100 * luminance(sum.now));
   EXPECT_LT(luminance(sum.now), luminance(lights.of.flux));
   EXPECT_TRUE(is_finite(sum.missing));
