@@ -1,9 +1,13 @@
 // Lamps that move, in frames.
-#include "player/navigation/lamps.h"
+#include <chrono>
+#include <thread>
+
 #include "formats/query/clipped_polygon.h"
 #include "formats/query/group_light.h"
 #include "player/navigation/drag.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
+#include "player/scene/live_lamps.h"
 #include "tests/player/frame_fixture.h"
 
 namespace oriel {
@@ -117,6 +121,31 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
       EXPECT_TRUE(picture.finite()) << lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
                                     << picture.at(16, 16).x;
     }
+}
+
+// In the background light comes in two steps, and ends with what it is at once.
+TEST(LiveLamps, ComeToTheSameInTheBackground) {
+  const Pack pack = lit_floor();
+  const ImageSource images(pack, nullptr, {});
+  const LiveSettings settings{{64, 0.5f, 2}, LiveMode::kFitted};
+  const std::vector<MoverPose> away{shifted({1, 0, 0}), {}}, farther{shifted({0, 1, 0}), {}};
+  LiveLamps at_once(pack, images), later(pack, images);
+  ASSERT_TRUE(at_once.place(farther, settings, false));
+  const auto expected = at_once.changes({});
+  ASSERT_TRUE(expected);
+  ASSERT_TRUE(later.place(away, settings, true));  // on the way
+  bool whole = false;
+  for (int i = 0; i < 10000 && !whole; ++i) {
+    ASSERT_TRUE(later.place(farther, settings, true));
+    whole = !later.take_reports().empty();
+    if (!whole) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(whole);
+  const auto found = later.changes({});
+  ASSERT_TRUE(found);
+  EXPECT_EQ((*found)[0].light, (*expected)[0].light);
+  ASSERT_TRUE(later.place(std::vector<MoverPose>(2), settings, true));
+  EXPECT_EQ(later.changes({}), nullptr);
 }
 
 TEST(Lamps, MovesPutTheirMiddleThere) {
