@@ -262,6 +262,8 @@ class Loop {
     if (!scene) return say("not loaded again: " + scene.error().text());
     auto poses = poses_at((*scene)->pack(), session_.moves, 0);
     if (!poses) return say("not loaded again: " + poses.error().text());
+    const auto lamps = lamps_at((*scene)->pack(), session_.moves);
+    if (!lamps) return say("not loaded again: " + lamps.error().text());
     if (beside_) {
       auto other = Other::open(arguments_.other, device_, {false, arguments_.gpu_memory});
       if (!other) return say("not loaded again: " + other.error().text());
