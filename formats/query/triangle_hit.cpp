@@ -3,17 +3,14 @@
 #include <algorithm>
 
 namespace oriel {
-// Moeller and Trumbore 1997.
+
 std::optional<TriangleHit> meet_triangle(const Mesh& mesh, std::size_t first_index, const Vec3& from,
                                          const Vec3& direction) {
   const Vec3 a = mesh.positions[mesh.indices[first_index]];
-  const Vec3 ab = mesh.positions[mesh.indices[first_index + 1]] - a;
-  const Vec3 ac = mesh.positions[mesh.indices[first_index + 2]] - a;
-  const Vec3 p = glm::cross(direction, ac), to = from - a, q = glm::cross(to, ab);
-  const float scale = 1 / glm::dot(ab, p), u = glm::dot(to, p) * scale, v = glm::dot(direction, q) * scale;
-  const float t = glm::dot(ac, q) * scale;
-  if (!(u >= 0 && v >= 0 && u + v <= 1 && t > 0)) return std::nullopt;
-  return TriangleHit{first_index, t, u, v};
+  auto hit = meet_triangle(a, mesh.positions[mesh.indices[first_index + 1]] - a,
+                           mesh.positions[mesh.indices[first_index + 2]] - a, from, direction);
+  if (hit) hit->first_index = first_index;
+  return hit;
 }
 
 std::optional<TriangleHit> first_triangle(const Mesh& mesh, const Vec3& from, const Vec3& direction) {

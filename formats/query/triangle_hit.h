@@ -17,6 +17,16 @@ struct TriangleHit {
   float distance = 0, u = 0, v = 0;
 };
 
+// A triangle by one corner and the ways to the others (Moeller and Trumbore 1997); of the mesh, its number is not told.
+inline std::optional<TriangleHit> meet_triangle(const Vec3& a, const Vec3& ab, const Vec3& ac, const Vec3& from,
+                                                const Vec3& direction) {
+  const Vec3 p = glm::cross(direction, ac), to = from - a, q = glm::cross(to, ab);
+  const float scale = 1 / glm::dot(ab, p), u = glm::dot(to, p) * scale, v = glm::dot(direction, q) * scale;
+  const float t = glm::dot(ac, q) * scale;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && t > 0)) return std::nullopt;
+  return TriangleHit{0, t, u, v};
+}
+
 // That triangle, from either side.
 std::optional<TriangleHit> meet_triangle(const Mesh& mesh, std::size_t first_index, const Vec3& from,
                                          const Vec3& direction);

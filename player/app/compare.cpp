@@ -11,6 +11,7 @@
 #include "formats/query/camera_spec.h"
 #include "player/app/compare_picture.h"
 #include "player/gpu/headless.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/output/other.h"
 #include "player/output/picture.h"
@@ -183,6 +184,7 @@ Status compare_with_pack(GpuScene& scene, Renderer& renderer, const gpu::Device&
   ORIEL_TRY(const Camera camera, choose_camera(scene, arguments));
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene.pack(), arguments.moves, arguments.time_s));
+  ORIEL_TRY(options.lamps, lamps_at(scene.pack(), arguments.moves));
   if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
   const View view = make_view(camera, arguments.width, arguments.height, bounds_with_movers(scene, options.poses));
   ORIEL_TRY_VOID(renderer.render(scene, view, options));
@@ -221,6 +223,7 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(const auto renderer, Renderer::create(device));
   FrameOptions options = arguments.frame;
   ORIEL_TRY(options.poses, poses_at(scene->pack(), arguments.moves, arguments.time_s));
+  ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
   if (!reference.rendered) return compare_with_picture(reference, *scene, *renderer, view, options, arguments);

@@ -12,12 +12,21 @@
 #include "player/app/compare.h"
 #include "player/app/offscreen.h"
 #include "player/app/stop.h"
+#include "player/navigation/lamps.h"
 #include "player/session/arguments.h"
 #include "player/session/light_settings.h"
 #include "player/window/window.h"
 
 namespace {
 using namespace oriel;
+
+// Where --move may take it from.
+void list_lamp(const Pack& pack, const LightGroup& group) {
+  const LampShape lamp = shape_of_lamp(pack, group);
+  const DVec3 at = DVec3(lamp.centre) + pack.mesh.origin;
+  const std::string place = lamp.empty() ? std::string() : fmt::format(" at {:.2f},{:.2f},{:.2f}", at.x, at.y, at.z);
+  fmt::print("lights {}{}: {}\n", group.name, place, fmt::join(group.lamps, ", "));
+}
 
 void list_cameras(const Pack& pack) {
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) {
@@ -34,8 +43,7 @@ void list_cameras(const Pack& pack) {
     fmt::print("day {} at {:g},{:g}: --hour {:g} to {:g} ({}), opens at {:g}\n", pack.day.date, pack.day.latitude_deg,
                pack.day.longitude_deg, pack.day.hours.front().hour, pack.day.hours.back().hour, clock_name(pack.day),
                pack.day.shown_hour);
-  for (const LightGroup& group : pack.light_groups)
-    fmt::print("lights {}: {}\n", group.name, fmt::join(group.lamps, ", "));
+  for (const LightGroup& group : pack.light_groups) list_lamp(pack, group);
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
 

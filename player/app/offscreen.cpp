@@ -11,6 +11,7 @@
 #include "player/app/shots.h"
 #include "player/app/stop.h"
 #include "player/gpu/headless.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/navigation/zone.h"
 #include "player/output/frame_record.h"
@@ -48,6 +49,7 @@ class Studio {
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
+    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
     const int n = arguments_.supersample;
     const View view =
         make_view(shot.camera, n * arguments_.width, n * arguments_.height, bounds_with_movers(scene_, options_.poses));
@@ -102,6 +104,7 @@ class Studio {
   }
 
   void tell(const Shot& shot, const FrameRecord& record) const {
+    for (const std::string& news : scene_.take_live_news()) fmt::print(stderr, "{}\n", news);
     fmt::print(stderr, "{}: {}x{} in {:.1f} ms, EV {:.2f}, {} ({})\n", shot.file.empty() ? "frame" : shot.file,
                arguments_.width, arguments_.height, record.ms, session_.shown_ev100,
                describe(record.stats, record.in_zone), shot.name);

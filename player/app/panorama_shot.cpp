@@ -5,6 +5,7 @@
 
 #include "formats/core/color.h"
 #include "player/app/stop.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/output/panorama.h"
 #include "player/output/picture.h"
@@ -34,6 +35,7 @@ class PanoramaStudio {
 
   Status draw(const Shot& shot) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s));
+    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
     const PanoramaViews views = panorama_views(shot.camera, arguments_.width);
     PictureNotes notes{views.cameras[0], scene_.pack().mesh.origin, shot.name, 0, arguments_.curve};
     notes.camera.vertical_fov_rad = kPi;

@@ -1,4 +1,4 @@
-// Vertex and index data that never changes.
+// Vertex and index data.
 #pragma once
 
 #include <span>
@@ -20,6 +20,13 @@ class Buffer {
     handle_ = Handle<ObjectKind::kBuffer>(name);
     glBindBuffer(target, name);
     glBufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
+  }
+
+  // As many other values.
+  template <class T>
+  void replace(GLenum target, std::span<const T> values) const {
+    bind(target);
+    glBufferSubData(target, 0, static_cast<GLsizeiptr>(values.size_bytes()), values.data());
   }
 
   // To the target, of the bound vertex array where that is GL_ELEMENT_ARRAY_BUFFER.

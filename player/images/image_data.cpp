@@ -158,6 +158,43 @@ HalfPage relit(const HalfPage& baked, const PageGroups& groups, std::span<const 
   return out;
 }
 
+HalfPage changed(HalfPage page, const PageChange& change) {
+  if (change.empty()) return page;
+  const auto each = [&](std::vector<Half4>& light, const std::vector<Vec3>& added, const auto& visit) {
+    for (std::size_t i = 0; i < std::min(light.size(), added.size()); ++i)
+      if (added[i] != Vec3(0)) visit(light[i], glm::max(floats_of(light[i]) * page.scale + added[i], Vec3(0)));
+  };
+  float brightest = 0;
+  const auto look = [&](const Half4&, const Vec3& light) { brightest = std::max(brightest, max_component(light)); };
+  each(page.light, change.light, look), each(page.detail, change.detail, look);
+  // A power of two more, if need be: no bits of what stays are lost but those of the faintest light.
+  const float needed = brightest > 0 ? std::ldexp(1.0f, std::max(std::ilogb(brightest) - 14, -120)) : 0.0f;
+  const float scale = std::max(page.scale, needed);
+  if (!(scale > 0)) return page;
+  const auto scaled = [&](std::vector<Half4>& light) {
+    if (scale != page.scale)
+      for (Half4& texel : light) texel = halves_of(floats_of(texel), page.scale / scale);
+  };
+  HalfPage out = page;
+  scaled(out.light), scaled(out.detail);
+  const auto put = [&](std::vector<Half4>& to, const std::vector<Half4>& from) {
+    return [&](const Half4& texel, const Vec3& light) {
+      to[static_cast<std::size_t>(&texel - from.data())] = halves_of(light, 1 / scale);
+    };
+  };
+  each(page.light, change.light, put(out.light, page.light));
+  each(page.detail, change.detail, put(out.detail, page.detail));
+  out.scale = scale;
+  return out;
+}
+
+PageChange light_of(const HalfPage& page) {
+  PageChange out;
+  for (const Half4& texel : page.light) out.light.push_back(floats_of(texel) * page.scale);
+  for (const Half4& point : page.detail) out.detail.push_back(floats_of(point) * page.scale);
+  return out;
+}
+
 LightData light_data(HalfPage page, int coarser) {
   for (; coarser > 0 && (page.width > 1 || page.height > 1); --coarser) halve(page);
   LightData out;

@@ -37,6 +37,18 @@ LightData light_data(HalfPage page, int coarser = 0);
 // The page where groups of lamps shine so many times as they were baked (formats/query/group_light.h).
 HalfPage relit(const HalfPage& baked, const PageGroups& groups, std::span<const Vec3> factors);
 
+// Light that is added to a page, lux; may be negative. Empty: none.
+struct PageChange {
+  std::vector<Vec3> light, detail;  // by texel, by point of its details
+  bool empty() const { return light.empty(); }
+};
+using PageChanges = std::vector<PageChange>;  // by page; empty: none anywhere
+
+// The page with it. Where it adds nothing the light stays to the bit; nowhere it is negative.
+HalfPage changed(HalfPage page, const PageChange& change);
+// All of the page's light as numbers.
+PageChange light_of(const HalfPage& page);
+
 // On the device, without the data: of a texture with mipmaps, of a page of light.
 std::size_t mipmapped_bytes(const IVec2& size, int coarser);
 // detail: points of its finer cells' image.

@@ -178,9 +178,10 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
   return out;
 }
 
-void ImageSource::set_lights(std::span<const Vec3> factors) {
+void ImageSource::set_lights(std::span<const Vec3> factors, std::shared_ptr<const PageChanges> changes) {
   const std::scoped_lock lock(lights_->mutex);
   lights_->factors.assign(factors.begin(), factors.end());
+  lights_->added = std::move(changes);
   ++lights_->changes;
 }
 
@@ -189,25 +190,50 @@ std::uint64_t ImageSource::lights() const {
   return lights_->changes;
 }
 
-Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, std::uint64_t& lights) const {
-  std::shared_ptr<const HalfPage> known;
-  std::vector<Vec3> factors;
+// Kept: its lamps change again and again.
+Result<std::shared_ptr<const HalfPage>> ImageSource::baked_page(std::uint32_t page) const {
   {
     const std::scoped_lock lock(lights_->mutex);
-    lights = lights_->changes, factors = lights_->factors;
-    if (const auto at = lights_->baked.find(page); at != lights_->baked.end()) known = at->second;
+    if (const auto at = lights_->baked.find(page); at != lights_->baked.end()) return at->second;
   }
-  const bool as_baked = std::ranges::all_of(factors, [](const Vec3& factor) { return factor == Vec3(1); });
-  const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
-  if (!known) {
-    ORIEL_TRY(HalfPage baked, deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page])));
-    if (as_baked || groups == page_groups_.end()) return baked;
-    known = std::make_shared<const HalfPage>(std::move(baked));
+  ORIEL_TRY(HalfPage baked, deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page])));
+  auto known = std::make_shared<const HalfPage>(std::move(baked));
+  const std::scoped_lock lock(lights_->mutex);
+  return lights_->baked.emplace(page, std::move(known)).first->second;
+}
+
+Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, std::uint64_t& lights) const {
+  std::vector<Vec3> factors;
+  std::shared_ptr<const PageChanges> added;
+  {
     const std::scoped_lock lock(lights_->mutex);
-    lights_->baked.emplace(page, known);
+    lights = lights_->changes, factors = lights_->factors, added = lights_->added;
   }
-  if (as_baked || groups == page_groups_.end()) return *known;
-  return relit(*known, *groups, factors);
+  const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
+  const bool as_baked = groups == page_groups_.end() ||
+                        std::ranges::all_of(factors, [](const Vec3& factor) { return factor == Vec3(1); });
+  const bool adds = added && page < added->size() && !(*added)[page].empty();
+  if (as_baked && !adds && deferred_) return deferred_->light(page);
+  if (as_baked && !adds) return half_page(pack_->lightmaps[page]);
+  ORIEL_TRY(const auto known, baked_page(page));
+  HalfPage lit = as_baked ? *known : relit(*known, *groups, factors);
+  return adds ? changed(std::move(lit), (*added)[page]) : Result<HalfPage>(std::move(lit));
+}
+
+Result<PageChange> ImageSource::light_of_group(std::uint32_t page, std::size_t group) const {
+  ORIEL_TRY(const auto known, baked_page(page));
+  const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
+  if (groups == page_groups_.end()) return PageChange{};
+  std::size_t count = group + 1;
+  for (const GroupTexels& other : groups->others) count = std::max<std::size_t>(count, other.group + 1);
+  for (const std::uint8_t rest : groups->rest) count = std::max<std::size_t>(count, rest + std::size_t{1});
+  std::vector<Vec3> factors(count, Vec3(0));
+  factors[group] = Vec3(1);
+  return light_of(relit(*known, *groups, factors));
+}
+
+Result<LightmapPage> ImageSource::whole_page(std::uint32_t page) const {
+  return deferred_ ? deferred_->lightmap(page) : Result<LightmapPage>(pack_->lightmaps[page]);
 }
 
 Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser) const {

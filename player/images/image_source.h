@@ -51,10 +51,14 @@ class ImageSource {
   ImageSource(const Pack& pack, std::shared_ptr<const DeferredImages> deferred,
               std::vector<std::vector<ReflectorElement>> elements);
 
-  // Pages of light are made of groups of lamps that shine so many times as they were baked, from now on. Not while
-  // prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
-  void set_lights(std::span<const Vec3> factors);
+  // Pages of light are made of groups of lamps that shine so many times as they were baked, and of that, from now on.
+  // Not while prepare() of a page runs for anyone who cannot tell by PreparedImage::lights that it came too late.
+  void set_lights(std::span<const Vec3> factors, std::shared_ptr<const PageChanges> changes);
   std::uint64_t lights() const;  // rises with each change
+  // A group's own light of a page, as it was baked. Errors as prepare().
+  Result<PageChange> light_of_group(std::uint32_t page, std::size_t group) const;
+  // A page with all that the bake knows of its texels.
+  Result<LightmapPage> whole_page(std::uint32_t page) const;
 
   // coarser: halvings of the texels a side, up to coarsest(). Errors of DeferredImages; kRuntime without memory.
   Result<PreparedImage> prepare(const ImageName& name, int coarser) const;
@@ -71,6 +75,7 @@ class ImageSource {
  private:
   Result<PreparedImage> make(const ImageName& name, int coarser) const;
   Result<HalfPage> light_of_page(std::uint32_t page, std::uint64_t& lights) const;
+  Result<std::shared_ptr<const HalfPage>> baked_page(std::uint32_t page) const;
   Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;
   const Pack* pack_ = nullptr;  // null where images are deferred
   std::shared_ptr<const DeferredImages> deferred_;
@@ -85,6 +90,7 @@ class ImageSource {
     std::mutex mutex;
     std::uint64_t changes = 0;
     std::vector<Vec3> factors;
+    std::shared_ptr<const PageChanges> added;
     std::map<std::uint32_t, std::shared_ptr<const HalfPage>> baked;
   };
   std::unique_ptr<Lights> lights_ = std::make_unique<Lights>();

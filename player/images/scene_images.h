@@ -87,8 +87,8 @@ class SceneImages {
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
 
   // Pages of light and maps show lamps that shine so many times as they were baked, by group; those that are there at
-  // once. Maps do on average.
-  Status set_lights(std::span<const Vec3> factors, MapFactors of_maps);
+  // once. Maps do on average. added: what is added to pages, or null.
+  Status set_lights(std::span<const Vec3> factors, MapFactors of_maps, std::shared_ptr<const PageChanges> added);
 
   void use_mipmaps(bool on);
   LoadingState state() const;

@@ -33,8 +33,9 @@ Status SceneImages::show_lights(std::uint32_t index) {
   return {};
 }
 
-Status SceneImages::set_lights(std::span<const Vec3> factors, MapFactors of_maps) {
-  source_.set_lights(factors);
+Status SceneImages::set_lights(std::span<const Vec3> factors, MapFactors of_maps,
+                               std::shared_ptr<const PageChanges> added) {
+  source_.set_lights(factors, std::move(added));
   map_factors_ = std::move(of_maps);
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (has({ImageKind::kLight, i})) ORIEL_TRY_VOID(show_lights(i));

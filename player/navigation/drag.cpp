@@ -40,17 +40,34 @@ std::optional<Grip> grip_mover(const Pack& pack, std::span<const MoverPose> pose
   return grip;
 }
 
+std::optional<Grip> grip_lamp(const Pack& pack, std::span<const MoverPose> lamps, const PickRay& ray) {
+  std::vector<std::size_t> group_of(pack.materials.size(), pack.light_groups.size());
+  for (std::size_t g = 0; g < pack.light_groups.size(); ++g)
+    for (const std::uint32_t m : pack.light_groups[g].materials) group_of[m] = g;
+  float nearest = kNever;
+  std::size_t of = pack.light_groups.size();
+  for (const MeshPart& part : pack.mesh.parts) {
+    const std::size_t group = group_of[part.material];
+    const Mat4 lamp_from_pack = group < lamps.size() ? Mat4(glm::inverse(pack_from_object(lamps[group]))) : Mat4(1);
+    const Vec3 from(lamp_from_pack * Vec4(ray.from, 1)), direction(lamp_from_pack * Vec4(ray.direction, 0));
+    for (std::size_t i = part.first_index; i < std::size_t{part.first_index} + part.index_count; i += 3)
+      if (const auto hit = meet_triangle(pack.mesh, i, from, direction); hit && hit->distance < nearest)
+        nearest = hit->distance, of = group;
+  }
+  if (of == pack.light_groups.size()) return std::nullopt;
+  return Grip{of, ray.from + nearest * ray.direction, true};
+}
+
 std::optional<Vec3> on_level(const PickRay& ray, float height, float farthest) {
   const float distance = (height - ray.from.y) / ray.direction.y;
   if (!(distance > 0 && distance <= farthest)) return std::nullopt;
   return ray.from + distance * ray.direction;
 }
 
-MoverMove& move_of(std::vector<MoverMove>& moves, const Mover& mover, const MoverPose& pose, const DVec3& origin) {
-  const auto known =
-      std::find_if(moves.rbegin(), moves.rend(), [&](const MoverMove& m) { return m.node == mover.name; });
+MoverMove& move_of(std::vector<MoverMove>& moves, const std::string& name, const DVec3& at) {
+  const auto known = std::find_if(moves.rbegin(), moves.rend(), [&](const MoverMove& m) { return m.node == name; });
   if (known != moves.rend()) return *known;
-  moves.push_back({mover.name, DVec3(pose.position) + origin, 0});
+  moves.push_back({name, at, 0});
   return moves.back();
 }
 

@@ -17,17 +17,21 @@ struct PickRay {
 PickRay ray_through(const View& view, const Vec2& place);
 
 struct Grip {
-  std::size_t mover = 0;  // into Pack::movers
+  std::size_t mover = 0;  // into Pack::movers, of a lamp into Pack::light_groups
   Vec3 at{0};             // where it was taken, pack space
+  bool lamp = false;
 };
 // The mover that the ray meets first, if nothing that stands still is before it. Every triangle counts, from both
 // sides.
 std::optional<Grip> grip_mover(const Pack& pack, std::span<const MoverPose> poses, const PickRay& ray);
 
+// The lamp whose shining surface the ray meets first of all that stands still. lamps: as lamps_at() has them.
+std::optional<Grip> grip_lamp(const Pack& pack, std::span<const MoverPose> lamps, const PickRay& ray);
+
 // Where the ray meets the level plane of that height, at most `farthest` away.
 std::optional<Vec3> on_level(const PickRay& ray, float height, float farthest);
 
-// The move of that mover, which is added, where it stands, if there is none of its name.
-MoverMove& move_of(std::vector<MoverMove>& moves, const Mover& mover, const MoverPose& pose, const DVec3& origin);
+// The move of the mover of that name, which is added, at that place (world), if there is none.
+MoverMove& move_of(std::vector<MoverMove>& moves, const std::string& name, const DVec3& at);
 
 }  // namespace oriel

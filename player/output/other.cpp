@@ -8,6 +8,7 @@
 #include "formats/image/png.h"
 #include "formats/pack/deferred.h"
 #include "formats/query/camera_notes.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/output/fit_picture.h"
 #include "player/output/split.h"
@@ -86,9 +87,11 @@ Status Other::draw(const Seen& seen) {
   FrameOptions options = seen.options;
   std::vector<MoverMove> moves(seen.moves.begin(), seen.moves.end());
   std::erase_if(moves, [&](const MoverMove& move) {
-    return std::none_of(pack.movers.begin(), pack.movers.end(), [&](const Mover& m) { return m.name == move.node; });
+    return std::ranges::find(pack.movers, move.node, &Mover::name) == pack.movers.end() &&
+           std::ranges::find(pack.light_groups, move.node, &LightGroup::name) == pack.light_groups.end();
   });
   ORIEL_TRY(options.poses, poses_at(pack, moves, seen.time_s));
+  ORIEL_TRY(options.lamps, lamps_at(pack, moves));
   Camera camera = seen.camera;
   camera.eye = Vec3(DVec3(camera.eye) + seen.origin - pack.mesh.origin);
   const View view = make_view(camera, seen.width, seen.height, bounds_with_movers(*scene_, options.poses));

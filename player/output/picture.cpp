@@ -67,4 +67,11 @@ Status write_picture(Renderer& renderer, const std::string& path, const PictureN
   return write_shown(path, shown, notes);
 }
 
+std::string next_name(const char* ending) {
+  for (int i = 0;; ++i) {
+    const std::string name = fmt::format("oriel-{:03}{}", i, ending);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
 }  // namespace oriel

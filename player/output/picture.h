@@ -31,6 +31,9 @@ Status write_picture(Renderer& renderer, const std::string& path, const PictureN
 Status write_light(const std::string& path, const FloatImage& light, const PictureNotes& notes);
 Status write_shown(const std::string& path, const ByteImage& shown, const PictureNotes& notes);
 
+// The first free name of the working folder, as oriel-000.png. ending: ".png", ".exr", ".json".
+std::string next_name(const char* ending);
+
 // Whether a file of that name is for linear light: .exr.
 bool is_linear_file(const std::string& path);
 

@@ -133,7 +133,7 @@ Status Renderer::draw_see_through(GpuScene& scene, const View& view, const Scene
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
   in_window_ = false;
-  ORIEL_TRY_VOID(scene.set_lights(options.lights));
+  ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
   FrameStats stats;

@@ -103,6 +103,12 @@ void FewerTriangles::add(const Mesh& mesh, const DrawRange& range, std::size_t c
   pieces_.push_back(std::move(piece));
 }
 
+void FewerTriangles::follow(std::span<const Bounds> moved) {
+  for (Piece& piece : pieces_)
+    if (const Bounds& bounds = moved[piece.range.material]; !bounds.empty())
+      piece.range.bounds = bounds, piece.range.group = DrawRange::kNoGroup;
+}
+
 FewerTriangles::Chosen FewerTriangles::choose(const View& view, float pixels) const {
   Chosen out;
   out.curved.resize(curved_count_);

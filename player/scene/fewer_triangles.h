@@ -32,6 +32,9 @@ class FewerTriangles {
   // Of each range as few triangles as are off by no more than `pixels` of the view.
   Chosen choose(const View& view, float pixels) const;
 
+  // Triangles of a material have moved into this box, where it is not empty: by material.
+  void follow(std::span<const Bounds> moved);
+
  private:
   struct Level {
     std::uint32_t first_index = 0, index_count = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/assets/mover.h"
+#include "formats/query/live_options.h"
 #include "player/images/map_choice.h"
 #include "player/scene/kernel_taps.h"
 
@@ -30,6 +31,16 @@ enum class Reflectance { kTable, kSphereMap };
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
 enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 
+// What the bake knows of a lamp that has moved: as much as its live lights say (fitted), all of it, what live lights
+// give now less what they gave there being added (differential), or nothing (only).
+enum class LiveMode { kFitted, kDifferential, kOnly };
+struct LiveSettings {
+  LiveOptions lights;
+  LiveMode mode = LiveMode::kFitted;
+
+  bool operator==(const LiveSettings&) const = default;
+};
+
 struct FrameOptions {
   Show show = Show::kAll;
   Reflections reflections = Reflections::kChosen;
@@ -49,6 +60,8 @@ struct FrameOptions {
   bool count_holes = false;
   std::vector<MoverPose> poses{};  // by Pack::movers; empty: all at rest
   std::vector<Vec3> lights{};      // by Pack::light_groups, times what was baked; empty: as baked
+  std::vector<MoverPose> lamps{};  // by Pack::light_groups, from where they were baked; empty: all are there
+  LiveSettings live{};             // of lamps that are not
   MoverLights mover_lights = MoverLights::kShadowed;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds

@@ -1,10 +1,10 @@
 #include "player/scene/gpu_scene.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "player/scene/check.h"
 #include "player/scene/emitter_ranges.h"
+#include "player/scene/live_lamps.h"
 
 namespace oriel {
 namespace {
@@ -51,11 +51,6 @@ float mean_height(const Mesh& mesh, const Mat4& reflector_from_pack) {
   return total > 0 ? static_cast<float>(sum / total) : 0.0f;
 }
 
-std::uint64_t next_serial() {
-  static std::atomic<std::uint64_t> scenes{0};
-  return ++scenes;
-}
-
 Status first_of(const std::vector<Error>& errors) {
   if (errors.empty()) return {};
   return tl::unexpected<Error>(errors.front());
@@ -67,35 +62,19 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
                                                    const LoadingOptions& loading) {
   ORIEL_TRY_VOID(check_drawable(pack.pack, device));
   std::unique_ptr<GpuScene> scene(new GpuScene);
-  scene->serial_ = scene->geometry_serial_ = next_serial();
+  scene->serial_ = scene->geometry_serial_ = next_scene_serial();
   scene->pack_ = std::move(pack.pack);
   scene->baked_ = BakedLamps(scene->pack_);
+  scene->lamps_.resize(scene->pack_.light_groups.size());
   scene->lights_.assign(scene->pack_.light_groups.size(), Vec3(1));
   scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
   scene->upload_geometry();
   for (const Mover& mover : scene->pack_.movers) scene->movers_.push_back(upload_mover(mover));
   scene->upload_images(std::move(pack.images), loading);
+  scene->live_ = std::make_unique<LiveLamps>(scene->pack_, scene->images_->source());
   if (!loading.background && loading.limit == kNoLimit) ORIEL_TRY_VOID(first_of(scene->advance_all()));
   ORIEL_TRY_VOID(gpu::check_gl("uploading the pack"));
   return scene;
-}
-
-Status GpuScene::set_lights(std::span<const Vec3> factors) {
-  const std::size_t groups = pack_.light_groups.size();
-  std::vector<Vec3> wanted(groups, Vec3(1));
-  if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
-  if (wanted == lights_) return {};
-  lights_ = std::move(wanted);
-  serial_ = next_serial();
-  baked_.shine(lights_, pack_);
-  for (GpuReflector& r : reflectors_)
-    r.emitters = upload_emitters(pack_, pack_.reflectors[r.index], r.reflector_from_pack, r.size);
-  MapFactors of_maps;
-  for (std::size_t r = 0; r < pack_.reflectors.size(); ++r)
-    of_maps.reflectors.push_back(mean_factor(pack_, lights_, &LightGroup::reflectors, r));
-  for (std::size_t m = 0; m < pack_.surround_maps.size(); ++m)
-    of_maps.surrounds.push_back(mean_factor(pack_, lights_, &LightGroup::surrounds, m));
-  return images_->set_lights(lights_, std::move(of_maps));
 }
 
 bool GpuScene::is_transparent(std::uint32_t material) const {

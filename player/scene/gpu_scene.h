@@ -12,6 +12,7 @@
 #include "player/images/scene_images.h"
 #include "player/navigation/view.h"
 #include "player/scene/fewer_triangles.h"
+#include "player/scene/frame_options.h"
 #include "player/scene/glass_bodies.h"
 #include "player/scene/gpu_emitters.h"
 #include "player/scene/gpu_map_meshes.h"
@@ -55,6 +56,10 @@ struct GpuKernel {
   bool blurs() const { return count > 1; }
 };
 
+class LiveLamps;
+
+std::uint64_t next_scene_serial();
+
 class GpuScene {
  public:
   // Takes the pack and uploads it. Errors of check_drawable; kRuntime where the driver refuses.
@@ -66,9 +71,15 @@ class GpuScene {
     return create(DeferredPack{std::move(pack), nullptr}, device, loading);
   }
 
-  // By group of lamps, how many times they shine as they were baked; of another number of groups, or none: once. Takes
-  // time where that changes: light of lightmaps is added up anew. Errors of images.
-  Status set_lights(std::span<const Vec3> factors);
+  // By group of lamps, how many times they shine as they were baked, and where they are; of another number of groups,
+  // or none: once, there. Takes time where that changes: light of lightmaps is added up anew, for lamps that moved it
+  // is computed (live_lamps.h). Errors of images.
+  Status set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live);
+  // In the background the light of a lamp that moved comes later, coarse before fine: whether the next set_lamps()
+  // shows more of it.
+  bool has_live_news() const;
+  // What is to be told of lamps that moved, each once.
+  std::vector<std::string> take_live_news();
 
   // Before a frame of this view: what it shows comes first, and within a limit as fine as there is room for. Not in the
   // background all of that is there afterwards, but for maps. Errors of images.
@@ -80,6 +91,7 @@ class GpuScene {
   // All that is wanted, or what is there by then.
   std::vector<Error> advance_all(SceneImages::Clock::time_point until = SceneImages::Clock::time_point::max());
 
+  ~GpuScene();
   const Pack& pack() const { return pack_; }
   // Of this scene alone, and of its lamps as they shine now, for what others keep of it.
   std::uint64_t serial() const { return serial_; }
@@ -171,6 +183,7 @@ class GpuScene {
   void make_emitters(std::vector<std::uint32_t>& indices);
   void make_curved_reflectors(std::vector<std::uint32_t>& indices);
   void begin_fewer();
+  void move_lamps(std::span<const MoverPose> poses);
   Pack pack_;
   std::uint64_t serial_ = 0, geometry_serial_ = 0;
   SeenGroups seen_groups_;
@@ -197,7 +210,9 @@ class GpuScene {
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
   std::vector<Vec3> lights_;             // by group
+  std::vector<MoverPose> lamps_;         // by group: where the drawn ones are
   std::unique_ptr<SceneImages> images_;  // reads pack_
+  std::unique_ptr<LiveLamps> live_;      // reads both
 };
 
 }  // namespace oriel

@@ -8,7 +8,7 @@
 
 namespace oriel {
 
-// Of a pack as it was read: what set_lights() changes in it.
+// Of a pack as it was read: what set_lamps() changes in it.
 class BakedLamps {
  public:
   BakedLamps() = default;

@@ -7,6 +7,7 @@
 #include "formats/cli/command.h"
 #include "formats/core/text.h"
 #include "player/session/keys.h"
+#include "player/session/live_options.h"
 #include "player/session/option_names.h"
 
 namespace oriel {
@@ -151,7 +152,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
 
 std::vector<Option> mover_options(PlayArguments& out) {
   return {
-      {"--move", kMovers, "Puts a mover there, world metres, and turns it about up by degrees; repeatable",
+      {"--move", kMovers, "Puts a mover or a lamp there, world metres, and turns it about up by degrees; repeatable",
        each(out.moves, "NODE=x,y,z[,yaw]", parse_move, [](const MoverMove& move) { return text_of(move); }),
        Use::kEveryday},
       {"--time", kMovers, "Seconds into the movers' animations, which repeat; the window goes on from there",
@@ -209,8 +210,7 @@ std::vector<Option> offscreen_options(PlayArguments& out) {
        {"--compare", "--path", "--frames"}},
       {"--stats", kOffscreen,
        "Times as JSON. Offscreen of each pass, with counts and the options; of the window, when it closes, how fast "
-       "frames came "
-       "while something moved and how soon the whole one after it",
+       "frames came while something moved and how soon the whole one after it",
        text(out.stats, "FILE")},
   };
 }
@@ -323,7 +323,7 @@ std::vector<Option> window_options(PlayArguments& out) {
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
   for (auto&& more : {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
-                      path_options(out), compare_options(out)})
+                      live_options(kLights, out.frame.live), path_options(out), compare_options(out)})
     append(options, more);
   return options;
 }

@@ -32,6 +32,9 @@ inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverL
                                                              {"unshadowed", MoverLights::kUnshadowed},
                                                              {"harmonics", MoverLights::kHarmonics}};
 
+inline const std::map<std::string, LiveMode> kLiveModes{
+    {"fitted", LiveMode::kFitted}, {"differential", LiveMode::kDifferential}, {"only", LiveMode::kOnly}};
+
 inline const std::map<std::string, Quality> kQualities{
     {"auto", Quality::kAutomatic}, {"full", Quality::kFull}, {"fast", Quality::kFast}};
 

@@ -1,31 +1,12 @@
 #include "player/session/pick.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "formats/core/color.h"
+#include "formats/query/base_color.h"
 
 namespace oriel {
 namespace {
-
-Vec3 albedo_at(const Pack& pack, const Material& material, const Vec2& uv, const Vec3& vertex_color) {
-  Vec3 albedo = material.base_color * vertex_color;
-  if (material.base_color_texture >= 0) {
-    const Texture& texture = pack.textures[static_cast<std::size_t>(material.base_color_texture)];
-    if (texture.texels.empty()) return albedo;
-    const auto texel = [](float coordinate, std::uint32_t size, Wrap wrap) {
-      const float inside = wrap == Wrap::kClamp ? std::clamp(coordinate, 0.0f, 1.0f) : glm::fract(coordinate);
-      const auto i = static_cast<std::uint32_t>(inside * static_cast<float>(size));
-      const bool odd = wrap == Wrap::kMirror && std::fmod(std::fabs(std::floor(coordinate)), 2.0f) == 1.0f;
-      return odd ? size - 1 - std::min(i, size - 1) : std::min(i, size - 1);
-    };
-    const std::uint8_t* rgb =
-        &texture.texels[4 * (static_cast<std::size_t>(texel(uv.y, texture.height, texture.wrap_t)) * texture.width +
-                             texel(uv.x, texture.width, texture.wrap_s))];
-    albedo *= Vec3(linear_from_srgb8(rgb[0]), linear_from_srgb8(rgb[1]), linear_from_srgb8(rgb[2]));
-  }
-  return albedo;
-}
 
 void read_texel(const LightmapPage& page, const Vec2& uv, PickedSurface& out) {
   out.known = true;
@@ -60,12 +41,7 @@ std::optional<PickedSurface> pick_surface(const Pack& pack, const PickRay& ray, 
   out.distance_m = hit->distance;
   out.roughness = material.roughness;
   out.metallic = material.metallic;
-  Vec3 vertex_color(1);
-  if (!mesh.colors.empty()) {
-    const std::uint32_t rgba = mesh.colors[corners[0]];
-    vertex_color = Vec3(rgba & 255, rgba >> 8 & 255, rgba >> 16 & 255) / 255.0f;
-  }
-  out.albedo = albedo_at(pack, material, between(mesh.uvs), vertex_color);
+  out.albedo = base_color_at(mesh, material, pack.textures, corners, {hit->u, hit->v});
   out.page = part->lightmap_page;
   const LightmapPage* page = out.page >= 0 ? page_of(static_cast<std::uint32_t>(out.page)) : nullptr;
   if (page != nullptr) read_texel(*page, between(mesh.lightmap_uvs), out);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "formats/query/path.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/recorder.h"
 
 namespace oriel {
@@ -253,13 +254,16 @@ void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Sessi
 Dragged drag_movers(const DragInput& input, const Pack& pack, const View& view, float farthest_m, Session& session) {
   const PickRay ray = ray_through(view, input.pointer);
   if (input.clicked) {
-    session.grip = grip_mover(pack, session.frame.poses, ray);
+    session.grip = input.lamps ? grip_lamp(pack, session.frame.lamps, ray) : grip_mover(pack, session.frame.poses, ray);
     return {!session.grip, {}};
   }
   if (!session.grip) return {};
   Grip& grip = *session.grip;
-  const MoverPose& pose = session.frame.poses[grip.mover];
-  MoverMove& move = move_of(session.moves, pack.movers[grip.mover], pose, pack.mesh.origin);
+  const Vec3 stands =
+      grip.lamp ? shape_of_lamp(pack, pack.light_groups[grip.mover]).centre : session.frame.poses[grip.mover].position;
+  MoverMove& move =
+      move_of(session.moves, grip.lamp ? pack.light_groups[grip.mover].name : pack.movers[grip.mover].name,
+              DVec3(stands) + pack.mesh.origin);
   const auto to = on_level(ray, grip.at.y, farthest_m);
   if (input.turning) {
     move.yaw_rad += static_cast<double>(kTurnPerWidth * (input.pointer.x - input.last_pointer.x));

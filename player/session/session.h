@@ -81,6 +81,7 @@ void adapt_exposure(const std::optional<float>& metered_ev100, float dt_s, Sessi
 struct DragInput {
   Vec2 pointer{0}, last_pointer{0};  // in the window, [0,1]² from the top left corner
   bool clicked = false, holding = false, turning = false;
+  bool lamps = false;  // L is down: the button takes lamps instead
 };
 struct Dragged {
   bool missed = false;  // a click met no mover

@@ -73,6 +73,7 @@ void draw_lights(const Pack& pack, Session& session) {
     changed |= draw_setting(pack.light_groups[g].name, lights[g]);
     ImGui::PopID();
   }
+  ImGui::TextDisabled("hold L and drag a lamp to move it");
   if (changed) session.frame.lights = factors_of(pack, lights);
 }
 

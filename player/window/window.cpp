@@ -1,13 +1,13 @@
 #include "player/window/window.h"
 
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include "formats/core/file.h"
 #include "formats/query/camera_spec.h"
 #include "formats/query/path.h"
 #include "player/images/loading_watch.h"
+#include "player/navigation/lamps.h"
 #include "player/navigation/path_file.h"
 #include "player/navigation/poses.h"
 #include "player/navigation/zone.h"
@@ -28,14 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// The first free one: ending ".png", ".exr", ".json".
-std::string next_name(const char* ending) {
-  for (int i = 0;; ++i) {
-    const std::string name = fmt::format("oriel-{:03}{}", i, ending);
-    if (!std::filesystem::exists(name)) return name;
-  }
 }
 
 constexpr double kMessage_s = 6, kHint_s = 9, kFade_s = 2;
@@ -146,7 +138,7 @@ class Loop {
     const float reach = kDividerReach_px / static_cast<float>(std::max(width, 1));
     const Vec2 last = std::exchange(pointer_, input.pointer);
     if (drag_divider(input.pointer, input.clicked, input.holding, reach, session_.comparison)) return;
-    const Dragged dragged = drag_movers({input.pointer, last, input.clicked, input.holding, input.turning},
+    const Dragged dragged = drag_movers({input.pointer, last, input.clicked, input.holding, input.turning, input.lamps},
                                         scene_->pack(), view_, kFarthest * scene_->bounds().radius(), session_);
     if (dragged.missed) input_.grab(true);
     if (!dragged.dropped.empty()) fmt::print(stderr, "oriel-play: --move \"{}\"\n", dragged.dropped);
@@ -157,8 +149,10 @@ class Loop {
     session_.frame.white = white_of_exposure(session_.shown_ev100);
     ORIEL_TRY(session_.frame.poses,
               poses_at(scene_->pack(), session_.moves, arguments_.time_s + seconds_since(start_)));
+    ORIEL_TRY(session_.frame.lamps, lamps_at(scene_->pack(), session_.moves));
     view_ = view_of(width, height);
     load_images();
+    if (scene_->has_live_news()) paced_.redraw();
     const IVec2 window(width, height);
     drawn_ = paced_.choose({session_, window, scene_->images().state().used, meter_.loading.busy, needs_white(*scene_),
                             beside_.has_value()});
@@ -166,6 +160,7 @@ class Loop {
       const View view = view_of(paced_.size().x, paced_.size().y);
       ORIEL_TRY(meter_.stats, renderer_.render(*scene_, view, paced_.options()));
       ORIEL_TRY(metered_, renderer_.meter());
+      for (const std::string& news : scene_->take_live_news()) say(news);
     }
     meter_.loading = scene_->images().state();  // with what the frame wanted
     adapt_exposure(metered_, dt_s, session_);
@@ -267,6 +262,8 @@ class Loop {
     if (!scene) return say("not loaded again: " + scene.error().text());
     auto poses = poses_at((*scene)->pack(), session_.moves, 0);
     if (!poses) return say("not loaded again: " + poses.error().text());
+    const auto lamps = lamps_at((*scene)->pack(), session_.moves);
+    if (!lamps) return say("not loaded again: " + lamps.error().text());
     if (beside_) {
       auto other = Other::open(arguments_.other, device_, {false, arguments_.gpu_memory});
       if (!other) return say("not loaded again: " + other.error().text());

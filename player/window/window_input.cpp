@@ -171,6 +171,7 @@ InputFrame WindowInput::poll(float dt_s) {
   out.clicked = std::exchange(clicked_, false);
   out.holding = !grabbed_ && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   out.turning = down(GLFW_KEY_R);
+  out.lamps = down(GLFW_KEY_L);
   out.escape = std::exchange(escape_, false);
   out.quit = std::exchange(quit_, false) || glfwWindowShouldClose(window_);
   return out;

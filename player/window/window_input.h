@@ -23,6 +23,7 @@ struct InputFrame {
   Vec2 pointer{0};
   bool clicked = false, holding = false;
   bool turning = false;  // R is down
+  bool lamps = false;    // L is
   std::optional<Vec2>
       go_to;  // a double click or the middle button: where, as the pointer; the middle while it is grabbed
 };

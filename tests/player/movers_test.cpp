@@ -298,8 +298,8 @@ TEST(Drag, FollowsTheLevel) {
   EXPECT_FALSE(on_level(down, 0.5f, 1));
   EXPECT_FALSE(on_level({{0, 2, 0}, {1, 0, 0}}, 0.5f, 10));
   std::vector<MoverMove> moves;
-  move_of(moves, plane_mover(), {{1, 2, 3}, {0, 0, 0, 1}}, DVec3(10, 0, 0)).yaw_rad = kPiD / 2;
-  EXPECT_EQ(text_of(move_of(moves, plane_mover(), {}, DVec3(0))), "leaf=11.000,2.000,3.000,90.0");
+  move_of(moves, plane_mover().name, DVec3(11, 2, 3)).yaw_rad = kPiD / 2;
+  EXPECT_EQ(text_of(move_of(moves, plane_mover().name, DVec3(0))), "leaf=11.000,2.000,3.000,90.0");
   EXPECT_EQ(moves.size(), 1u);
 }
 

@@ -105,6 +105,7 @@ const std::map<std::string, Try> kTries{
     {"Esc, Ctrl-Q", {"xdotool key --window $window ctrl+q; wait $pid; echo \"ended $?\"", "ended 0"}},
     // In tests of their own.
     {"drag a mover", {"true"}},
+    {"L, drag a lamp", {"true"}},
 };
 
 constexpr const char* kShell = R"(

@@ -1,0 +1,108 @@
+// Lights that stand for a lamp and for what it lights: instant radiosity (Keller 1997). Points on the lamp give its
+// direct light, points where random walks from it meet surfaces give the rest.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/assets/fresnel_map.h"
+#include "formats/assets/light_field.h"
+#include "formats/assets/material.h"
+#include "formats/query/live_options.h"
+#include "formats/query/mesh_rays.h"
+#include "formats/query/mover_pose.h"
+
+namespace oriel {
+
+// Shines with intensity · cosine from the front of a surface; without a normal to all sides alike.
+struct LiveLight {
+  Vec3 position{0}, normal{0};  // normal: unit, or 0
+  Vec3 intensity{0};            // cd, along the normal
+  float disk = 0;               // m²/π of the surface that it stands for
+  bool two_sided = false;
+  float cos_inner = -1, cos_outer = -1;  // of a spot about `axis`
+  Vec3 axis{0};
+};
+
+// Irradiance at a point of that unit normal as if nothing were between, lux. The surface that a light stands for counts
+// as a disk that faces the point (Wallace, Elmquist and Haines 1989, "A Ray Tracing Algorithm for Progressive
+// Radiosity"): so it is finite wherever the point is. missing: what the same light without extent would give more,
+// lux, or infinite.
+Vec3 unshadowed(const LiveLight& light, const Vec3& point, const Vec3& normal, Vec3* missing = nullptr);
+
+struct LiveLights {
+  std::vector<LiveLight> lights;  // the direct ones first
+  std::size_t direct = 0;         // of them
+  Vec3 flux{0};                   // of the lamp, lm
+  Vec3 left{0};                   // of it, what the surfaces where walks end would reflect of it once more, lm
+};
+
+// A lamp as the mesh has it, in pack space.
+struct LiveLamp {
+  std::vector<std::uint32_t> parts;  // of the mesh: those that shine; ascending
+  std::vector<Vec3> radiance;        // of each of them, cd/m²
+  std::vector<BrightLight> points;   // its point and spot lights
+};
+
+// A pack's surfaces, as far as light is concerned. All outlive who is given it.
+struct LiveSurfaces {
+  const Mesh& mesh;
+  std::span<const Material> materials;
+  std::span<const Texture> textures;
+  std::span<const FresnelMap> fresnel_maps;
+};
+
+// A lamp, and what stands still around it. A pose moves the lamp from where the mesh has it: pack space to pack space.
+// See-through surfaces are no obstacle; cut-outs are obstacles as a whole.
+class LampScene {
+ public:
+  // Copies positions: the mesh's may change.
+  LampScene(const LiveSurfaces& surfaces, LiveLamp lamp);
+
+  // By the same random numbers for every pose: what differs between two poses is the poses'.
+  LiveLights lights(const LiveOptions& options, const MoverPose& pose) const;
+  // What was last in the way of a light; of the scene and of the lamp. It saves time alone.
+  struct Blockers {
+    std::uint32_t still = ~0u, lamp = ~0u;
+  };
+  // Whether light comes from one place to the other, both off their surfaces.
+  bool sees(const Vec3& from, const Vec3& to, const Mat4& lamp_from_pack, Blockers& last) const;
+  // The part that the lamp's surface passes through, but does not where the mesh has it; empty: none.
+  std::string passes_through(const MoverPose& pose) const;
+  float luminous_flux() const { return chosen_.empty() ? 0.0f : chosen_.back(); }  // of the lamp, lm
+  // That rays keep from surfaces.
+  float offset_m() const { return offset_m_; }
+
+ private:
+  // A triangle of the lamp.
+  struct Piece {
+    Vec3 a{0}, ab{0}, ac{0}, normal{0};
+    Vec3 radiance{0};
+    float area = 0;
+    bool two_sided = false;
+  };
+  struct Start;
+  struct Surface;
+  Start start(std::uint32_t walk, const Mat4& pack_from_lamp) const;
+  Surface meet(const Vec3& from, const Vec3& direction, const Mat4& lamp_from_pack) const;
+  void add_direct(std::size_t count, const Mat4& pack_from_lamp, LiveLights& out) const;
+  // A point of the piece that stands for that area of it.
+  static void add_point(const Piece& piece, const Vec2& at, float area, const Mat4& pack_from_lamp, LiveLights& out);
+  std::vector<std::uint32_t> walks_by_bounce(std::size_t count, std::uint32_t bounces) const;
+  void add_walks(std::size_t count, std::uint32_t bounces, const MoverPose& pose, LiveLights& out) const;
+  Vec3 albedo(const TriangleHit& hit) const;
+
+  LiveSurfaces surfaces_;
+  LiveLamp lamp_;
+  std::vector<Vec3> reflectance_;  // by material: mean over the hemisphere
+  Mesh still_mesh_, lamp_mesh_;    // positions, indices and parts
+  MeshRays still_, lamp_rays_;
+  std::vector<Piece> pieces_;
+  std::vector<float> chosen_;  // sums of luminous flux of pieces, then of points: who is chosen
+  Vec3 flux_{0};
+  float area_ = 0, mean_albedo_ = 0;  // of what stands still
+  float offset_m_ = 0;
+};
+
+}  // namespace oriel

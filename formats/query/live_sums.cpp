@@ -1,0 +1,87 @@
+#include "formats/query/live_sums.h"
+
+#include <algorithm>
+
+#include "formats/core/check.h"
+#include "formats/core/color.h"
+
+namespace oriel {
+namespace {
+
+// Of lights that face the point.
+struct Seen {
+  std::size_t all = 0, seen = 0;
+  SeenLights sight() const {
+    return all == 0      ? SeenLights::kFacesNone
+           : seen == 0   ? SeenLights::kNone
+           : seen == all ? SeenLights::kAll
+                         : SeenLights::kSome;
+  }
+};
+
+}  // namespace
+
+PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose) {
+  return {scene.lights(options, pose), Mat4(glm::inverse(pack_from_object(pose)))};
+}
+
+LiveSum& LiveSum::operator+=(const LiveSum& other) {
+  now += other.now, baked += other.baked, missing += other.missing;
+  products += other.products, squares += other.squares;
+  return *this;
+}
+
+float LiveSum::kept() const {
+  return squares > 0 ? static_cast<float>(std::clamp(products / squares, 0.0, 1.0)) : 1.0f;
+}
+
+LiveSums::LiveSums(const LampScene& scene, const LightPair& lights)
+    : scene_(scene), lights_(lights), now_(lights.now.of.lights.size()), baked_(now_.size()) {
+  ORIEL_CHECK(now_.size() == lights.baked.of.lights.size() && lights.now.of.direct == lights.baked.of.direct);
+}
+
+LiveSum LiveSums::at(LivePart part, const Vec3& point, const Vec3& normal) {
+  const bool direct = part == LivePart::kDirect;
+  const std::size_t split = lights_.now.of.direct, first = direct ? 0 : split, end = direct ? split : now_.size();
+  const Vec3 from = point + scene_.offset_m() * normal;
+  const auto light_of = [&](const PosedLights& posed, std::size_t i, Seen& seen, Vec3* missing) {
+    const LiveLight& light = posed.of.lights[i];
+    const Vec3 given = unshadowed(light, point, normal, missing);
+    if (given == Vec3(0)) return given;
+    ++seen.all;
+    const float side = glm::dot(light.normal, from - light.position) < 0 ? -1.0f : 1.0f;
+    const Vec3 to = light.position + side * scene_.offset_m() * light.normal;
+    if (scene_.sees(from, to, posed.lamp_from_pack, (&posed == &lights_.now ? now_ : baked_)[i])) {
+      ++seen.seen;
+      return given;
+    }
+    if (missing != nullptr) *missing = Vec3(0);
+    return Vec3(0);
+  };
+  LiveSum out;
+  Seen seen_now, seen_baked;
+  for (std::size_t i = first; i < end; ++i) {
+    Vec3 missing(0);
+    const Vec3 a = light_of(lights_.now, i, seen_now, direct ? nullptr : &missing),
+               b = light_of(lights_.baked, i, seen_baked, nullptr);
+    out.now += a, out.baked += b;
+    if (is_finite(missing)) out.missing += missing;
+    const double x = luminance(a), y = luminance(b);
+    out.products += x * y, out.squares += y * y;
+  }
+  out.sees_now = seen_now.sight(), out.sees_baked = seen_baked.sight();
+  return out;
+}
+
+LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares) {
+  LiveSum out;
+  for (int c = 0; c < 4; ++c) {
+    const float weight = ((c & 1) != 0 ? shares.x : 1 - shares.x) * ((c & 2) != 0 ? shares.y : 1 - shares.y);
+    const LiveSum& corner = *corners[c];
+    out.now += weight * corner.now, out.baked += weight * corner.baked, out.missing += weight * corner.missing;
+    out.products += double{weight} * corner.products, out.squares += double{weight} * corner.squares;
+  }
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,56 @@
+// What live lights give points, now and where their lamp was baked.
+#pragma once
+
+#include "formats/query/live_lights.h"
+
+namespace oriel {
+
+// A lamp's lights at one pose.
+struct PosedLights {
+  LiveLights of;
+  Mat4 lamp_from_pack{1};
+};
+PosedLights pose_lights(const LampScene& scene, const LiveOptions& options, const MoverPose& pose);
+// now, baked: by the same options, so that lights of the same index belong together.
+struct LightPair {
+  const PosedLights &now, &baked;
+};
+
+enum class LivePart { kDirect, kIndirect };
+// How much is seen of the lights that face a point.
+enum class SeenLights : std::uint8_t { kNone, kSome, kAll, kFacesNone };
+
+// Irradiance, lux.
+struct LiveSum {
+  Vec3 now{0}, baked{0};
+  double products = 0, squares = 0;  // of the lights' luminances: now times baked, baked
+  SeenLights sees_now = SeenLights::kFacesNone, sees_baked = SeenLights::kFacesNone;
+  // Of `now`, what its indirect lights would give more without extent; without what is infinite.
+  Vec3 missing{0};
+
+  // Of both parts; what is seen is the first's.
+  LiveSum& operator+=(const LiveSum& other);
+  // How much of what the bake knows of the lamp here still tells about it, [0,1]: the coefficient of the regression,
+  // through the origin, of the lights now on the same ones as baked, as for control variates (Owen 2013, "Monte Carlo
+  // theory, methods and examples", section 8.9). Where nothing has changed it is 1 exactly; with nothing in common 0.
+  float kept() const;
+};
+
+// For one thread, point after point that lie together: what was in the way of a light is asked first for the next.
+class LiveSums {
+ public:
+  // All outlive it.
+  LiveSums(const LampScene& scene, const LightPair& lights);
+  // normal: unit. The same whatever was asked before.
+  LiveSum at(LivePart part, const Vec3& point, const Vec3& normal);
+
+ private:
+  const LampScene& scene_;
+  const LightPair lights_;
+  std::vector<LampScene::Blockers> now_, baked_;  // by light
+};
+
+// Between the four texels around, the shares (x, y) being those of the right and the lower ones.
+LiveSum mix_sums(const LiveSum* const (&corners)[4], const Vec2& shares);
+
+}  // namespace oriel

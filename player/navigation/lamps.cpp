@@ -1,0 +1,52 @@
+#include "player/navigation/lamps.h"
+
+#include <algorithm>
+
+#include "player/navigation/culling.h"
+
+namespace oriel {
+
+LampShape shape_of_lamp(const Pack& pack, const LightGroup& group) {
+  LampShape out;
+  Bounds bounds;
+  for (std::uint32_t p = 0; p < pack.mesh.parts.size(); ++p) {
+    const MeshPart& part = pack.mesh.parts[p];
+    if (std::ranges::find(group.materials, part.material) == group.materials.end()) continue;
+    out.parts.push_back(p);
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+      bounds.extend(pack.mesh.positions[pack.mesh.indices[i]]);
+  }
+  for (const std::uint32_t l : group.bright_lights) {
+    const BrightLight& light = pack.light_field.lights[l];
+    if (light.kind != BrightLightKind::kPoint && light.kind != BrightLightKind::kSpot) continue;
+    out.lights.push_back(l);
+    bounds.extend(light.position);
+  }
+  if (!bounds.empty()) out.centre = bounds.center();
+  return out;
+}
+
+Result<std::vector<MoverPose>> lamps_at(const Pack& pack, std::span<const MoverMove> moves) {
+  std::vector<MoverPose> poses;
+  for (const MoverMove& move : moves) {
+    if (std::ranges::find(pack.movers, move.node, &Mover::name) != pack.movers.end()) continue;
+    const auto group = std::ranges::find(pack.light_groups, move.node, &LightGroup::name);
+    if (group == pack.light_groups.end()) continue;
+    const LampShape lamp = shape_of_lamp(pack, *group);
+    if (lamp.empty())
+      return fail(ErrorCode::kUsage, "--move",
+                  "found the light group \"{}\", which has no shining surface and no point light that the pack knows; "
+                  "expected one with a lamp that can be moved",
+                  move.node);
+    poses.resize(pack.light_groups.size());
+    MoverPose& pose = poses[static_cast<std::size_t>(group - pack.light_groups.begin())];
+    pose = moved({}, move, pack.mesh.origin);
+    const Mat3 turn(pack_from_object(pose));
+    pose.position -= turn * lamp.centre;
+    // What is moved to where it is stays to the bit.
+    if (length2(pose.position) < 1e-12f && pose.rotation == Vec4(0, 0, 0, 1)) pose = {};
+  }
+  return poses;
+}
+
+}  // namespace oriel

@@ -1,0 +1,214 @@
+#include "player/scene/live_lamps.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
+
+#include "formats/core/color.h"
+#include "formats/core/parallel.h"
+#include "player/scene/live_page.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint32_t kCoarseShare = 16, kFewestCoarse = 16;  // of the lights, while a lamp is on its way
+
+}  // namespace
+
+std::string text_of(const LiveReport& report) {
+  std::string text = fmt::format(
+      "lamp \"{}\": {} live lights, {} on it, at {} points, {} of them between others, in {:.2f} s; {:.2f} % of its "
+      "light is cut near lights, {:.1f} % of its flux was not followed; {:.0f} % of the bake kept",
+      report.lamp, report.lights, report.direct, report.points, report.between, report.seconds, 100 * report.missing,
+      100 * report.left, 100 * report.kept);
+  if (!report.through.empty()) text += fmt::format("; it goes through \"{}\"", report.through);
+  if (report.reaches_nothing) text += "; its light reaches no surface: is it inside something?";
+  return text;
+}
+
+struct LiveLamps::Lamp {
+  std::unique_ptr<LampScene> scene;
+  std::vector<std::vector<PagePoint>> points;  // by page
+  std::vector<LightmapPage> pages;             // what live_change() wants of them
+  MoverPose wanted;
+  MoverPose told;           // that `added` is for
+  bool whole = true;        // it is of all lights
+  std::uint64_t stale = 0;  // calls since it was told otherwise than wanted
+  PageChanges added;        // with its light as it was baked
+};
+
+// One lamp's light at one pose.
+struct LiveLamps::Job {
+  std::size_t group = 0;
+  const Lamp* lamp = nullptr;
+  MoverPose pose;
+  LiveSettings settings;
+  bool coarse = false;
+  PosedLights now, baked;
+  std::atomic<bool> stop{false};
+  // What comes of it.
+  PageChanges added;
+  LiveReport report;
+  Status status;
+  std::future<void> done;  // last: what it writes outlives it
+
+  void run(const ImageSource& images);
+};
+
+void LiveLamps::Job::run(const ImageSource& images) {
+  const auto start = std::chrono::steady_clock::now();
+  LiveTotals totals;
+  for (std::size_t p = 0; p < lamp->points.size() && !stop; ++p) {
+    Result<PageChange> own = PageChange{};
+    if (settings.mode != LiveMode::kDifferential) own = images.light_of_group(static_cast<std::uint32_t>(p), group);
+    if (!own) {
+      status = tl::unexpected<Error>(own.error());
+      return;
+    }
+    added.push_back(live_change(
+        {*lamp->scene, {now, baked}, settings.mode, lamp->pages[p], lamp->points[p], *own, coarse, &stop}, totals));
+  }
+  report.lights = now.of.lights.size(), report.direct = now.of.direct;
+  report.points = static_cast<std::size_t>(totals.points), report.between = static_cast<std::size_t>(totals.between);
+  report.missing = totals.now > 0 ? static_cast<float>(totals.missing / totals.now) : 0.0f;
+  report.kept = totals.points > 0 ? static_cast<float>(totals.kept / totals.points) : 0.0f;
+  report.left = luminance(now.of.left) / std::max(luminance(now.of.flux), 1e-30f);
+  report.through = lamp->scene->passes_through(pose);
+  report.reaches_nothing = !now.of.lights.empty() && !(totals.now > 0);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+LiveLamps::LiveLamps(const Pack& pack, const ImageSource& images)
+    : pack_(pack), images_(images), lights_(pack.light_field.lights) {
+  for (const Material& material : pack.materials) emission_.push_back(material.emission);
+}
+
+LiveLamps::~LiveLamps() {
+  if (job_) job_->stop = true;
+}
+
+// Made when first moved.
+Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
+  std::unique_ptr<Lamp>& known = lamps_[group];
+  if (known) return known.get();
+  const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[group]);
+  auto lamp = std::make_unique<Lamp>();
+  LiveLamp live{shape.parts, {}, {}};
+  for (const std::uint32_t part : shape.parts) live.radiance.push_back(emission_[pack_.mesh.parts[part].material]);
+  for (const std::uint32_t light : shape.lights) live.points.push_back(lights_[light]);
+  lamp->scene = std::make_unique<LampScene>(
+      LiveSurfaces{pack_.mesh, pack_.materials, pack_.textures, pack_.fresnel_maps}, std::move(live));
+  for (std::uint32_t p = 0; p < pack_.lightmaps.size(); ++p) {
+    ORIEL_TRY(LightmapPage page, images_.whole_page(p));
+    lamp->points.push_back(page_points(pack_.mesh, shape.parts, p, page));
+    page.standard_error = {}, page.direction = {};
+    lamp->pages.push_back(std::move(page));
+  }
+  known = std::move(lamp);
+  return known.get();
+}
+
+// Its walks look at textures, which come while the job runs: they are made here.
+std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
+  auto job = std::make_unique<Job>();
+  const Lamp& lamp = *lamps_[group];
+  job->group = group, job->lamp = &lamp;
+  job->pose = lamp.wanted;
+  job->settings = settings;
+  job->coarse = coarse;
+  LiveOptions lights = settings.lights;
+  if (coarse) lights.lights = std::min(lights.lights, std::max(lights.lights / kCoarseShare, kFewestCoarse));
+  job->now = pose_lights(*lamp.scene, lights, lamp.wanted);
+  job->baked = pose_lights(*lamp.scene, lights, {});
+  job->report.lamp = pack_.light_groups[group].name;
+  return job;
+}
+
+// Whether it changed anything.
+bool LiveLamps::finish(Job& job) {
+  if (job.stop || !job.status) return false;
+  Lamp& lamp = *lamps_[job.group];
+  lamp.added = std::move(job.added);
+  lamp.told = job.pose;
+  lamp.whole = !job.coarse;
+  lamp.stale = 0;
+  if (lamp.whole) reports_.push_back(std::move(job.report));
+  return true;
+}
+
+Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettings& settings, bool in_background) {
+  bool changed = false;
+  const bool other_settings = settings_ != settings;
+  settings_ = settings;
+  for (std::size_t group = 0; group < poses.size(); ++group) {
+    if (is_rest(poses[group]) && !lamps_.contains(group)) continue;
+    ORIEL_TRY(Lamp* const lamp, lamp_of(group));
+    lamp->wanted = poses[group];
+    if (other_settings) lamp->whole = false;
+    if (is_rest(poses[group])) {
+      changed = changed || !lamp->added.empty();
+      lamp->added.clear();
+      lamp->told = poses[group], lamp->whole = true;
+    } else if (!in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
+      const auto job = begin(group, settings, false);
+      job->run(images_);
+      ORIEL_TRY_VOID(job->status);
+      changed = finish(*job) || changed;
+    }
+  }
+  if (!in_background) return changed;
+  ORIEL_TRY(const bool more, step_in_background(settings));
+  return changed || more;
+}
+
+Result<bool> LiveLamps::step_in_background(const LiveSettings& settings) {
+  bool changed = false;
+  if (job_) {
+    const Lamp& lamp = *lamps_[job_->group];
+    // Few lights are told though the lamp has gone on; many are not waited for.
+    if (is_rest(lamp.wanted) || (!job_->coarse && lamp.wanted != job_->pose)) job_->stop = true;
+    if (job_->done.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    const auto job = std::exchange(job_, nullptr);
+    ORIEL_TRY_VOID(job->status);
+    changed = finish(*job);
+  }
+  std::optional<std::size_t> next;
+  double most = -1;
+  for (auto& [group, lamp] : lamps_) {
+    const bool late = lamp->told != lamp->wanted;
+    if (!late && lamp->whole) continue;
+    // What has not followed at all comes before what is coarse.
+    const double rank = (late ? 1e12 : 1) * double{lamp->scene->luminous_flux()} * static_cast<double>(++lamp->stale);
+    if (rank > most) most = rank, next = group;
+  }
+  if (!next) return changed;
+  const bool coarse = lamps_[*next]->told != lamps_[*next]->wanted;
+  job_ = begin(*next, settings, coarse);
+  job_->done = std::async(std::launch::async, [job = job_.get(), this] { job->run(images_); });
+  return changed;
+}
+
+bool LiveLamps::ready() const {
+  return job_ && job_->done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::shared_ptr<const PageChanges> LiveLamps::changes(std::span<const Vec3> factors) const {
+  auto sum = std::make_shared<PageChanges>();
+  for (const auto& [group, lamp] : lamps_) {
+    if (!lamp) continue;
+    const Vec3 factor = group < factors.size() ? factors[group] : Vec3(1);
+    if (lamp->added.size() > sum->size()) sum->resize(lamp->added.size());
+    for (std::size_t p = 0; p < lamp->added.size(); ++p) {
+      const auto add = [&](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
+        to.resize(from.size(), Vec3(0));
+        for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+      };
+      add((*sum)[p].light, lamp->added[p].light), add((*sum)[p].detail, lamp->added[p].detail);
+    }
+  }
+  if (sum->empty()) return nullptr;
+  return sum;
+}
+
+}  // namespace oriel

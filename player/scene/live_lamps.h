@@ -1,0 +1,66 @@
+// The light of lamps that are not where they were baked, as what it changes in the lightmap: so all that reads the
+// lightmap shows it, from everywhere, and while nothing moves it costs nothing.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "formats/pack/pack.h"
+#include "formats/query/live_sums.h"
+#include "formats/query/page_points.h"
+#include "player/images/image_source.h"
+#include "player/navigation/lamps.h"
+#include "player/scene/frame_options.h"
+
+namespace oriel {
+
+// Of a lamp that was moved.
+struct LiveReport {
+  std::string lamp;
+  std::size_t lights = 0, direct = 0;   // the latter on the lamp
+  std::size_t points = 0, between = 0;  // the latter without rays of their own
+  double seconds = 0;
+  float missing = 0;    // over the light that it gives: what lights' extent takes of it near them
+  float left = 0;       // of its flux, what walks did not follow
+  float kept = 0;       // mean share of what the bake knows of it that still counts
+  std::string through;  // the part that it goes through; empty: none
+  bool reaches_nothing = false;
+};
+std::string text_of(const LiveReport& report);
+
+class LiveLamps {
+ public:
+  // Of a pack as it was baked: its lamps may then shine otherwise. Both outlive it.
+  LiveLamps(const Pack& pack, const ImageSource& images);
+  ~LiveLamps();
+
+  // By light group; with as many poses. Whether light is otherwise than at the last call. What is not in the background
+  // takes seconds for each lamp that moved. In the background light follows in two steps, of few lights and of all, one
+  // lamp after the other: the one of most flux, times the calls since it was last told, first. Errors of images.
+  Result<bool> place(std::span<const MoverPose> poses, const LiveSettings& settings, bool in_background);
+  // Whether the next place() in the background has more to show, or to begin.
+  bool ready() const;
+  // What is added to pages where each group's lamps shine so many times as they were baked; null: nothing.
+  std::shared_ptr<const PageChanges> changes(std::span<const Vec3> factors) const;
+  // Of lamps whose light is all there, each once.
+  std::vector<LiveReport> take_reports() { return std::exchange(reports_, {}); }
+
+ private:
+  struct Lamp;
+  struct Job;
+  Result<Lamp*> lamp_of(std::size_t group);
+  std::unique_ptr<Job> begin(std::size_t group, const LiveSettings& settings, bool coarse);
+  bool finish(Job& job);
+  Result<bool> step_in_background(const LiveSettings& settings);
+
+  const Pack& pack_;
+  const ImageSource& images_;
+  std::vector<Vec3> emission_;                          // by material
+  std::vector<BrightLight> lights_;                     // of the light field
+  std::map<std::size_t, std::unique_ptr<Lamp>> lamps_;  // that were ever moved, by group
+  LiveSettings settings_;
+  std::vector<LiveReport> reports_;
+  std::unique_ptr<Job> job_;  // in the background
+};
+
+}  // namespace oriel

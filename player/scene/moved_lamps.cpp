@@ -1,0 +1,101 @@
+// Lamps that shine otherwise than they were baked, or from elsewhere.
+#include <algorithm>
+#include <atomic>
+
+#include "player/scene/gpu_scene.h"
+#include "player/scene/live_lamps.h"
+
+namespace oriel {
+namespace {
+
+// A part's vertices where its lamp is.
+void place_part(const Mesh& baked, const MeshPart& part, const Mat4& pose, std::vector<Vec3>& positions,
+                std::vector<Vec3>& normals) {
+  for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+    const std::uint32_t v = baked.indices[i];
+    positions[v] = Vec3(pose * Vec4(baked.positions[v], 1));
+    normals[v] = Mat3(pose) * baked.normals[v];
+  }
+}
+
+}  // namespace
+
+std::uint64_t next_scene_serial() {
+  static std::atomic<std::uint64_t> scenes{0};
+  return ++scenes;
+}
+
+GpuScene::~GpuScene() = default;
+
+bool GpuScene::has_live_news() const {
+  return live_->ready();
+}
+
+std::vector<std::string> GpuScene::take_live_news() {
+  std::vector<std::string> news;
+  for (const LiveReport& report : live_->take_reports()) news.push_back(text_of(report));
+  return news;
+}
+
+Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverPose> poses, const LiveSettings& live) {
+  const std::size_t groups = pack_.light_groups.size();
+  std::vector<Vec3> wanted(groups, Vec3(1));
+  if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
+  std::vector<MoverPose> places(groups);
+  if (poses.size() == groups) places.assign(poses.begin(), poses.end());
+  ORIEL_TRY(const bool other_light, live_->place(places, live, images_->in_background()));
+  if (wanted == lights_ && !other_light && places == lamps_) return {};
+  lights_ = std::move(wanted);
+  serial_ = next_scene_serial();
+  baked_.shine(lights_, pack_);
+  if (places != lamps_) move_lamps(places);
+  for (GpuReflector& r : reflectors_)
+    r.emitters = upload_emitters(pack_, pack_.reflectors[r.index], r.reflector_from_pack, r.size);
+  MapFactors of_maps;
+  for (std::size_t r = 0; r < pack_.reflectors.size(); ++r)
+    of_maps.reflectors.push_back(mean_factor(pack_, lights_, &LightGroup::reflectors, r));
+  for (std::size_t m = 0; m < pack_.surround_maps.size(); ++m)
+    of_maps.surrounds.push_back(mean_factor(pack_, lights_, &LightGroup::surrounds, m));
+  return images_->set_lights(lights_, std::move(of_maps), live_->changes(lights_));
+}
+
+// What is drawn of them. The pack's mesh stays as it was baked: poses count from there.
+void GpuScene::move_lamps(std::span<const MoverPose> poses) {
+  make_fewer();  // it reads ranges meanwhile
+  geometry_serial_ = next_scene_serial();
+  std::vector<Vec3> positions = pack_.mesh.positions, normals = pack_.mesh.normals;
+  std::vector<Bounds> bounds(pack_.materials.size());  // of moved materials, each of one group
+  for (std::size_t g = 0; g < poses.size(); ++g) {
+    const Mat4 pose(pack_from_object(poses[g])), before(pack_from_object(lamps_[g]));
+    const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[g]);
+    if (is_rest(poses[g]) && is_rest(lamps_[g])) continue;
+    for (const std::uint32_t p : shape.parts) {
+      const MeshPart& part = pack_.mesh.parts[p];
+      place_part(pack_.mesh, part, pose, positions, normals);
+      for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+        bounds[part.material].extend(positions[pack_.mesh.indices[i]]);
+    }
+    // Polygons of reflectors and movers go with it.
+    const Mat4 change = pose * glm::inverse(before);
+    for (const std::uint32_t e : pack_.light_groups[g].emitters)
+      for (Vec3& corner : pack_.emitters[e].corners) corner = Vec3(change * Vec4(corner, 1));
+    for (const std::uint32_t b : pack_.light_groups[g].bright_lights)
+      for (Vec3& corner : pack_.light_field.lights[b].corners) corner = Vec3(change * Vec4(corner, 1));
+  }
+  const auto follow = [&](std::vector<DrawRange>& ranges) {
+    for (DrawRange& range : ranges) {
+      if (bounds[range.material].empty()) continue;
+      range.bounds = bounds[range.material];
+      range.group = DrawRange::kNoGroup;  // seen from elsewhere too
+      bounds_.extend(range.bounds);
+    }
+  };
+  follow(opaque_), follow(transparent_);
+  for (std::vector<DrawRange>& ranges : emitters_) follow(ranges);
+  if (fewer_) fewer_->follow(bounds);
+  buffers_[0].replace(GLenum{GL_ARRAY_BUFFER}, std::span<const Vec3>(positions));
+  buffers_[1].replace(GLenum{GL_ARRAY_BUFFER}, std::span<const Vec3>(normals));
+  lamps_.assign(poses.begin(), poses.end());
+}
+
+}  // namespace oriel

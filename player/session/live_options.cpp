@@ -1,0 +1,24 @@
+#include "player/session/live_options.h"
+
+#include "player/session/option_names.h"
+
+namespace oriel {
+
+std::vector<Option> live_options(const char* group, LiveSettings& out) {
+  return {
+      {"--live", group,
+       "What the bake knows of a lamp that --move has put elsewhere: as much of it as its live lights say still tells "
+       "(fitted), all of it, what live lights give now less what they gave before being added (differential), or "
+       "nothing (only)",
+       choice(out.mode, kLiveModes), Use::kRare, "live"},
+      {"--live-lights", group,
+       "Lights that stand for a lamp that was moved, and for what it lights: more are smoother and slower",
+       number(out.lights.lights, 0, kMostLiveLights), Use::kRare, "live_lights"},
+      {"--live-direct", group, "The share of them on the lamp itself; the others are where its light bounces",
+       number(out.lights.direct_share, 0, 1), Use::kRare, "live_direct"},
+      {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone",
+       number(out.lights.bounces, 0, kMostLiveBounces), Use::kRare, "live_bounces"},
+  };
+}
+
+}  // namespace oriel
