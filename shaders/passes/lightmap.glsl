@@ -16,21 +16,43 @@ uniform bool u_directional;
 
 centroid in vec3 v_lightmap_uv;
 
-// Between the four texels around, or, in a finer cell, between its own points. Where a pixel is as large as a step between
-// these they would flicker: the cell fades to its texels until it is as large as their distance.
+const float kFullyFine = 1.5;  // steps between places up to which all points show: bilinear ones are two wide
+
+// The finest that is known at a place, in texels from the centre of the first: between a finer cell's own points, or texels.
+vec3 finest_light(vec2 at) {
+  vec2 size = vec2(textureSize(u_lightmap, 0));
+  at = clamp(at, vec2(0.0), size - 1.0);
+  vec2 corner = min(floor(at), max(size - 2.0, vec2(0.0)));
+  DetailBlock block = detail_block(texelFetch(u_cells, ivec2(corner), 0).r);
+  if (block.side < 1.5) return textureLod(u_lightmap, (at + 0.5) / size, 0.0).rgb;
+  vec2 place = (block.first + (at - corner) * block.side + 0.5) / vec2(textureSize(u_detail, 0));
+  return textureLod(u_detail, place, 0.0).rgb;
+}
+
+// A pixel that is wider than a cell's step is averaged over four places, in a row where it is long, else in a square. Where
+// these are too few points would flicker: the cell fades to its texels until places are as far from each other as they.
 vec3 lightmap_at(vec2 uv) {
   vec3 light = texture(u_lightmap, uv).rgb;
   if (!u_detailed) return light;
-  vec2 at = uv * vec2(textureSize(u_lightmap, 0)) - 0.5;
-  vec2 footprint = fwidth(at);
-  vec2 last = vec2(textureSize(u_lightmap, 0) - 1);
-  at = clamp(at, vec2(0.0), last);
-  vec2 corner = min(floor(at), max(last - 1.0, vec2(0.0)));
-  DetailBlock block = detail_block(texelFetch(u_cells, ivec2(corner), 0).r);
-  if (block.side < 1.5) return light;
-  vec2 place = (block.first + (at - corner) * block.side + 0.5) / vec2(textureSize(u_detail, 0));
-  float steps = max(footprint.x, footprint.y) * block.side;
-  return mix(textureLod(u_detail, place, 0.0).rgb, light, clamp(log2(max(steps, 1.0)) / log2(block.side), 0.0, 1.0));
+  vec2 size = vec2(textureSize(u_lightmap, 0));
+  vec2 at = uv * size - 0.5;
+  vec2 dx = dFdx(at), dy = dFdy(at);
+  vec2 corner = min(floor(clamp(at, vec2(0.0), size - 1.0)), max(size - 2.0, vec2(0.0)));
+  float side = detail_block(texelFetch(u_cells, ivec2(corner), 0).r).side;
+  if (side < 1.5) return light;
+  bool along_x = dot(dx, dx) > dot(dy, dy);
+  vec2 longer = along_x ? dx : dy, shorter = along_x ? dy : dx;
+  float length_of_longer = length(longer);
+  if (length_of_longer * side <= 1.0) return finest_light(at);
+  bool row = length_of_longer > 2.0 * length(shorter);
+  float apart = row ? max(0.25 * length_of_longer, length(shorter)) : 0.5 * length_of_longer;
+  if (apart >= 1.0) return light;
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < 4; ++k) {
+    vec2 place = row ? vec2(0.25 * float(k) - 0.375, 0.0) : vec2(0.5 * float(k & 1) - 0.25, 0.5 * float(k >> 1) - 0.25);
+    sum += finest_light(at + place.x * longer + place.y * shorter);
+  }
+  return mix(0.25 * sum, light, clamp(log2(max(apart * side / kFullyFine, 1.0)) / log2(side / kFullyFine), 0.0, 1.0));
 }
 
 // Lightmaps hold the light of fronts: a back that is lit is a surface of its own.

@@ -113,7 +113,7 @@ TEST(Report, EverySectionMayBeAbsent) {
   const std::vector<void (*)(Pack&)> takers = {
       [](Pack& p) { p.provenance.clear(); },
       [](Pack& p) { p.plan.clear(); },
-      [](Pack& p) { p.light_groups.clear(), p.page_groups.clear(); },
+      [](Pack& p) { p.light_groups.clear(), p.page_groups.clear(), p.day = {}; },
       [](Pack& p) { p.radiance_maps.clear(), p.map_meshes.clear(), p.reflectors.clear(), p.emitters.clear(); },
       [](Pack& p) { p.curved_reflectors.clear(), p.surround_maps.clear(); },
       [](Pack& p) {
@@ -128,7 +128,7 @@ TEST(Report, EverySectionMayBeAbsent) {
   Pack bare = full_pack();
   for (const auto take : takers) {
     Pack pack = full_pack();
-    pack.light_groups.clear(), pack.page_groups.clear();  // they tell of all that is taken
+    pack.light_groups.clear(), pack.page_groups.clear(), pack.day = {};  // they tell of all that is taken
     take(pack);
     take(bare);
     EXPECT_THAT(page_of(pack), HasSubstr("</html>"));
