@@ -5,6 +5,7 @@
 #include "bake/run/option_table.h"
 #include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
+#include "bake/run/prepare.h"
 #include "bake/run/view_options.h"
 #include "formats/image/exr.h"
 #include "formats/query/camera_notes.h"
@@ -30,6 +31,7 @@ struct RenderArguments {
   std::string camera;  // as written; empty: the scene's first
   std::vector<MoverMove> moves;
   ImportOptions import;
+  bool guess_unit = true;  // as a bake does: eyes are in the pack's metres
   ReferenceOptions frame{.width = 1280, .height = 720, .samples = 256};
   bool reproducible = false;  // the same pixels on every CPU type
 };
@@ -47,12 +49,26 @@ Status move_movers(std::span<const MoverMove> moves, Scene& scene) {
   return {};
 }
 
+Result<ImportedScene> import_in_metres(const RenderArguments& args, Context& context) {
+  ORIEL_TRY(ImportedScene imported, import_gltf(args.scene, args.import, context));
+  if (!args.guess_unit) return imported;
+  ORIEL_TRY(const Accel accel, Accel::build(imported.scene, {args.reproducible, thread_count(context)}));
+  const auto unit_m = guessed_unit(accel, args.import.unit_m, context);
+  if (!unit_m) return imported;
+  ImportOptions again = args.import;
+  again.unit_m = *unit_m;
+  const auto warn = std::exchange(context.warn, nullptr);  // all was said before
+  auto scaled = import_gltf(args.scene, again, context);
+  context.warn = warn;
+  return scaled;
+}
+
 Status run_render(const RenderArguments& args, BakeSession& session) {
   Context& context = session.context;
   stop_on_signals(context, args.output, OnStop::kStop);
   session.less_memory = "a smaller --size";
   ORIEL_TRY_VOID(check_output(args.output, inputs_of(args.scene, args.import)));
-  ORIEL_TRY(ImportedScene imported, import_gltf(args.scene, args.import, context));
+  ORIEL_TRY(ImportedScene imported, import_in_metres(args, context));
   ORIEL_TRY_VOID(move_movers(args.moves, imported.scene));
   const Scene& scene = imported.scene;
   ORIEL_TRY(const Camera camera, choose_camera(scene, args.camera));
@@ -114,6 +130,7 @@ ToolCommand render_command(BakeSession& session) {
       .options = frame_options(*args)};
   out.options.push_back(mover_option(args->import));
   append(out.options, light_options(args->import));
+  out.options.push_back(unit_option(args->import, args->guess_unit));
   append(out.options, scene_options(args->import, args->reproducible));
   append(out.options, run_options(session));
   out.settle = [args](const Given& given) -> Status {

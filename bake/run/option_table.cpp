@@ -303,6 +303,18 @@ std::vector<Option> scene_options(ImportOptions& import, bool& reproducible) {
   };
 }
 
+Option unit_option(ImportOptions& import, bool& guess) {
+  return {
+      "--unit",
+      kScene,
+      "What a unit of the file is: auto (metres, as glTF has it, unless rooms are as high as towers or matchboxes), "
+      "mm, cm, in, ft, m, km. Light on surfaces stays what it is",
+      unit(import.unit_m, guess),
+      Use::kRare,
+      "unit_m",
+      "conventions.md"};
+}
+
 std::vector<Option> bake_options(BakeOptions& o) {
   std::vector<Option> options = atlas_options(o);
   append(options, radiosity_options(o));
@@ -315,10 +327,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
   append(options, reflection_options(o));
   options.push_back(mover_option(o.import));
   append(options, transfer_options(o));
-  options.push_back({"--unit", kScene,
-                     "What a unit of the file is: auto (metres, as glTF has it, unless rooms are as high as towers or "
-                     "matchboxes), mm, cm, in, ft, m, km. Light on surfaces stays what it is",
-                     unit(o), Use::kRare, "unit_m", "conventions.md"});
+  options.push_back(unit_option(o.import, o.guess_unit));
   append(options, scene_options(o.import, o.reproducible));
   return options;
 }
@@ -340,6 +349,13 @@ Status settle(BakeOptions& o, const Given& given) {
     if (!given.has("--error")) r.most_rays = kDefaultMostRays;
   }
   if (!o.memory_given) o.memory_bytes = free_memory() / 2;
+  const DayOptions& day = o.import.day;
+  if (day.wanted && day.from_h < day.to_h && (r.estimator != Estimator::kCached || r.hidden == Hidden::kBlack))
+    return fail(
+        ErrorCode::kUsage, "--hours " + hours_text(day),
+        "found several hours with {}, expected --estimator cached, which tells whose light it is; one hour goes "
+        "with any",
+        r.estimator != Estimator::kCached ? "another estimator" : "--hidden-black");
   const bool artist = o.atlas.source == AtlasOptions::Source::kUv1;
   if (!artist && o.atlas.resolution > 0 && given.has("--texel"))
     return fail(ErrorCode::kUsage, "",

@@ -19,6 +19,8 @@ std::vector<Option> light_options(ImportOptions& import);
 Option mover_option(ImportOptions& import);
 // Which scene of the file, and how it is read and traced.
 std::vector<Option> scene_options(ImportOptions& import, bool& reproducible);
+// What a unit of the file is; guess: whether rooms are to tell (guessed_unit).
+Option unit_option(ImportOptions& import, bool& guess);
 // All that can change a pack.
 std::vector<Option> bake_options(BakeOptions& options);
 // Once these are set: what follows from several of them. Error kUsage where they contradict.

@@ -207,13 +207,12 @@ OptionValue light_groups(BakeOptions& o) {
           }};
 }
 
-OptionValue unit(BakeOptions& o) {
-  OptionValue value =
-      choice(o.import.unit_m,
-             Names<double>{{"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}, {"km", 1000}});
-  value.json = json_of(o.import.unit_m);
+OptionValue unit(double& unit_m, bool& guess) {
+  OptionValue value = choice(
+      unit_m, Names<double>{{"mm", 0.001}, {"cm", 0.01}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}, {"km", 1000}});
+  value.json = json_of(unit_m);
   const std::string type = value.type;
-  return or_auto(o.guess_unit, type, std::move(value));
+  return or_auto(guess, type, std::move(value));
 }
 
 }  // namespace oriel

@@ -27,7 +27,7 @@ OptionValue views(BakeOptions& o);
 OptionValue eyes(BakeOptions& o);
 OptionValue map_price(BakeOptions& o);
 OptionValue self_shadow(BakeOptions& o);
-OptionValue unit(BakeOptions& o);
+OptionValue unit(double& unit_m, bool& guess);
 OptionValue light_groups(BakeOptions& o);
 OptionValue sky(ImportOptions& o);
 OptionValue day(ImportOptions& o);

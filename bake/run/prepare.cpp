@@ -44,18 +44,13 @@ Status import_scene(const BakeOptions& options, double unit_m, Stopwatch& timed,
   return build_accel(options, timed, context, prepared);
 }
 
-// Rooms as high as a tower, or as a matchbox: the file means another unit. What people are, see and walk is in metres.
+// What people are, see and walk is in metres.
 Status settle_unit(const BakeOptions& options, Stopwatch& timed, Context& context, PreparedScene& prepared) {
-  const auto guess = guess_unit(*prepared.accel);
-  if (!guess) return {};
+  const auto unit_m = guessed_unit(*prepared.accel, options.import.unit_m, context);
+  if (!unit_m) return {};
   prepared.unit_guessed = true;
-  context.warning(
-      {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
-                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
-                   guess->room_height * options.import.unit_m, guess->metres * options.import.unit_m),
-       WarningKind::kUnitGuessed});
   auto warn = std::exchange(context.warn, nullptr);  // all was said before
-  const Status again = import_scene(options, guess->metres * options.import.unit_m, timed, context, prepared);
+  const Status again = import_scene(options, *unit_m, timed, context, prepared);
   context.warn = std::move(warn);
   return again;
 }
@@ -156,6 +151,17 @@ bool choose_directional(const Scene& scene, Directional wanted, std::vector<Warn
                              ? "directional lightmaps: left out by --directional off; normal maps tilt reflections only"
                              : "directional lightmaps: no material has a normal map");
   return false;
+}
+
+std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& context) {
+  const auto guess = guess_unit(accel);
+  if (!guess) return std::nullopt;
+  context.warning(
+      {fmt::format("the scene's rooms are typically {:.3g} m high, and a person of 1.8 m stands in none: one unit of "
+                   "the file is taken to be {:g} m, light on surfaces stays what it is; --unit m keeps metres",
+                   guess->room_height * unit_m, guess->metres * unit_m),
+       WarningKind::kUnitGuessed});
+  return guess->metres * unit_m;
 }
 
 Result<PreparedScene> prepare_scene(const BakeOptions& options, Stopwatch& timed, Context& context) {

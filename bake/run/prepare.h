@@ -29,6 +29,10 @@ struct PreparedScene {
   const Scene& scene() const { return imported->scene; }
 };
 
+// Metres that a unit of the file is taken to be, where its rooms tell that it is not unit_m: as high as a tower, or as
+// a matchbox. Warns then.
+std::optional<double> guessed_unit(const Accel& accel, double unit_m, Context& context);
+
 // Imports the scene (again, where its numbers cannot be metres), takes the movers out of it, finds how tall people are
 // and where they can be, cuts what is near and far at once, splits the double-sided surfaces by the light on their
 // sides. Errors as those stages give them.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kRadians = kPiD / 180;
 constexpr float kSunRadius_rad = 0.2665f * (kPi / 180);
-constexpr std::uint32_t kSkyRows = 256;  // 0.7°: but for the sun's own disk a sky changes over ten degrees
-constexpr double kShortestStep_h = 1.0 / 60;
+constexpr std::uint32_t kSkyRows = 256;       // 0.7°: but for the sun's own disk a sky changes over ten degrees
+constexpr double kShortestStep_h = 2.0 / 60;  // hours are named by the minute
 
 // The whole text.
 bool read_number(std::string_view text, double& value) {
@@ -20,7 +20,8 @@ bool read_number(std::string_view text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-// "+02:00" at the end: taken off the text, hours ahead of UTC.
+// "+02:00" at the end: taken off the text, hours ahead of UTC. What may as well be a later hour, as in "8-12:00", is
+// none.
 std::optional<double> take_offset(std::string& text) {
   if (text.size() < 6 || text[text.size() - 3] != ':') return std::nullopt;
   const std::size_t at = text.size() - 6;
@@ -28,6 +29,8 @@ std::optional<double> take_offset(std::string& text) {
   if ((text[at] != '+' && text[at] != '-') || !read_number(text.substr(at + 1, 2), hours) ||
       !read_number(text.substr(at + 4, 2), minutes) || minutes >= 60)
     return std::nullopt;
+  double before = 0;
+  if (text[at] == '-' && read_number(text.substr(0, at), before) && hours >= before) return std::nullopt;
   const double offset = (text[at] == '-' ? -1 : 1) * (hours + minutes / 60);
   text.resize(at);
   return offset;
@@ -166,7 +169,8 @@ Status parse_hours(const std::string& text, DayOptions& options) {
     return fail(ErrorCode::kUsage, "", "found hours from {:g} to {:g}, expected the earlier one first", read.from_h,
                 read.to_h);
   if (!(read.step_h >= kShortestStep_h))
-    return fail(ErrorCode::kUsage, "", "found a step of {:g} hours, expected a minute at least, as /0.5", read.step_h);
+    return fail(ErrorCode::kUsage, "", "found a step of {:g} hours, expected two minutes at least, as /0.5",
+                read.step_h);
   read.solar_time = !offset;
   read.utc_offset_h = offset.value_or(0);
   options = read;

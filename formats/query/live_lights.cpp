@@ -343,10 +343,14 @@ LiveLights LampScene::lights(const LiveOptions& options, const MoverPose& pose) 
   LiveLights out;
   out.flux = flux_;
   const float share = std::clamp(options.direct_share, 0.0f, 1.0f);
-  const auto direct = static_cast<std::size_t>(std::lround(share * static_cast<float>(options.lights)));
-  add_direct(options.bounces == 0 ? options.lights : direct, Mat4(pack_from_object(pose)), out);
+  // Each point light has one, and all surfaces together: fewer would leave out light.
+  const bool any = options.lights > 0 && (share > 0 || options.bounces == 0);
+  const std::size_t least = any ? lamp_.points.size() + (pieces_.empty() ? 0 : 1) : 0;
+  const auto asked = static_cast<std::size_t>(std::lround(share * static_cast<float>(options.lights)));
+  const std::size_t direct = std::max(options.bounces == 0 ? options.lights : asked, least);
+  add_direct(direct, Mat4(pack_from_object(pose)), out);
   out.direct = out.lights.size();
-  if (options.bounces > 0) add_walks(options.lights - direct, options.bounces, pose, out);
+  if (options.bounces > 0 && options.lights > direct) add_walks(options.lights - direct, options.bounces, pose, out);
   return out;
 }
 

@@ -121,7 +121,8 @@ void fill_from_neighbours(const LightmapPage& page, std::vector<std::uint8_t>& k
   const int width = static_cast<int>(page.width), height = static_cast<int>(page.height);
   std::vector<std::uint32_t> pending;
   for (std::uint32_t i = 0; i < page.state.size(); ++i)
-    if (known[i] == 0 && page.state[i] != TexelState::kEmpty) pending.push_back(i);
+    if (known[i] == 0 && page.state[i] != TexelState::kEmpty && page.state[i] != TexelState::kValid)
+      pending.push_back(i);
   while (!pending.empty()) {
     std::vector<std::uint32_t> left, filled;
     for (const std::uint32_t texel : pending) {

@@ -257,7 +257,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
                                                      std::span<const PlacedMover> movers, const FrameOptions& options,
                                                      FrameStats& stats) {
   const std::vector<LitMovers> lights =
-      find_lit(scene.pack().light_field.lights, movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
+      find_lit(scene.bright_lights(), movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   if (lights.empty()) return std::nullopt;
   const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
   Known now{scene.serial(),       view.clip_from_pack,  view.width,           view.height,

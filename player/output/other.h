@@ -44,6 +44,8 @@ class Other {
   Renderer& renderer() { return *renderer_; }
   // Of a pack's images, on the device. They come with draw().
   std::uint64_t image_bytes() const { return scene_ ? scene_->images().state().used : 0; }
+  // Whether draw() has more light to show of lamps that moved.
+  bool has_live_news() const { return scene_ && scene_->has_live_news(); }
   // Any other RGBA picture instead, as Renderer::take_light().
   Status show(const FloatImage& rgba);
 

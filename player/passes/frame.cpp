@@ -133,6 +133,8 @@ Status Renderer::draw_see_through(GpuScene& scene, const View& view, const Scene
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
   in_window_ = false;
+  // Light of moved lamps is that of the textures that are there.
+  if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.aim(view));
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);

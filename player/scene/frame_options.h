@@ -37,6 +37,7 @@ enum class LiveMode { kFitted, kDifferential, kOnly };
 struct LiveSettings {
   LiveOptions lights;
   LiveMode mode = LiveMode::kFitted;
+  bool in_background = false;  // light of lamps that moved comes later, coarse before fine; else a frame waits for it
 
   bool operator==(const LiveSettings&) const = default;
 };

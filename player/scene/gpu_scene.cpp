@@ -65,6 +65,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(DeferredPack pack, const gpu:
   scene->serial_ = scene->geometry_serial_ = next_scene_serial();
   scene->pack_ = std::move(pack.pack);
   scene->baked_ = BakedLamps(scene->pack_);
+  scene->bright_lights_ = scene->pack_.light_field.lights;
   scene->lamps_.resize(scene->pack_.light_groups.size());
   scene->lights_.assign(scene->pack_.light_groups.size(), Vec3(1));
   scene->map_meshes_ = GpuMapMeshes(scene->pack_.map_meshes.size());
@@ -229,7 +230,9 @@ std::vector<Error> GpuScene::advance_all(SceneImages::Clock::time_point until) {
 
 // For those who look at texels, not at textures.
 void GpuScene::keep_texels() {
-  for (auto& [index, texture] : images_->take_texels()) pack_.textures[index].texels = std::move(texture.texels);
+  auto texels = images_->take_texels();
+  for (auto& [index, texture] : texels) pack_.textures[index].texels = std::move(texture.texels);
+  if (live_ && !texels.empty()) live_->look_again();
 }
 
 void GpuScene::make_emitters(std::vector<std::uint32_t>& indices) {

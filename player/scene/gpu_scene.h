@@ -112,6 +112,8 @@ class GpuScene {
   SeenMask seen_from(const Vec3& eye) const { return seen_groups_.from(eye); }
   // The opaque triangles of one of Pack::emitters.
   const std::vector<DrawRange>& emitter(std::uint32_t index) const { return emitters_[index]; }
+  // Of the pack, as they shine and where they are.
+  const std::vector<BrightLight>& bright_lights() const { return bright_lights_; }
   const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
   bool is_transparent(std::uint32_t material) const;
 
@@ -209,8 +211,9 @@ class GpuScene {
   std::map<std::tuple<std::int32_t, std::int32_t, KernelPlace, bool>, GpuKernel> kernels_;
   GpuMapMeshes map_meshes_;
   BakedLamps baked_;
-  std::vector<Vec3> lights_;             // by group
-  std::vector<MoverPose> lamps_;         // by group: where the drawn ones are
+  std::vector<Vec3> lights_;      // by group
+  std::vector<MoverPose> lamps_;  // by group: where the drawn ones are
+  std::vector<BrightLight> bright_lights_;
   std::unique_ptr<SceneImages> images_;  // reads pack_
   std::unique_ptr<LiveLamps> live_;      // reads both
 };

@@ -1,10 +1,13 @@
 #include "player/scene/lights.h"
 
+#include "player/navigation/lamps.h"
+
 namespace oriel {
 
 BakedLamps::BakedLamps(const Pack& pack) : sky_(pack.sky) {
   for (const Material& m : pack.materials) emission_.push_back(m.emission);
-  for (const Emitter& emitter : pack.emitters) emitters_.push_back(emitter.radiance);
+  for (const Emitter& emitter : pack.emitters)
+    emitters_.push_back(emitter.radiance), corners_.push_back(emitter.corners);
   for (const BrightLight& light : pack.light_field.lights) bright_.push_back(light.intensity);
   for (const LightProbe& probe : pack.light_field.probes) harmonics_.push_back(probe.sh);
 }
@@ -24,6 +27,33 @@ void BakedLamps::shine(std::span<const Vec3> factors, Pack& pack) const {
     const std::size_t each = sh.size() / 3;
     for (std::size_t k = 0; k < sh.size(); ++k) sh[k] = factor[static_cast<int>(k / each)] * harmonics_[p][k];
   }
+}
+
+void BakedLamps::place(std::span<const MoverPose> poses, Pack& pack) const {
+  for (std::size_t g = 0; g < poses.size(); ++g) {
+    const Mat4 pose(pack_from_object(poses[g]));
+    for (const std::uint32_t e : pack.light_groups[g].emitters) {
+      pack.emitters[e].corners = corners_[e];
+      if (is_rest(poses[g])) continue;
+      for (Vec3& corner : pack.emitters[e].corners) corner = Vec3(pose * Vec4(corner, 1));
+    }
+  }
+}
+
+std::vector<BrightLight> placed_lights(const Pack& pack, std::span<const MoverPose> poses) {
+  std::vector<BrightLight> lights = pack.light_field.lights;
+  for (std::size_t g = 0; g < poses.size(); ++g) {
+    if (is_rest(poses[g])) continue;
+    const Mat4 pose(pack_from_object(poses[g]));
+    for (const std::uint32_t b : pack.light_groups[g].bright_lights) {
+      BrightLight& light = lights[b];
+      if (light.kind == BrightLightKind::kDirectional) continue;  // it shines from everywhere alike
+      light.position = Vec3(pose * Vec4(light.position, 1));
+      light.direction = Mat3(pose) * light.direction;
+      for (Vec3& corner : light.corners) corner = Vec3(pose * Vec4(corner, 1));
+    }
+  }
+  return lights;
 }
 
 Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,

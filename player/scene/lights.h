@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/pack/pack.h"
+#include "formats/query/mover_pose.h"
 
 namespace oriel {
 
@@ -18,15 +19,22 @@ class BakedLamps {
   // lights, sky, and the harmonics of its probes by each group's share of them; not its lightmaps and maps. Factors of
   // 1 give what was baked to the bit.
   void shine(std::span<const Vec3> factors, Pack& pack) const;
+  // By group: where its lamps are, from where they were baked. Changes the corners of the pack's emitters.
+  void place(std::span<const MoverPose> poses, Pack& pack) const;
 
  private:
   std::vector<Vec3> emission_, emitters_, bright_;
+  std::vector<std::vector<Vec3>> corners_;  // of emitters
   std::vector<std::vector<float>> harmonics_;
   Vec3 sky_{0};
 };
 
 // The mean radiance of a day's sky, cd/m², its hours being shown that many times as they were baked.
 Vec3 sky_of_day(const Day& day, std::span<const Vec3> factors);
+
+// The pack's bright lights, of which lamps of groups are there. The pack's own stay where they were baked: so lamps are
+// found.
+std::vector<BrightLight> placed_lights(const Pack& pack, std::span<const MoverPose> poses);
 
 // What light of which groups have these shares becomes, over what it was; exactly 1 where all factors are 1.
 Vec3 mean_factor(const Pack& pack, std::span<const Vec3> factors, std::vector<Vec3> LightGroup::*shares,

@@ -34,6 +34,7 @@ struct LiveLamps::Lamp {
   MoverPose wanted;
   MoverPose told;           // that `added` is for
   bool whole = true;        // it is of all lights
+  bool outdated = false;    // the scene does not know all texels
   std::uint64_t stale = 0;  // calls since it was told otherwise than wanted
   PageChanges added;        // with its light as it was baked
 };
@@ -88,31 +89,39 @@ LiveLamps::~LiveLamps() {
   if (job_) job_->stop = true;
 }
 
-// Made when first moved.
-Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
-  std::unique_ptr<Lamp>& known = lamps_[group];
-  if (known) return known.get();
+std::unique_ptr<LampScene> LiveLamps::scene_of(std::size_t group) const {
   const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[group]);
-  auto lamp = std::make_unique<Lamp>();
   LiveLamp live{shape.parts, {}, {}};
   for (const std::uint32_t part : shape.parts) live.radiance.push_back(emission_[pack_.mesh.parts[part].material]);
   for (const std::uint32_t light : shape.lights) live.points.push_back(lights_[light]);
-  lamp->scene = std::make_unique<LampScene>(
-      LiveSurfaces{pack_.mesh, pack_.materials, pack_.textures, pack_.fresnel_maps}, std::move(live));
+  return std::make_unique<LampScene>(LiveSurfaces{pack_.mesh, pack_.materials, pack_.textures, pack_.fresnel_maps},
+                                     std::move(live));
+}
+
+// Made when first moved.
+Result<LiveLamps::Lamp*> LiveLamps::lamp_of(std::size_t group) {
+  if (const auto known = lamps_.find(group); known != lamps_.end()) return known->second.get();
+  const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[group]);
+  auto lamp = std::make_unique<Lamp>();
+  lamp->scene = scene_of(group);
   for (std::uint32_t p = 0; p < pack_.lightmaps.size(); ++p) {
     ORIEL_TRY(LightmapPage page, images_.whole_page(p));
     lamp->points.push_back(page_points(pack_.mesh, shape.parts, p, page));
     page.standard_error = {}, page.direction = {};
     lamp->pages.push_back(std::move(page));
   }
-  known = std::move(lamp);
-  return known.get();
+  return (lamps_[group] = std::move(lamp)).get();
+}
+
+void LiveLamps::look_again() {
+  for (auto& [group, lamp] : lamps_) lamp->outdated = true, lamp->whole = is_rest(lamp->wanted);
 }
 
 // Its walks look at textures, which come while the job runs: they are made here.
 std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSettings& settings, bool coarse) {
   auto job = std::make_unique<Job>();
-  const Lamp& lamp = *lamps_[group];
+  Lamp& lamp = *lamps_[group];
+  if (std::exchange(lamp.outdated, false)) lamp.scene = scene_of(group);
   job->group = group, job->lamp = &lamp;
   job->pose = lamp.wanted;
   job->settings = settings;
@@ -131,13 +140,13 @@ bool LiveLamps::finish(Job& job) {
   Lamp& lamp = *lamps_[job.group];
   lamp.added = std::move(job.added);
   lamp.told = job.pose;
-  lamp.whole = !job.coarse;
+  lamp.whole = !job.coarse && !lamp.outdated && job.settings == settings_;
   lamp.stale = 0;
   if (lamp.whole) reports_.push_back(std::move(job.report));
   return true;
 }
 
-Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettings& settings, bool in_background) {
+Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettings& settings) {
   bool changed = false;
   const bool other_settings = settings_ != settings;
   settings_ = settings;
@@ -150,14 +159,14 @@ Result<bool> LiveLamps::place(std::span<const MoverPose> poses, const LiveSettin
       changed = changed || !lamp->added.empty();
       lamp->added.clear();
       lamp->told = poses[group], lamp->whole = true;
-    } else if (!in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
+    } else if (!settings.in_background && (lamp->told != lamp->wanted || !lamp->whole)) {
       const auto job = begin(group, settings, false);
       job->run(images_);
       ORIEL_TRY_VOID(job->status);
       changed = finish(*job) || changed;
     }
   }
-  if (!in_background) return changed;
+  if (!settings.in_background) return changed;
   ORIEL_TRY(const bool more, step_in_background(settings));
   return changed || more;
 }
@@ -170,6 +179,11 @@ Result<bool> LiveLamps::step_in_background(const LiveSettings& settings) {
     if (is_rest(lamp.wanted) || (!job_->coarse && lamp.wanted != job_->pose)) job_->stop = true;
     if (job_->done.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     const auto job = std::exchange(job_, nullptr);
+    try {
+      job->done.get();
+    } catch (const std::exception& e) {
+      return fail(ErrorCode::kRuntime, pack_.light_groups[job->group].name, "light of the moved lamp: {}", e.what());
+    }
     ORIEL_TRY_VOID(job->status);
     changed = finish(*job);
   }
@@ -196,7 +210,6 @@ bool LiveLamps::ready() const {
 std::shared_ptr<const PageChanges> LiveLamps::changes(std::span<const Vec3> factors) const {
   auto sum = std::make_shared<PageChanges>();
   for (const auto& [group, lamp] : lamps_) {
-    if (!lamp) continue;
     const Vec3 factor = group < factors.size() ? factors[group] : Vec3(1);
     if (lamp->added.size() > sum->size()) sum->resize(lamp->added.size());
     for (std::size_t p = 0; p < lamp->added.size(); ++p) {

@@ -37,7 +37,9 @@ class LiveLamps {
   // By light group; with as many poses. Whether light is otherwise than at the last call. What is not in the background
   // takes seconds for each lamp that moved. In the background light follows in two steps, of few lights and of all, one
   // lamp after the other: the one of most flux, times the calls since it was last told, first. Errors of images.
-  Result<bool> place(std::span<const MoverPose> poses, const LiveSettings& settings, bool in_background);
+  Result<bool> place(std::span<const MoverPose> poses, const LiveSettings& settings);
+  // The pack's textures have texels that they had not: what their colours reflect is followed anew.
+  void look_again();
   // Whether the next place() in the background has more to show, or to begin.
   bool ready() const;
   // What is added to pages where each group's lamps shine so many times as they were baked; null: nothing.
@@ -49,6 +51,7 @@ class LiveLamps {
   struct Lamp;
   struct Job;
   Result<Lamp*> lamp_of(std::size_t group);
+  std::unique_ptr<LampScene> scene_of(std::size_t group) const;
   std::unique_ptr<Job> begin(std::size_t group, const LiveSettings& settings, bool coarse);
   bool finish(Job& job);
   Result<bool> step_in_background(const LiveSettings& settings);

@@ -43,12 +43,13 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
   std::vector<MoverPose> places(groups);
   if (poses.size() == groups) places.assign(poses.begin(), poses.end());
-  ORIEL_TRY(const bool other_light, live_->place(places, live, images_->in_background()));
+  ORIEL_TRY(const bool other_light, live_->place(places, live));
   if (wanted == lights_ && !other_light && places == lamps_) return {};
   lights_ = std::move(wanted);
   serial_ = next_scene_serial();
   baked_.shine(lights_, pack_);
   if (places != lamps_) move_lamps(places);
+  bright_lights_ = placed_lights(pack_, lamps_);
   for (GpuReflector& r : reflectors_)
     r.emitters = upload_emitters(pack_, pack_.reflectors[r.index], r.reflector_from_pack, r.size);
   MapFactors of_maps;
@@ -62,11 +63,12 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
 // What is drawn of them. The pack's mesh stays as it was baked: poses count from there.
 void GpuScene::move_lamps(std::span<const MoverPose> poses) {
   make_fewer();  // it reads ranges meanwhile
+  baked_.place(poses, pack_);
   geometry_serial_ = next_scene_serial();
   std::vector<Vec3> positions = pack_.mesh.positions, normals = pack_.mesh.normals;
   std::vector<Bounds> bounds(pack_.materials.size());  // of moved materials, each of one group
   for (std::size_t g = 0; g < poses.size(); ++g) {
-    const Mat4 pose(pack_from_object(poses[g])), before(pack_from_object(lamps_[g]));
+    const Mat4 pose(pack_from_object(poses[g]));
     const LampShape shape = shape_of_lamp(pack_, pack_.light_groups[g]);
     if (is_rest(poses[g]) && is_rest(lamps_[g])) continue;
     for (const std::uint32_t p : shape.parts) {
@@ -75,12 +77,6 @@ void GpuScene::move_lamps(std::span<const MoverPose> poses) {
       for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
         bounds[part.material].extend(positions[pack_.mesh.indices[i]]);
     }
-    // Polygons of reflectors and movers go with it.
-    const Mat4 change = pose * glm::inverse(before);
-    for (const std::uint32_t e : pack_.light_groups[g].emitters)
-      for (Vec3& corner : pack_.emitters[e].corners) corner = Vec3(change * Vec4(corner, 1));
-    for (const std::uint32_t b : pack_.light_groups[g].bright_lights)
-      for (Vec3& corner : pack_.light_field.lights[b].corners) corner = Vec3(change * Vec4(corner, 1));
   }
   const auto follow = [&](std::vector<DrawRange>& ranges) {
     for (DrawRange& range : ranges) {

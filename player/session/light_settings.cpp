@@ -106,7 +106,7 @@ std::vector<LightSetting> settings_of(const Pack& pack) {
 Status set_hour(const Pack& pack, float hour, std::vector<LightSetting>& settings) {
   ORIEL_TRY_VOID(hours_around(pack.day, hour));
   for (const DayHour& of : pack.day.hours)
-    if (of.group != kNight) settings[of.group].hour = hour;
+    if (of.group != kNight) settings[of.group].hour = hour, settings[of.group].on = true;
   return {};
 }
 

@@ -46,8 +46,9 @@ Status BesideView::draw_difference(Renderer& first, std::uint64_t image_bytes, c
                                    Session& session, double now_s) {
   const IVec2 size(seen.width, seen.height);
   const float ev100 = session.shown_ev100;
-  if (watch_.look({seen.camera, size, seen.options, ev100, session.curve, {image_bytes, other_->image_bytes()}},
-                  now_s)) {
+  const bool other_view =
+      watch_.look({seen.camera, size, seen.options, ev100, session.curve, {image_bytes, other_->image_bytes()}}, now_s);
+  if (other_view || (!watch_.busy() && other_->has_live_news())) {
     ORIEL_TRY_VOID(other_->draw(seen));
     ByteImage left{UVec2(size).x, UVec2(size).y, 3, {}}, right = left;
     ORIEL_TRY(left.pixels, first.read_display(ev100, session.curve));

@@ -1,5 +1,7 @@
 #include "player/window/lights_panel.h"
 
+#include <cmath>
+
 #include "formats/core/file.h"
 #include "formats/query/day_hours.h"
 #include "player/window/widgets.h"
@@ -37,6 +39,13 @@ bool draw_hour(const Pack& pack, std::vector<LightSetting>& lights) {
   const Day& day = pack.day;
   const std::string text = clock_text(chosen) + " " + clock_name(day);
   if (!ImGui::SliderFloat("hour", &chosen, day.hours.front().hour, day.hours.back().hour, text.c_str())) return false;
+  // Between two hours both suns show: one that was baked is easily met.
+  constexpr float kNear = 0.1f;  // of the hours beside it
+  for (std::size_t k = 0; k < day.hours.size(); ++k) {
+    const float hour_at = day.hours[k].hour;
+    const float beside = day.hours[k > 0 ? k - 1 : std::min<std::size_t>(1, day.hours.size() - 1)].hour;
+    if (std::fabs(chosen - hour_at) < kNear * std::fabs(hour_at - beside)) chosen = hour_at;
+  }
   return set_hour(pack, chosen, lights).has_value();
 }
 

@@ -42,8 +42,8 @@ Pace::Draw PacedFrame::choose(const Seen& seen) {
   const Session& session = seen.session;
   FrameOptions asked = looks_of(session, seen.white_matters);
   const bool loaded = images_ != seen.images;
-  const bool moved = !same_view(session.camera, camera_) || asked.poses != asked_.poses || window_ != seen.window ||
-                     (loaded && seen.loading);
+  const bool moved = !same_view(session.camera, camera_) || asked.poses != asked_.poses ||
+                     asked.lamps != asked_.lamps || window_ != seen.window || (loaded && seen.loading);
   const bool altered = asked != asked_ || loaded;
   quality_ = seen.whole ? Quality::kFull : session.quality;
   const double now_s = std::chrono::duration<double>(begun_ - start_).count();

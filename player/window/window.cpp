@@ -55,6 +55,7 @@ class Loop {
         gui_(window.get()) {
     session_.camera = session_.home = camera;
     session_.frame = arguments.frame;
+    session_.frame.live.in_background = true;
     session_.lights = arguments.light_settings;
     session_.curve = arguments.curve;
     session_.moves = session_.moves_at_start = arguments.moves;

@@ -7,6 +7,7 @@
 #include "player/navigation/drag.h"
 #include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
+#include "player/scene/lights.h"
 #include "player/scene/live_lamps.h"
 #include "tests/player/frame_fixture.h"
 
@@ -116,8 +117,9 @@ TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
 TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
   for (const std::uint32_t lights : {0u, 1u, 3000u})
     for (const Vec3& shift : {Vec3(0, -2, 0), Vec3(0, -1.9999f, 0), Vec3(0, -3, 0), Vec3(1e5f, 0, 0)}) {
-      const Picture picture = draw(lit_floor(), camera(), 32, 32,
-                                   {.lamps = {shifted(shift), {}}, .live = {{lights, 0.5f, 3}, LiveMode::kFitted}});
+      const Picture picture =
+          draw(lit_floor(), camera(), 32, 32,
+               {.lamps = {shifted(shift), {}}, .live = {{lights, 0.5f, 3}, LiveMode::kFitted, false}});
       EXPECT_TRUE(picture.finite()) << lights << " lights, moved by " << shift.x << ", " << shift.y << ": "
                                     << picture.at(16, 16).x;
     }
@@ -127,16 +129,18 @@ TEST_F(LampsTest, AnyNumberOfLightsIsFinite) {
 TEST(LiveLamps, ComeToTheSameInTheBackground) {
   const Pack pack = lit_floor();
   const ImageSource images(pack, nullptr, {});
-  const LiveSettings settings{{64, 0.5f, 2}, LiveMode::kFitted};
+  const LiveSettings settings{{64, 0.5f, 2}, LiveMode::kFitted, false};
+  LiveSettings in_background = settings;
+  in_background.in_background = true;
   const std::vector<MoverPose> away{shifted({1, 0, 0}), {}}, farther{shifted({0, 1, 0}), {}};
   LiveLamps at_once(pack, images), later(pack, images);
-  ASSERT_TRUE(at_once.place(farther, settings, false));
+  ASSERT_TRUE(at_once.place(farther, settings));
   const auto expected = at_once.changes({});
   ASSERT_TRUE(expected);
-  ASSERT_TRUE(later.place(away, settings, true));  // on the way
+  ASSERT_TRUE(later.place(away, in_background));  // on the way
   bool whole = false;
   for (int i = 0; i < 10000 && !whole; ++i) {
-    ASSERT_TRUE(later.place(farther, settings, true));
+    ASSERT_TRUE(later.place(farther, in_background));
     whole = !later.take_reports().empty();
     if (!whole) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -144,8 +148,27 @@ TEST(LiveLamps, ComeToTheSameInTheBackground) {
   const auto found = later.changes({});
   ASSERT_TRUE(found);
   EXPECT_EQ((*found)[0].light, (*expected)[0].light);
-  ASSERT_TRUE(later.place(std::vector<MoverPose>(2), settings, true));
+  ASSERT_TRUE(later.place(std::vector<MoverPose>(2), in_background));
   EXPECT_EQ(later.changes({}), nullptr);
+}
+
+// Movers are lit from where lamps are now; where they hang is told by where they were baked.
+TEST(Lamps, PointLightsGoAlong) {
+  Pack pack = lit_floor();
+  BrightLight spot;
+  spot.kind = BrightLightKind::kSpot;
+  spot.position = {1, 2, 0}, spot.direction = {1, 0, 0};
+  pack.light_field.lights = {spot, spot};
+  pack.light_field.lights[1].kind = BrightLightKind::kDirectional;
+  pack.light_groups[0].bright_lights = {0, 1};
+  const auto poses = lamps_at(pack, std::vector<MoverMove>{*parse_move("lamp=0,3,0,90")});
+  ASSERT_TRUE(poses);
+  const std::vector<BrightLight> placed = placed_lights(pack, *poses);
+  const Mat4 pose(pack_from_object((*poses)[0]));
+  EXPECT_LT(glm::distance(placed[0].position, Vec3(pose * Vec4(spot.position, 1))), 1e-6f);
+  EXPECT_LT(std::fabs(glm::dot(placed[0].direction, spot.direction)), 1e-6f) << "a quarter turn";
+  EXPECT_EQ(placed[1].direction, spot.direction) << "a sun stands still";
+  EXPECT_EQ(placed_lights(pack, std::vector<MoverPose>(2))[0].position, spot.position);
 }
 
 TEST(Lamps, MovesPutTheirMiddleThere) {

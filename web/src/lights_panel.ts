@@ -22,6 +22,12 @@ function range(made: HTMLInputElement, least: number, most: number, step: number
   return made;
 }
 
+/** A quarter of the shortest time between two hours: each hour that was baked can be chosen. */
+function stepOf(day: Day): number {
+  const times = day.hours.slice(1).map((hour, i) => hour.hour - day.hours[i]!.hour);
+  return times.length > 0 ? Math.min(...times) / 4 : 0.25;
+}
+
 export class LightsPanel {
   private settings: Setting[];
   private readonly refreshes: (() => void)[] = [];
@@ -82,7 +88,7 @@ export class LightsPanel {
 
   private rowOfHour(day: Day): HTMLElement {
     const label = document.createElement('label'), time = document.createElement('output'), shown = (): number => this.settings.find((s) => s.hour !== undefined)!.hour!;
-    const hour = range(input('range', `hour, ${day.clock}`, () => { setHour(day, Number(hour.value), this.settings), this.refresh(); }), day.hours[0]!.hour, day.hours.at(-1)!.hour, 0.25);
+    const hour = range(input('range', `hour, ${day.clock}`, () => { setHour(day, Number(hour.value), this.settings), this.refresh(); }), day.hours[0]!.hour, day.hours.at(-1)!.hour, stepOf(day));
     label.append('hour', hour, time);
     this.refreshes.push(() => { hour.value = String(shown()), time.textContent = `${clockText(shown())} ${day.clock}`; });
     this.refreshes.at(-1)!();

@@ -26,6 +26,18 @@ struct Baked {
   }
 };
 
+// The estimator as bakes have it by default, to that error and no more: nothing verifies it.
+inline RadiosityOptions cached_options(double error) {
+  RadiosityOptions options;
+  options.estimator = Estimator::kCached;
+  options.samples = 4096;
+  options.error = error;
+  options.fit_texels = true;
+  options.detail = kMostDetail;
+  options.verify = 0;
+  return options;
+}
+
 inline Baked bake(Scene scene, float texel_m, const RadiosityOptions& options, int threads = 0,
                   std::uint64_t seed = 1) {
   Baked b;

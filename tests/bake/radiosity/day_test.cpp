@@ -17,14 +17,7 @@ using test::SceneParts;
 constexpr double kError = 0.03;
 
 RadiosityOptions options(double error = kError) {
-  RadiosityOptions o;
-  o.estimator = Estimator::kCached;
-  o.samples = 4096;
-  o.error = error;
-  o.fit_texels = true;
-  o.detail = kMostDetail;
-  o.verify = 0;
-  return o;
+  return test::cached_options(error);
 }
 
 Scene in_daylight(Scene scene, const std::string& hours) {

@@ -15,14 +15,7 @@ using test::SceneParts;
 constexpr double kError = 0.03;
 
 RadiosityOptions options() {
-  RadiosityOptions o;
-  o.estimator = Estimator::kCached;
-  o.samples = 4096;
-  o.error = kError;
-  o.fit_texels = true;
-  o.detail = kMostDetail;
-  o.verify = 0;
-  return o;
+  return test::cached_options(kError);
 }
 
 // Two rooms with a door between them, a polished floor, a lamp of each colour in one of them, a point light in the

@@ -328,6 +328,7 @@ TEST_F(BakeCli, RenderWritesLayers) {
   EXPECT_EQ(frame->layers.at("specular_error").width, 12u);
   EXPECT_EQ(frame->layers.at("").pixels.size(), 12u * 8 * 3);
   EXPECT_EQ(frame->attributes.at("oriel.samples"), "8");
+  EXPECT_TRUE(frame->attributes.at("oriel.eye").starts_with("2.7")) << "0.27 in the file: a unit is 10 m";
   ASSERT_EQ(run("oriel-bake render cornell.glb --size 12x8 --samples 8 --threads 1 -o b.exr --quiet"), 0) << log();
   EXPECT_EQ(*read_file(folder_ / "a.exr"), *read_file(folder_ / "b.exr"));
   ASSERT_EQ(run("oriel-bake render cornell.glb --size 12x8 --error 20% --sky 100 -o b.exr"), 0) << log();

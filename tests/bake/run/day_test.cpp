@@ -46,10 +46,13 @@ TEST(DayOptions, RefuseWhatTheyCannotBe) {
                           "2026-06-21@nan,13", "2026-06-21@52,13,", "52,13@2026-06-21"})
     EXPECT_FALSE(parse_day(bad, o)) << bad;
   EXPECT_FALSE(o.wanted);
-  for (const char* bad : {"", "18-8/1", "8-18/0", "8-18/-1", "8-18/0.001", "8-25/1", "-1-5/1", "8-", "-", "8/1",
-                          "8-18/", "8-18/x", "8-18/1+15:00", "8-18/1+02:60", "8:30-18:00/1", "8-18/1/2", "nan-18/1"})
+  for (const char* bad :
+       {"", "18-8/1", "8-18/0", "8-18/-1", "8-18/0.001", "8-25/1", "-1-5/1", "8-", "-", "8/1", "8-18/", "8-18/x",
+        "8-18/1+15:00", "8-12:00", "8.025-8.5/0.016666667", "8-18/1+02:60", "8:30-18:00/1", "8-18/1/2", "nan-18/1"})
     EXPECT_FALSE(parse_hours(bad, o)) << bad;
   EXPECT_EQ(hours_text(o), "8-18/1") << "what was there before";
+  EXPECT_TRUE(parse_hours("14.5-05:00", o));
+  EXPECT_EQ(hours_text(o), "14.5-05:00") << "no later hour: a clock behind UTC";
 }
 
 // The image's share of level illuminance, summed over its texels' upper half.

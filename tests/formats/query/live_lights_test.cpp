@@ -104,6 +104,24 @@ TEST(LiveLights, PointsAndSpots) {
   EXPECT_LT(glm::length(sum_at(scene, {8, 1, 0}, shifted({1.5f, 0, 0}), {1.5f, 0, 0}, {0, 1, 0}).now - below), 1e-2f);
 }
 
+// However few lights are asked for, none of a lamp's own is left out.
+TEST(LiveLights, FewStandForAllOfALampsPoints) {
+  const Room room = lamp_over_floor();
+  BrightLight point;
+  point.kind = BrightLightKind::kPoint;
+  point.intensity = Vec3(10), point.position = {0, 1.5f, 0};
+  const LampScene scene({room.mesh, room.materials, {}, {}},
+                        {room.lamp, std::vector<Vec3>(room.lamp.size(), room.materials[1].emission),
+                         std::vector<BrightLight>(40, point)});
+  const LiveLights few = scene.lights({18, 0.5f, 3}, {});
+  EXPECT_EQ(few.direct, 41u) << "and one for its surface";
+  Vec3 points(0);
+  for (const LiveLight& light : few.lights)
+    if (light.normal == Vec3(0)) points += light.intensity;
+  EXPECT_EQ(points, Vec3(400));
+  EXPECT_TRUE(scene.lights({0, 0.5f, 3}, {}).lights.empty());
+}
+
 TEST(LiveLights, WhereNothingMovedTheBakeStays) {
   Room room = lamp_over_floor();
   room.quad({-0.3f, 1, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0);

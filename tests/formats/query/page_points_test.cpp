@@ -68,5 +68,15 @@ TEST(PagePoints, WhatNoSurfaceNeedsTakesItsNeighbours) {
   EXPECT_EQ(values[5], Vec3(1));
 }
 
+TEST(PagePoints, SurfacesThatAreLeftOutTakeNothing) {
+  const LightmapPage page = page_of_square();
+  std::vector<std::uint8_t> known(16, 0);
+  std::vector<Vec3> values(16, Vec3(0));
+  known[5] = 1, values[5] = Vec3(1);
+  fill_from_neighbours(page, known, values);
+  EXPECT_EQ(values[0], Vec3(1));
+  for (const std::size_t texel : {6u, 9u, 10u}) EXPECT_EQ(values[texel], Vec3(0)) << texel;
+}
+
 }  // namespace
 }  // namespace oriel

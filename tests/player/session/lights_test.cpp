@@ -124,6 +124,11 @@ TEST(Hours, AreShownByTheirSharesOfTheDay) {
   EXPECT_NE(refusal(pack_as_baked(), "hour=12").find("no day"), std::string::npos);
 }
 
+TEST(Hours, ComeBackAfterAllWasSwitchedOff) {
+  const Pack pack = pack_of_a_day();
+  EXPECT_EQ(factors(pack, {"*=off", "hour=15"}), (std::vector<Vec3>{Vec3(0), Vec3(2)}));
+}
+
 TEST(Hours, AreKeptInAFile) {
   const Pack pack = pack_of_a_day();
   std::vector<LightSetting> settings = settings_of(pack), again = settings;
