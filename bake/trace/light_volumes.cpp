@@ -100,27 +100,36 @@ class Finder {
       if (image.light.order == 0 || image.light.mirror[image.light.order - 1] != m) reflect(image, m);
   }
 
-  // What of a mirror lies where the image's light goes. A sun's disk lights a little more than its centre does.
+  // What of a mirror lies where the image's light goes.
   std::vector<DVec3> reached(const Image& image, const PlanarMirror& mirror) const {
     std::vector<DVec3> hull = mirror.hull;
-    const double wide =
-        double{scene_.radius()} * 2 * std::tan(double{scene_.lights[image.light.light].angular_radius_rad});
-    const DVec3 middle = image.hull.empty() ? DVec3(0) : centre_of(image.hull);
     if (!image.hull.empty()) {
       const PlanarMirror& last = mirrors_[image.light.mirror[image.light.order - 1]];
       // What lies behind the last mirror, or in its plane, is not reached.
       hull = cut(hull, last.normal, last.offset + kInPlane * double{scene_.radius()});
     }
-    for (std::size_t i = 0; i < image.hull.size() && !hull.empty(); ++i) {
+    const double wide = double{scene_.radius()} * image.light.spread;
+    for (const VirtualLight::Side& side : image.light.sides)
+      if (!hull.empty()) hull = cut(hull, side.normal, side.offset - wide);
+    return hull;
+  }
+
+  // By the edges of what of the last mirror the light reaches.
+  void bound(Image& image) const {
+    image.light.sides.clear();
+    image.light.spread = kInPlane + 2 * std::tan(double{scene_.lights[image.light.light].angular_radius_rad});
+    const DVec3 middle = image.light.middle = centre_of(image.hull);
+    image.light.extent_m = 0;
+    for (std::size_t i = 0; i < image.hull.size(); ++i) {
       const DVec3 &a = image.hull[i], &b = image.hull[(i + 1) % image.hull.size()];
+      image.light.extent_m = std::max(image.light.extent_m, glm::distance(a, middle));
       DVec3 n = is_afar(image.light.light) ? glm::cross(b - a, image.direction)
                                            : glm::cross(a - image.position, b - image.position);
       const double size = glm::length(n);
       if (!(size > 0)) continue;
       n *= (glm::dot(n, middle - a) < 0 ? -1 : 1) / size;
-      hull = cut(hull, n, glm::dot(n, a) - wide);
+      image.light.sides.push_back({n, glm::dot(n, a)});
     }
-    return hull;
   }
 
   void reflect(const Image& from, std::uint16_t m) {
@@ -147,6 +156,7 @@ class Finder {
     image.light.flux_lm =
         std::min(flux(l, from, hull, arrives, reflected), from.light.order > 0 ? from.light.flux_lm : 1e300);
     image.hull = std::move(hull);
+    bound(image);
     if (image.light.flux_lm >= least_ * own_flux(l)) waiting_.push(std::move(image));
   }
 

@@ -63,7 +63,7 @@ void sample_mirrored(const Transport& t, const SurfacePoint& surface, Sampler& s
   const float u = sampler.next1();
   const Vec2 v = sampler.next2();
   mirrored.choose(u, [&](std::size_t i, float weight) {
-    if (mirrored[i].order > most_mirrors) return;
+    if (mirrored[i].order > most_mirrors || !mirrored[i].may_reach(DVec3(origin), 0)) return;
     const MirroredSample light = mirrored.sample(i, t.lights, origin, v);
     if (light.legs == 0 || glm::dot(light.direction, surface.geometric_normal) <= 0) return;
     Vec3 value = weight * light.endless * light.share * reflect(light.direction);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "bake/trace/accel.h"
 #include "bake/trace/planar_mirrors.h"
@@ -22,6 +23,22 @@ struct VirtualLight {
   DMat3 unfolded{1};                                 // turns directions from the receiver's side to the light's
   DVec3 shift{0};      // a receiver p sees the light as unfolded · p + shift would directly
   double flux_lm = 0;  // luminance of what may leave the last mirror, nothing in the way; of directions that see a sun
+  // Of the volume that the light's middle fills behind the last mirror: what that reaches has normal · p >= offset for
+  // all of them. A sun's disk reaches further, by `spread` metres a metre from the mirror's part that it leaves by.
+  struct Side {
+    DVec3 normal{0};  // unit, inwards
+    double offset = 0;
+  };
+  std::vector<Side> sides;
+  DVec3 middle{0};  // of that part
+  double extent_m = 0, spread = 0;
+
+  // False where it shines on no point of a sphere.
+  bool may_reach(const DVec3& centre, double radius) const {
+    const double far = glm::distance(centre, middle) + extent_m + radius, slack = radius + spread * far;
+    return std::ranges::all_of(sides,
+                               [&](const Side& side) { return glm::dot(side.normal, centre) - side.offset >= -slack; });
+  }
 };
 
 // How light comes to a receiver.

@@ -2,21 +2,45 @@
 
 #include <epoxy/egl.h>
 
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
 namespace oriel::gpu {
 namespace {
 
-EGLDisplay open_display() {
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-    return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+bool has_extension(const char* list, std::string_view name) {
+  for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == name) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
   }
+  return false;
+}
+
+// In the order to try them: a device that draws by itself, then whatever the platform without surfaces takes, which may
+// be a software rasteriser beside the driver of a device, then software.
+std::vector<EGLDisplay> displays() {
+  std::vector<EGLDisplay> hardware, software;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
-    EGLDeviceEXT device = nullptr;
+    std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
-    if (eglQueryDevicesEXT(1, &device, &count) && count > 0) {
-      return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+    if (!eglQueryDevicesEXT(EGLint{devices.size()}, devices.data(), &count)) count = 0;
+    for (const EGLDeviceEXT device : std::span(devices).first(std::size_t(count))) {
+      const bool draws_by_itself =
+          !has_extension(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+      (draws_by_itself ? hardware : software)
+          .push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
   }
-  return EGL_NO_DISPLAY;
+  std::vector<EGLDisplay> all = std::move(hardware);
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+    all.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  all.insert(all.end(), software.begin(), software.end());
+  std::erase(all, EGL_NO_DISPLAY);
+  return all;
 }
 
 tl::unexpected<Error> egl_failed(const char* what) {
@@ -37,19 +61,22 @@ EGLContext make_context(EGLDisplay display, Dialect dialect) {
 }  // namespace
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create(Dialect dialect) {
-  const EGLDisplay display = open_display();
-  if (display == EGL_NO_DISPLAY) return egl_failed("finding a surfaceless platform");
-  EGLint major = 0, minor = 0;
-  if (!eglInitialize(display, &major, &minor)) return egl_failed("eglInitialize");
-  std::unique_ptr<HeadlessContext> context(new HeadlessContext);
-  context->display_ = display;
-  context->context_ = make_context(display, dialect);
-  if (context->context_ == EGL_NO_CONTEXT) {
-    return egl_failed(dialect == Dialect::kDesktop330 ? "creating an OpenGL 3.3 core context"
-                                                      : "creating an OpenGL ES 3.0 context");
+  auto why = egl_failed("finding a device or a surfaceless platform");
+  for (const EGLDisplay display : displays()) {
+    std::unique_ptr<HeadlessContext> context(new HeadlessContext);
+    context->display_ = display;
+    if (!eglInitialize(display, nullptr, nullptr)) {
+      why = egl_failed("eglInitialize");
+    } else if (context->context_ = make_context(display, dialect); context->context_ == EGL_NO_CONTEXT) {
+      why = egl_failed(dialect == Dialect::kDesktop330 ? "creating an OpenGL 3.3 core context"
+                                                       : "creating an OpenGL ES 3.0 context");
+    } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context_)) {
+      why = egl_failed("eglMakeCurrent");
+    } else {
+      return context;
+    }
   }
-  if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context_)) return egl_failed("eglMakeCurrent");
-  return context;
+  return why;
 }
 
 HeadlessContext::~HeadlessContext() {

@@ -1,4 +1,5 @@
-// An OpenGL context without a window or a display server (EGL, surfaceless platform). Draw into framebuffers only.
+// An OpenGL context without a window or a display server (EGL): of a device where there is one, else of a software
+// rasteriser. Draw into framebuffers only.
 #pragma once
 
 #include <memory>

@@ -47,8 +47,9 @@ class DirectGroup {
       finish_light(Vec3(1), scene().lights[l].light_group, hours_of(scene().lights[l]));
     }
     const VirtualLights& mirrored = d_.t_.lights.mirrored();
+    const auto [centre, radius] = sphere_about_points();
     for (std::uint32_t i = 0; i < mirrored.size(); ++i) {
-      if (mirrored[i].order > d_.t_.options.max_bounces) continue;
+      if (mirrored[i].order > d_.t_.options.max_bounces || !mirrored[i].may_reach(centre, radius)) continue;
       aim_at_mirrored(i);
       const Light& light = scene().lights[mirrored[i].light];
       finish_light(Vec3(1), light.light_group, hours_of(light));
@@ -58,11 +59,9 @@ class DirectGroup {
       return d_.t_.lights.sample(p.site.origin, u, sampler.next2());
     };
     if (d_.many_punctual_) sample_punctual(any);
-    if (!d_.closed_form_) {
-      sample_lights(any);
-    } else if (d_.t_.lights.samples_sky()) {
+    if (!d_.closed_form_) sample_lights(any);
+    if (d_.closed_form_ && d_.t_.lights.samples_sky())
       sample_lights([&](const Point&, Sampler& sampler) { return d_.t_.lights.sample_sky(sampler.next2()); });
-    }
     for (std::size_t i = 0; i < list_.size(); ++i) {
       sums.value[list_[i]] = tallies_[i].total;
       sums.difference[list_[i]] = tallies_[i].difference;
@@ -198,6 +197,12 @@ class DirectGroup {
     }
   }
 
+  std::pair<DVec3, double> sphere_about_points() const {
+    Vec3 lower = points_.empty() ? Vec3(0) : points_.front().site.origin, upper = lower;
+    for (const Point& p : points_) lower = glm::min(lower, p.site.origin), upper = glm::max(upper, p.site.origin);
+    return {0.5 * (DVec3(lower) + DVec3(upper)), 0.5 * double{glm::length(upper - lower)}};
+  }
+
   // A mirror's edge is taken for one of a shadow: what is beside it weighs as if the mirror were endless.
   void aim_at_mirrored(std::uint32_t i) {
     const VirtualLights& mirrored = d_.t_.lights.mirrored();
@@ -290,10 +295,7 @@ class DirectGroup {
     if (seen > 0) t.moments += t.from * (std::max(0.0f, luminance(value)) / seen);
   }
   static Vec3 ratio(const Vec3& a, const Vec3& b) { return a / glm::max(b, Vec3(1e-30f)); }
-  static void forget_light(Tally& t) {
-    t.from = Vec4(0);
-    t.open = t.weight = t.passed = {};
-  }
+  static void forget_light(Tally& t) { t.from = Vec4(0), t.open = t.weight = t.passed = {}; }
 
   // Light without a closed form: one sampled light a point, combined with the gather's own hits on it.
   template <class Sample>

@@ -159,6 +159,36 @@ TEST(VirtualLights, TwoMirrorsOneAfterTheOther) {
   EXPECT_NEAR(meter.at({1.5f, 0, 0}, {0, 1, 0}).g / expected, 1, 1e-4);
 }
 
+TEST(VirtualLights, WhatTheyMayNotReachTheyDoNotLight) {
+  SceneParts parts = floor_mirror(Vec3(0.5f));
+  const auto metal = parts.add(mirror(Vec3(0.8f)));
+  parts.quad("upper", metal, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2});
+  parts.quad("slanted", metal, {-1.5f, 0, 0.5f}, {0.3f, 0.9f, 0}, {0, 0, -1});
+  parts.scene().lights = {sun_at(70), sun_at(60), point_at({0.2f, 1, 0.1f})};
+  parts.scene().lights[1].angular_radius_rad = 0.05f;
+  const Scene scene = parts.finish();
+  const LightSet lights(scene);
+  const VirtualLights& mirrored = lights.mirrored();
+  ASSERT_GT(mirrored.size(), 5u);
+  int shone = 0, passed_over = 0;
+  for (std::uint32_t k = 0; k < 20000; ++k) {
+    Sampler sampler(1, 0, k);
+    const Vec2 a = sampler.next2();
+    const Vec3 p(10 * a.x - 5, 6 * sampler.next1() - 1, 10 * a.y - 5);
+    const double radius = double{sampler.next1()};
+    const DVec3 centre = DVec3(p) + DVec3(0, 0.999 * radius, 0);
+    for (std::size_t i = 0; i < mirrored.size(); ++i) {
+      if (!mirrored[i].may_reach(DVec3(p), 0)) ++passed_over;
+      if (mirrored.sample(i, lights, p, sampler.next2()).share == Vec3(0)) continue;
+      ++shone;
+      EXPECT_TRUE(mirrored[i].may_reach(DVec3(p), 0)) << i << " at " << p.x << " " << p.y << " " << p.z;
+      EXPECT_TRUE(mirrored[i].may_reach(centre, radius)) << i << " at " << p.x << " " << p.y << " " << p.z;
+    }
+  }
+  EXPECT_GT(shone, 1000);
+  EXPECT_GT(passed_over, 10000 * int(mirrored.size())) << "most are never asked";
+}
+
 TEST(VirtualLights, APaneReflectsAndPassesNoMoreThanCame) {
   for (const float height : {5.0f, 30.0f, 60.0f, 89.0f}) {
     SceneParts parts;
