@@ -84,17 +84,20 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const gpu::Device& device) {
   return renderer;
 }
 
-Status Renderer::ensure_frame(int width, int height, int samples) {
+Status Renderer::ensure_frame(int width, int height, int samples, bool halves) {
   const int given = std::clamp(samples, 1, device_.samples);
-  if (frame_ && frame_->size() == IVec2(width, height) && frame_->asked == given) return {};
+  const auto fits = [&] {
+    return frame_ && frame_->size() == IVec2(width, height) && frame_->asked == given && frame_->halves == halves;
+  };
+  if (fits()) return {};
   if (width < 1 || height < 1 || width > device_.texture_size || height > device_.texture_size) {
     return fail(ErrorCode::kUsage, "frame size", "found {}x{}, expected 1x1 to {}x{} ({})", width, height,
                 device_.texture_size, device_.texture_size, device_.renderer);
   }
   std::swap(frame_, spare_);
-  if (frame_ && frame_->size() == IVec2(width, height) && frame_->asked == given) return {};
+  if (fits()) return {};
   frame_.reset();
-  ORIEL_TRY(FrameTarget frame, make_frame_target(width, height, given));
+  ORIEL_TRY(FrameTarget frame, make_frame_target(width, height, given, halves));
   frame_ = std::move(frame);
   return {};
 }
@@ -131,13 +134,15 @@ Status Renderer::draw_see_through(GpuScene& scene, const View& view, const Scene
 }
 
 Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const FrameOptions& options) {
-  ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples));
   in_window_ = false;
   // Light of moved lamps is that of the textures that are there.
   if (!options.live.in_background && !options.lamps.empty()) ORIEL_TRY_VOID(scene.aim(view));
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
+  const bool halves = options.halves && scene.fits_halves();
+  ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
+  reflections_.use_halves(halves);
   FrameStats stats;
   clock_.start(options.timed);
   frame_->shows_samples = frame_->samples() > 1;
@@ -203,7 +208,8 @@ std::vector<float> Renderer::read_light() const {
 }
 
 Status Renderer::take_light(const FloatImage& rgba) {
-  ORIEL_TRY_VOID(ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->asked : 1));
+  ORIEL_TRY_VOID(
+      ensure_frame(static_cast<int>(rgba.width), static_cast<int>(rgba.height), frame_ ? frame_->asked : 1, false));
   frame_->shows_samples = in_window_ = false;
   const std::size_t row = 4 * std::size_t{rgba.width};
   std::vector<float> upwards;

@@ -45,7 +45,7 @@ class Renderer {
 
  private:
   Renderer() = default;
-  Status ensure_frame(int width, int height, int samples);
+  Status ensure_frame(int width, int height, int samples, bool halves);
   // What movers change of the light on what is seen, if anything.
   Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
                                                   std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,

@@ -64,6 +64,8 @@ struct MarkedReflector {
 class ReflectionRenderer {
  public:
   static Result<ReflectionRenderer> create(const gpu::Device& device);
+  // Of half floats, as FrameTarget, are images from now on.
+  void use_halves(bool halves) { halves_ = halves; }
 
   // Marks the reflectors that are seen in the target, whose depth is there. Errors of images.
   Result<std::vector<MarkedReflector>> draw_masks(ReflectionWork& work, const ReflectionTarget& target,
@@ -92,6 +94,7 @@ class ReflectionRenderer {
   bool sets_hold(const ReflectionWork& work, const ReflectionTarget& target);
 
   gpu::Device device_;
+  bool halves_ = false;
   std::uint64_t zone_of_ = 0;  // GpuScene::serial()
   Zone zone_;
   ReflectorPass reflector_pass_;

@@ -14,13 +14,15 @@ void FrameTarget::resolve_depth_stencil() const {
   drawn().bind();
 }
 
-Result<FrameTarget> make_frame_target(int width, int height, int samples) {
+Result<FrameTarget> make_frame_target(int width, int height, int samples, bool halves) {
+  const gpu::TextureFormat& format = halves ? gpu::kRgba16f : gpu::kRgba32f;
   FrameTarget target;
+  target.halves = halves;
   target.asked = samples;
-  target.light = gpu::Texture2d(gpu::kRgba32f, width, height, nullptr);
+  target.light = gpu::Texture2d(format, width, height, nullptr);
   target.depth = gpu::Texture2d(gpu::kDepthStencil, width, height, nullptr);
   if (samples > 1) {
-    target.light_samples = gpu::MultisampleTexture(gpu::kRgba32f, width, height, samples);
+    target.light_samples = gpu::MultisampleTexture(format, width, height, samples);
     target.depth_samples = gpu::MultisampleTexture(gpu::kDepthStencil, width, height, samples);
   }
   ORIEL_TRY_VOID(gpu::check_gl("making the frame's textures"));

@@ -13,6 +13,7 @@ struct FrameTarget {
   gpu::MultisampleTexture light_samples, depth_samples;  // none: a sample a pixel
   gpu::Framebuffer sampled;
   int asked = 1;               // samples; the device may have given more
+  bool halves = false;         // light is half floats
   bool shows_samples = false;  // what is shown is the mean of the samples, once each is tone-mapped; else `light`
 
   const gpu::Framebuffer& drawn() const { return light_samples ? sampled : framebuffer; }
@@ -23,6 +24,6 @@ struct FrameTarget {
   void resolve_depth_stencil() const;
 };
 // samples: at least 1, within the device's.
-Result<FrameTarget> make_frame_target(int width, int height, int samples);
+Result<FrameTarget> make_frame_target(int width, int height, int samples, bool halves);
 
 }  // namespace oriel

@@ -15,8 +15,9 @@ Vec4 ndc_from_image(const ImageRect& rect, const View& view) {
   return Vec4(scale, offset);
 }
 
-Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit) {
-  if (current && current->sharp.width() >= width && current->sharp.height() >= height) return {};
+Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit, bool halves) {
+  if (current && current->halves == halves && current->sharp.width() >= width && current->sharp.height() >= height)
+    return {};
   const auto rounded = [&](int size, int had) {
     const int wanted = std::max(size, had);
     return static_cast<int>(
@@ -29,16 +30,18 @@ Status ensure_image_target(std::optional<ImageTarget>& current, int width, int h
                 limit);
   }
   current.reset();
+  const gpu::TextureFormat& format = halves ? gpu::kRgba16f : gpu::kRgba32f;
   ImageTarget target;
+  target.halves = halves;
   gpu::TextureOptions options;
   options.levels = gpu::mip_levels(w, h);
-  target.sharp = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, options);
+  target.sharp = gpu::Texture2d(format, w, h, nullptr, options);
   options.mag_filter = GL_LINEAR;
   options.min_filter = GL_LINEAR_MIPMAP_NEAREST;  // dozens of taps a pixel need no blend of levels
-  target.filled = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, options);
+  target.filled = gpu::Texture2d(format, w, h, nullptr, options);
   gpu::TextureOptions linear;
   linear.min_filter = linear.mag_filter = GL_LINEAR;
-  target.blurred = gpu::Texture2d(gpu::kRgba32f, w, h, nullptr, linear);
+  target.blurred = gpu::Texture2d(format, w, h, nullptr, linear);
   target.depth = gpu::Texture2d(gpu::kDepthStencil, w, h, nullptr);
   ORIEL_TRY_VOID(gpu::check_gl("making the reflected image's textures"));
   ORIEL_TRY(target.sharp_framebuffer, gpu::Framebuffer::create("reflected image", &target.sharp, &target.depth, true));

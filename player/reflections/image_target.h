@@ -31,11 +31,12 @@ Vec4 ndc_from_image(const ImageRect& rect, const View& view);
 // corner.
 struct ImageTarget {
   gpu::Texture2d sharp, filled, blurred, depth;
+  bool halves = false;
   gpu::Framebuffer sharp_framebuffer;  // with depth and stencil
   gpu::Framebuffer level_framebuffer;  // no depth; passes attach what they draw into
 };
-// At least that large; keeps `current` where it suffices.
-Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit);
+// At least that large, of half floats or of floats; keeps `current` where it suffices.
+Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit, bool halves);
 // Binds the image to be drawn into, with depth and stencil, and fills its rectangle: with a hole, or with light all
 // over.
 void clear_image(const ImageTarget& target, const ImageRect& rect, const Vec4& light = Vec4(0), GLint stencil = 0);

@@ -315,6 +315,18 @@ const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
   return texture;
 }
 
+bool GpuScene::fits_halves() const {
+  constexpr float kMost = 0.75f * 65504;  // cd/m²; the rest is for what a surface mirrors beside its own light
+  const auto largest = [](const Vec3& v) { return std::max({v.x, v.y, v.z}); };
+  float factor = 1, own = largest(pack_.sky);
+  for (const Vec3& light : lights_) factor = std::max(factor, largest(light));
+  for (const Material& m : pack_.materials) own = std::max(own, largest(m.emission));
+  float lux = 0;
+  for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)
+    lux = std::max(lux, images_->light(i).scale * 0x1p15f);  // what LightData::scale leaves room for
+  return own * factor <= kMost && lux / kPi <= kMost;
+}
+
 const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place, bool coarse) {
   const Material& m = pack_.materials[material];
   return kernel(m.kernel, m.fresnel_map, place, coarse);

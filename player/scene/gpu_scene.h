@@ -117,6 +117,9 @@ class GpuScene {
   const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
   bool is_transparent(std::uint32_t material) const;
 
+  // Whether half floats hold all light of a frame, a surface's own and what it mirrors; as lamps shine now.
+  bool fits_halves() const;
+
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
   void use_mipmaps(bool on) { images_->use_mipmaps(on); }
 

@@ -67,6 +67,13 @@ inline int samples_of_picture(const PlayArguments& arguments) {
   return arguments.supersample > 1 && !arguments.sampled ? 1 : arguments.frame.samples;
 }
 
+// Light that is measured, or kept as .exr, is not rounded to half floats.
+inline bool wants_pictures(const PlayArguments& arguments) {
+  const std::string& beside = arguments.reference;
+  return (beside.empty() || beside.ends_with(".png")) && arguments.format == "png" &&
+         !arguments.output.ends_with(".exr");
+}
+
 // Those options that can change a frame, by name.
 nlohmann::ordered_json options_json(const PlayArguments& arguments);
 

@@ -78,7 +78,7 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
   ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
   ORIEL_TRY(light_, make_pass_light(*surfaces_));
   ORIEL_TRY(sum_, make_pass_light(*surfaces_));
-  ORIEL_TRY(frame_, make_frame_target(width, height, 1));
+  ORIEL_TRY(frame_, make_frame_target(width, height, 1, false));
   costs_ = {};
   const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   traced_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
