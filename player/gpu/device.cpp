@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "player/gpu/texture.h"
+
 namespace oriel::gpu {
 namespace {
 
@@ -68,7 +70,7 @@ Result<Device> open_device() {
     GLint colors = 1, depths = 1;
     glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colors);
     glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depths);
-    for (const GLenum format : {GL_RGBA32F, GL_DEPTH32F_STENCIL8}) {
+    for (const GLenum format : {GLenum{GL_RGBA32F}, kDepthStencil.internal}) {
       GLint most = 0;  // of this format, the first that is told
       if (epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_internalformat_query"))
         glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, 1, &most);
