@@ -108,7 +108,7 @@ class Finder {
       // What lies behind the last mirror, or in its plane, is not reached.
       hull = cut(hull, last.normal, last.offset + kInPlane * double{scene_.radius()});
     }
-    const double wide = double{scene_.radius()} * image.light.spread;
+    const double wide = 2 * double{scene_.radius()} * image.light.spread;
     for (const VirtualLight::Side& side : image.light.sides)
       if (!hull.empty()) hull = cut(hull, side.normal, side.offset - wide);
     return hull;
@@ -117,7 +117,7 @@ class Finder {
   // By the edges of what of the last mirror the light reaches.
   void bound(Image& image) const {
     image.light.sides.clear();
-    image.light.spread = kInPlane + 2 * std::tan(double{scene_.lights[image.light.light].angular_radius_rad});
+    image.light.spread = kInPlane + std::sin(double{scene_.lights[image.light.light].angular_radius_rad});
     const DVec3 middle = image.light.middle = centre_of(image.hull);
     image.light.extent_m = 0;
     for (std::size_t i = 0; i < image.hull.size(); ++i) {

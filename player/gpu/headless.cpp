@@ -1,37 +1,31 @@
 #include "player/gpu/headless.h"
 
 #include <epoxy/egl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace oriel::gpu {
 namespace {
-
-bool has_extension(const char* list, std::string_view name) {
-  for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == name) return true;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
-}
 
 // In the order to try them: a device that draws by itself, then whatever the platform without surfaces takes, which may
 // be a software rasteriser beside the driver of a device, then software.
 std::vector<EGLDisplay> displays() {
   std::vector<EGLDisplay> hardware, software;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
+    const bool asked_for_software = std::getenv("LIBGL_ALWAYS_SOFTWARE") != nullptr;  // as Mesa takes it
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
     if (!eglQueryDevicesEXT(EGLint{devices.size()}, devices.data(), &count)) count = 0;
     for (const EGLDeviceEXT device : std::span(devices).first(std::size_t(count))) {
-      const bool draws_by_itself =
-          !has_extension(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
-      (draws_by_itself ? hardware : software)
+      const char* says = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+      const bool rasterises = says != nullptr && epoxy_extension_in_string(says, "EGL_MESA_device_software");
+      (rasterises || asked_for_software ? software : hardware)
           .push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
   }
@@ -43,9 +37,8 @@ std::vector<EGLDisplay> displays() {
   return all;
 }
 
-tl::unexpected<Error> egl_failed(const char* what) {
-  return fail(ErrorCode::kRuntime, "EGL", "{} failed with 0x{:04x}, expected a context without a display", what,
-              eglGetError());
+std::string egl_failed(const char* what) {
+  return fmt::format("{} failed with 0x{:04x}", what, eglGetError());
 }
 
 EGLContext make_context(EGLDisplay display, Dialect dialect) {
@@ -61,22 +54,24 @@ EGLContext make_context(EGLDisplay display, Dialect dialect) {
 }  // namespace
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create(Dialect dialect) {
-  auto why = egl_failed("finding a device or a surfaceless platform");
-  for (const EGLDisplay display : displays()) {
+  const std::vector<EGLDisplay> all = displays();
+  std::string why = all.empty() ? egl_failed("finding a device or a surfaceless platform") : "";
+  const auto note = [&](const char* what) { why += (why.empty() ? "" : ", ") + egl_failed(what); };
+  for (const EGLDisplay display : all) {
     std::unique_ptr<HeadlessContext> context(new HeadlessContext);
     context->display_ = display;
     if (!eglInitialize(display, nullptr, nullptr)) {
-      why = egl_failed("eglInitialize");
+      note("eglInitialize");
     } else if (context->context_ = make_context(display, dialect); context->context_ == EGL_NO_CONTEXT) {
-      why = egl_failed(dialect == Dialect::kDesktop330 ? "creating an OpenGL 3.3 core context"
-                                                       : "creating an OpenGL ES 3.0 context");
+      note(dialect == Dialect::kDesktop330 ? "creating an OpenGL 3.3 core context"
+                                           : "creating an OpenGL ES 3.0 context");
     } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context_)) {
-      why = egl_failed("eglMakeCurrent");
+      note("eglMakeCurrent");
     } else {
       return context;
     }
   }
-  return why;
+  return fail(ErrorCode::kRuntime, "EGL", "{}, expected a context without a display", why);
 }
 
 HeadlessContext::~HeadlessContext() {

@@ -140,7 +140,9 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(scene.set_lamps(options.lights, options.lamps, options.live));
   if (!scene.images().in_background()) ORIEL_TRY_VOID(scene.aim(view));
   scene.use_mipmaps(options.mipmaps);
-  const bool halves = options.halves && scene.fits_halves();
+  // Of what is shown as white, see-through unlit surfaces.
+  const bool white_fits = !needs_white(scene) || (options.white > 0 && options.white < 4e4f);
+  const bool halves = options.halves && white_fits && scene.fits_halves();
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);
   FrameStats stats;

@@ -146,7 +146,8 @@ Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& ta
       choose_image(marked.screen, blurs ? kernel.median : 0.0f, target.view, device_.texture_size, options.coarse);
   const auto level = static_cast<std::size_t>(target.mirrors);
   if (images_.size() <= level) images_.resize(level + 1);
-  ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves_));
+  const bool halves = halves_ && (!maps || scene.fit_halves(reflector));
+  ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves));
   const Image image{*images_[level], rect, kernel, blurs, maps};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;

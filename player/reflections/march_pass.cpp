@@ -11,7 +11,7 @@ namespace oriel {
 namespace {
 
 // Instead of 1 / distance where a coarse pixel sees nothing: what is interpolated with it is below 0 too.
-constexpr float kCoarseHole = -1e30f;
+constexpr float kCoarseHole = -6e4f;
 
 // Of the lobe, in coarse pixels for those to do; in a frame that moves.
 constexpr float kLeastRadius = 2, kLeastCoarseRadius = 0.25f;

@@ -9,6 +9,9 @@
 namespace oriel {
 namespace {
 
+constexpr float kMostInHalves = 0.75f * 65504;  // cd/m²; the rest is for what a surface mirrors beside its own light
+constexpr float kOfScale = 0x1p15f;             // that an image's light is below (image_data.h)
+
 constexpr int kKernelTaps = 48, kCoarseTaps = 12;
 constexpr std::size_t kFewTriangles = 20000;  // that no device minds
 constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
@@ -316,15 +319,20 @@ const gpu::Texture2d& GpuScene::sphere_map(std::uint32_t fresnel_map) {
 }
 
 bool GpuScene::fits_halves() const {
-  constexpr float kMost = 0.75f * 65504;  // cd/m²; the rest is for what a surface mirrors beside its own light
-  const auto largest = [](const Vec3& v) { return std::max({v.x, v.y, v.z}); };
-  float factor = 1, own = largest(pack_.sky);
-  for (const Vec3& light : lights_) factor = std::max(factor, largest(light));
-  for (const Material& m : pack_.materials) own = std::max(own, largest(m.emission));
-  float lux = 0;
+  constexpr float kLeastRadius = 0.1f;  // m: a near plane of a smaller scene is nearer than 1 / distance can say
+  if (!(0.5f * glm::length(bounds_.upper - bounds_.lower) >= kLeastRadius)) return false;
+  float most = max_component(pack_.sky);
+  for (const Material& m : pack_.materials) most = std::max(most, max_component(m.emission));
   for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)
-    lux = std::max(lux, images_->light(i).scale * 0x1p15f);  // what LightData::scale leaves room for
-  return own * factor <= kMost && lux / kPi <= kMost;
+    most = std::max(most, images_->light(i).scale * kOfScale / kPi);
+  return most <= kMostInHalves;
+}
+
+bool GpuScene::fit_halves(const GpuReflector& reflector) const {
+  float most = 0;
+  for (const MapArray& array : images_->maps(reflector.index).elements)
+    for (const float scale : array.scale) most = std::max(most, scale * kOfScale * max_component(array.tint));
+  return most <= kMostInHalves;
 }
 
 const GpuKernel& GpuScene::kernel(std::uint32_t material, KernelPlace place, bool coarse) {

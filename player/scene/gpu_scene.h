@@ -117,8 +117,10 @@ class GpuScene {
   const std::vector<GpuMover>& movers() const { return movers_; }  // by Pack::movers
   bool is_transparent(std::uint32_t material) const;
 
-  // Whether half floats hold all light of a frame, a surface's own and what it mirrors; as lamps shine now.
+  // Whether half floats hold the light of surfaces and sky, as lamps shine now; that of a reflector's maps, which are
+  // there.
   bool fits_halves() const;
+  bool fit_halves(const GpuReflector& reflector) const;
 
   // Whether albedo and normal textures are filtered by their mipmaps, from now on.
   void use_mipmaps(bool on) { images_->use_mipmaps(on); }

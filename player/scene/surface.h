@@ -56,8 +56,9 @@ inline void draw_batch(const DrawBatch& batch, FrameStats& stats) {
   for (const std::int32_t count : batch.counts) stats.triangles += static_cast<std::uint64_t>(count) / 3;
 }
 
-// 1 / distance is never stored smaller than this where something is seen, the sky too.
-inline constexpr float kClosest = 1e-15f;
+// 1 / distance is never stored smaller than this where something is seen, the sky too:
+// half floats hold it.
+inline constexpr float kClosest = 0x1p-14f;
 
 // That alpha tells 1 / distance, as in images of what reflectors show (shaders/passes/opaque.glsl). Uses the program.
 inline void set_distance_alpha(const gpu::Program& program, const View& view) {

@@ -369,7 +369,7 @@ Status settle(const Given& given, PlayArguments& out) {
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
-  out.frame.halves = wants_pictures(out);
+  out.frame.halves = out.makes_pictures();
   if (const std::string complaint = contradiction(out); !complaint.empty())
     return fail(ErrorCode::kUsage, "", "{}", complaint);
   return {};

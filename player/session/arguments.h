@@ -60,18 +60,17 @@ struct PlayArguments {
   Quality quality = Quality::kAutomatic;
   float eye_height_m = 0;  // of people over the floors; 0: as the pack has it
   bool gl_debug = false;
+
+  // Alone: light that is measured, or kept as .exr, is not rounded to half floats.
+  bool makes_pictures() const {
+    return (reference.empty() || reference.ends_with(".png")) && format == "png" && !output.ends_with(".exr") &&
+           (!offscreen || path.empty());
+  }
 };
 
 // Supersampled pictures have smooth edges already, and large frames.
 inline int samples_of_picture(const PlayArguments& arguments) {
   return arguments.supersample > 1 && !arguments.sampled ? 1 : arguments.frame.samples;
-}
-
-// Light that is measured, or kept as .exr, is not rounded to half floats.
-inline bool wants_pictures(const PlayArguments& arguments) {
-  const std::string& beside = arguments.reference;
-  return (beside.empty() || beside.ends_with(".png")) && arguments.format == "png" &&
-         !arguments.output.ends_with(".exr");
 }
 
 // Those options that can change a frame, by name.

@@ -221,14 +221,16 @@ class Loop {
     const PictureNotes notes{session_.camera, scene_->pack().mesh.origin, session_.camera.name, session_.shown_ev100,
                              session_.curve};
     const auto times = static_cast<std::uint32_t>(n);
-    const int samples = session_.frame.samples;
+    const FrameOptions shown = session_.frame;
     if (n > 1) session_.frame.samples = samples_of_picture(arguments_);
-    Status status = n > 1 ? redraw(n * width, n * height) : Status();
+    if (is_linear_file(name)) session_.frame.halves = false;
+    const bool anew = n > 1 || session_.frame != shown;
+    Status status = anew ? redraw(n * width, n * height) : Status();
     if (status)
       status = beside_ ? beside_->write(renderer_, session_, name, notes, times)
                        : write_picture(renderer_, name, notes, times);
-    session_.frame.samples = samples;
-    if (n > 1) ORIEL_TRY_VOID(redraw(width, height));
+    session_.frame = shown;
+    if (anew) ORIEL_TRY_VOID(redraw(width, height));
     return status;
   }
 

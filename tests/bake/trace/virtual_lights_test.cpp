@@ -159,6 +159,16 @@ TEST(VirtualLights, TwoMirrorsOneAfterTheOther) {
   EXPECT_NEAR(meter.at({1.5f, 0, 0}, {0, 1, 0}).g / expected, 1, 1e-4);
 }
 
+TEST(VirtualLights, ASunAsWideAsTheSkyReachesAllThatItDid) {
+  SceneParts parts = floor_mirror();
+  parts.scene().lights = {sun_at(60)};
+  parts.scene().lights[0].angular_radius_rad = kPi / 2;
+  const Scene scene = parts.finish();
+  const LightSet lights(scene);
+  ASSERT_EQ(lights.mirrored().size(), 1u);
+  EXPECT_TRUE(lights.mirrored()[0].may_reach({2, 3, 0}, 0));
+}
+
 TEST(VirtualLights, WhatTheyMayNotReachTheyDoNotLight) {
   SceneParts parts = floor_mirror(Vec3(0.5f));
   const auto metal = parts.add(mirror(Vec3(0.8f)));

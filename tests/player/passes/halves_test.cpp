@@ -1,4 +1,6 @@
 // Light in half floats: to their precision what floats show, and never where a light is beyond them.
+#include <cmath>
+
 #include "formats/core/color.h"
 #include "tests/player/frame_fixture.h"
 
@@ -15,6 +17,8 @@ Pack lit_wall(float lux, float lamp) {
     return Seen{at.x < 0 ? Vec3(0.5f * lamp, 0.3f * lamp, 0.1f * lamp) : Vec3(3, 2, 1), 2};
   });
   pack.materials.resize(3);
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
   pack.materials[1].base_color = {0.7f, 0.5f, 0.3f};
   pack.materials[2].emission = Vec3(lamp);
   pack.lightmaps.push_back(flat_page(Vec3(lux)));
@@ -48,9 +52,50 @@ TEST_F(Halves, ShowWhatFloatsDo) {
     const Pack pack = lit_wall(lux, std::max(lux, 1.0f) / 3);
     const Picture halves = draw_with(pack, true), floats = draw_with(pack, false);
     const float apart = largest_difference(halves, floats);
-    EXPECT_LT(apart, 2e-3f) << lux << " lux";
+    EXPECT_LT(apart, 4e-3f) << lux << " lux";
     EXPECT_GT(apart, 0) << lux << " lux: they were not used";
   }
+}
+
+// Where a mirror shows it alpha tells it from a hole.
+TEST_F(Halves, ShowTheSkyInMirrors) {
+  for (const Reflections way : {Reflections::kGeometry, Reflections::kMarch}) {
+    Pack pack;
+    add_mirror(pack, {{0, 0, -3}}, 64, [](const Vec2&, const Vec3&) { return Seen{{40, 50, 60}, INFINITY}; });
+    pack.materials.resize(1);
+    pack.materials[0].fresnel_map = 0;
+    pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
+    pack.sky = {40, 50, 60};
+    Camera camera;
+    camera.eye = {0.3f, 0.2f, 2};
+    FrameOptions options;
+    options.reflections = way;
+    const Vec3 floats = draw(pack, camera, kSize, kSize, options).at(kSize / 2, kSize / 2);
+    options.halves = true;
+    const Vec3 halves = draw(pack, camera, kSize, kSize, options).at(kSize / 2, kSize / 2);
+    EXPECT_GT(floats.g, 10);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(halves[c], floats[c], 2e-3f * floats[c]);
+  }
+}
+
+// The image of a reflector is not made of them then, so that nothing beside is spoilt; the frame shows white.
+TEST_F(Halves, AreNotForMapsBeyondThem) {
+  Pack pack;
+  add_mirror(pack, {{0, 0, -3}}, 64, [](const Vec2& at, const Vec3&) {
+    return Seen{Vec3(at.x < 0 ? 1e6f : 3.3f), INFINITY};
+  });
+  pack.materials.resize(1);
+  pack.materials[0].fresnel_map = 0;
+  pack.fresnel_maps.push_back(flat_reflectance(Vec3(0.5f)));
+  const Picture halves = draw_with(pack, true), floats = draw_with(pack, false);
+  int bright = 0;
+  for (std::size_t i = 0; i < floats.rgb.size(); ++i) {
+    const bool beyond = floats.rgb[i] > 1e4f;  // at edges the mean of such samples and others
+    bright += beyond;
+    EXPECT_TRUE(beyond ? halves.rgb[i] > 1e4f : std::fabs(halves.rgb[i] - floats.rgb[i]) <= 4e-3f * floats.rgb[i])
+        << i << ": " << halves.rgb[i] << " " << floats.rgb[i];
+  }
+  EXPECT_GT(bright, 300);
 }
 
 TEST_F(Halves, AreNotForLightBeyondThem) {
