@@ -31,8 +31,9 @@ LiveSum& LiveSum::operator+=(const LiveSum& other) {
   return *this;
 }
 
-float LiveSum::kept() const {
-  return squares > 0 ? static_cast<float>(std::clamp(products / squares, 0.0, 1.0)) : 1.0f;
+std::optional<float> LiveSum::kept() const {
+  if (!(squares > 0)) return std::nullopt;
+  return static_cast<float>(std::clamp(products / squares, 0.0, 1.0));
 }
 
 LiveSums::LiveSums(const LampScene& scene, const LightPair& lights)

@@ -32,8 +32,9 @@ struct LiveSum {
   LiveSum& operator+=(const LiveSum& other);
   // How much of what the bake knows of the lamp here still tells about it, [0,1]: the coefficient of the regression,
   // through the origin, of the lights now on the same ones as baked, as for control variates (Owen 2013, "Monte Carlo
-  // theory, methods and examples", section 8.9). Where nothing has changed it is 1 exactly; with nothing in common 0.
-  float kept() const;
+  // theory, methods and examples", section 8.9). Where nothing has changed it is 1 exactly; with nothing in common 0;
+  // nothing where no light came before: what the bake has there it has from around.
+  std::optional<float> kept() const;
 };
 
 // For one thread, point after point that lie together: what was in the way of a light is asked first for the next.

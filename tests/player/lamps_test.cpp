@@ -104,6 +104,21 @@ TEST_F(LampsTest, DirectLightIsTheClosedFormInEachMode) {
     }
 }
 
+// Texels that the bake filled from around have light of a lamp whose live lights give none there.
+TEST_F(LampsTest, WhatIsCoveredLosesTheLightOfALampThatIsGone) {
+  Pack pack = lit_floor();
+  add_quad(pack, {-2, 0.3f, -2}, {0, 0, 4}, {1.2f, 0, 0}, 0, -1);
+  const Camera below = {"c", {-1.7f, 0.2f, 0}, {0, -1, 0}, {0, 0, -1}, 1.0f, 0};
+  const float before = draw(pack, below, 32, 32).at(16, 16).g, others = 0.5f * kOthers.g / kPi;
+  EXPECT_GT(before, 1.2f * others);
+  for (const LiveMode mode : {LiveMode::kFitted, LiveMode::kOnly}) {
+    FrameOptions options;
+    options.lamps = {shifted({0, 500, 0}), {}};
+    options.live.mode = mode;
+    EXPECT_NEAR(draw(pack, below, 32, 32, options).at(16, 16).g, others, 0.01f * others);
+  }
+}
+
 TEST_F(LampsTest, TheLampIsSeenWhereItIs) {
   Camera up = camera();
   up.forward = {0, 1, 0}, up.up = {0, 0, 1}, up.eye = {0, 0.5f, 0};

@@ -129,7 +129,7 @@ TEST(LiveLights, WhereNothingMovedTheBakeStays) {
   for (float x = -4; x < 4; x += 0.37f) {
     const LiveSum sum = sum_at(scene, {300, 0.5f, 3}, {}, {x, 0, 0.1f}, {0, 1, 0});
     EXPECT_EQ(sum.now, sum.baked);
-    EXPECT_EQ(sum.kept(), 1);
+    EXPECT_EQ(sum.kept().value_or(1), 1);
   }
 }
 
@@ -179,7 +179,7 @@ TEST(LiveLights, ExtremesAreFinite) {
           for (const Vec3& shift : {Vec3(0), Vec3(0.1f, 0, 0), Vec3(1e6f, 0, 0)}) {
             const LiveSum sum = sum_at(scene, {lights, share, bounces}, shifted(shift), {0.01f, 0, 5e-4f}, {0, 1, 0});
             ASSERT_TRUE(is_finite(sum.now) && is_finite(sum.baked) && is_finite(sum.missing));
-            ASSERT_TRUE(sum.kept() >= 0 && sum.kept() <= 1);
+            ASSERT_TRUE(sum.kept().value_or(0) >= 0 && sum.kept().value_or(0) <= 1);
           }
   }
   EXPECT_EQ(luminance(sum_at(boxed.scene(), {300, 0.5f, 3}, shifted({0.1f, 0, 0}), {2, -3, 0}, {0, 1, 0}).now), 0);
