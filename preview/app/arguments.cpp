@@ -67,10 +67,12 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
        flag(a.frame.shared)},
       {"--elements", kEffects,
-       "Elements of surfaces that shine back what lamps throw on them, without shadows; 0: none",
+       "Elements of surfaces that shine back what comes to them, after any number of bounces; without shadows while "
+       "one "
+       "moves; 0: none",
        number(a.scene.elements, 0, 1024), Use::kEveryday},
       {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
-      {"--no-bounce", kEffects, "Leaves out what elements shine back", flag(a.frame.bounce, false)},
+      {"--no-bounce", kEffects, "Leaves out what surfaces shine back", flag(a.frame.bounce, false)},
       {"--no-emission", kEffects, "Leaves out what surfaces emit", flag(a.frame.emission, false)},
       {"--no-traced", kEffects, "Leaves out reflections and what is behind glass, which rays find",
        flag(a.frame.traced, false)},

@@ -1,41 +1,24 @@
 #include "preview/frame/elements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
-#include "bake/trace/emission.h"
 #include "formats/core/color.h"
+#include "preview/frame/landings.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kParticles = 64;  // by element
-constexpr std::uint64_t kStream = 0x656c656d;
-constexpr int kMostCells = 64;  // along the scene's diameter
+constexpr std::uint32_t kParticles = 64, kMostParticles = 8192;  // by element; of all
+constexpr std::size_t kPlaces = 32;                              // of an element, that rays go to
+constexpr int kMostCells = 64;                                   // along the scene's diameter
 
 struct Landed {
   Vec3 place, normal, power;
+  Vec3 origin;              // of rays to it
   std::uint32_t group = 0;  // of those that become one element
 };
-
-std::vector<Landed> land_particles(const Transport& t, std::uint64_t seed, std::uint32_t count) {
-  const Scene& scene = t.accel.scene();
-  const Sources sources(scene, t.lights);
-  std::vector<Landed> landed;
-  for (std::size_t kind = 0; kind < sources.kinds().size(); ++kind)
-    for (std::uint32_t i = 0; i < count; ++i) {
-      Sampler sampler(seed, kStream + kind, i);
-      const Particle particle = sources.emit(sources.kinds()[kind], sampler);
-      const Hit hit = t.accel.intersect(particle.ray);
-      if (!hit) continue;
-      const SurfacePoint s = surface_at(scene, hit, particle.ray.direction);
-      if (!s.reflects) continue;
-      const float left = 1 - max_component(reflectance(s.shade, -glm::dot(s.normal, particle.ray.direction)));
-      const Vec3 power = particle.power * s.shade.coverage * left * s.shade.diffuse / (kPi * static_cast<float>(count));
-      if (max_component(power) > 0 && is_finite(power)) landed.push_back({s.position, s.geometric_normal, power, 0});
-    }
-  return landed;
-}
 
 // Of six, the axis that the normal is nearest to.
 int axis_of(const Vec3& n) {
@@ -76,16 +59,40 @@ BounceElement element_of(std::span<const Landed> members) {
     spread += (luminance(DVec3(l.power)) + 1e-300) * glm::dot(off, off);
   }
   // Of an even disk: mean square distance from its middle is half its radius' square.
-  return {Vec3(place), normalize_or(Vec3(normal), members.front().normal),
-          static_cast<float>(2 * kPiD * spread / weight), Vec3(power)};
+  BounceElement out{Vec3(place),
+                    normalize_or(Vec3(normal), members.front().normal),
+                    static_cast<float>(2 * kPiD * spread / weight),
+                    Vec3(power),
+                    {}};
+  for (std::size_t i = 0; i < std::min(members.size(), kPlaces); ++i)
+    out.places.push_back(members[i * members.size() / std::min(members.size(), kPlaces)].origin);
+  return out;
 }
 
 }  // namespace
 
+std::vector<BounceElement> some_of(std::span<const BounceElement> elements, std::size_t count, float u) {
+  std::vector<BounceElement> some;
+  double total = 0, run = 0;
+  for (const BounceElement& e : elements) total += double{luminance(e.power)};
+  const double step = total / static_cast<double>(count);
+  for (const BounceElement& e : elements) {
+    const double power = double{luminance(e.power)}, from = run / step - double{u},
+                 to = (run += power) / step - double{u};
+    const double times = std::ceil(to) - std::ceil(from);  // whole steps within it
+    if (times <= 0 || some.size() == count) continue;
+    some.push_back(e);
+    some.back().power *= static_cast<float>(times * step / power);
+  }
+  return some;
+}
+
 std::vector<BounceElement> bounce_elements(const Transport& t, std::uint64_t seed, std::uint32_t count) {
   std::vector<BounceElement> elements;
   if (count == 0) return elements;
-  std::vector<Landed> landed = land_particles(t, seed, kParticles * count);
+  std::vector<Landed> landed;
+  for (const Landing& l : land_particles(t, seed, std::min(kParticles * count, kMostParticles)))
+    landed.push_back({l.place, l.normal, l.power, offset_origin(l.place, l.normal, l.magnitude)});
   int cells = 1;
   for (int finer = 2; finer <= kMostCells && group(landed, t.accel.scene(), finer) <= count; ++finer) cells = finer;
   group(landed, t.accel.scene(), cells);

@@ -35,6 +35,13 @@ std::optional<Shone> shine(const LampPoint& lamp, const Receiver& at, const Vec3
   return out;
 }
 
+Ray ray_to(const LampPoint& lamp, const Shone& shone) {
+  if (!lamp.seen_at) return shone.ray;
+  const Vec3 to = *lamp.seen_at - shone.ray.origin;
+  const float distance = std::max(glm::length(to), 1e-15f);
+  return {shone.ray.origin, to / distance, distance};
+}
+
 class LampTracer {
  public:
   LampTracer(const SeenPoints& seen, std::span<const LampPoint> lamps, const Accel& accel, const SharedPoints& shared)
@@ -74,10 +81,10 @@ class LampTracer {
         if (seen_.place[y * width + x].w == 0) continue;
         const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
         if (!lit) continue;
-        if (lamps_[p].soft > 0)
+        if (lamps_[p].soft > 0 && !lamps_[p].seen_at)
           light[y * width + x] += Vec4(lit->light, 1);
         else
-          rays.push_back(lit->ray), shone.push_back(lit->light), pixels.push_back(y * width + x);
+          rays.push_back(ray_to(lamps_[p], *lit)), shone.push_back(lit->light), pixels.push_back(y * width + x);
       }
       passed.resize(rays.size());
       accel_.transmittance(rays, passed);

@@ -1,6 +1,8 @@
 // Points on lamps that passes draw light from: jittered samples (U1), as many as are asked for, whatever the lamps.
 #pragma once
 
+#include <optional>
+
 #include "bake/scene/scene.h"
 #include "bake/trace/sky_sampler.h"
 
@@ -15,12 +17,13 @@ enum class LampKind { kFlat, kPunctual, kAfar };
 // and with `soft` that is added to d², of a disk that is near: its area / pi.
 struct LampPoint {
   LampKind kind = LampKind::kFlat;
-  Vec4 place{0, 0, 0, 1};     // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
-  Vec3 normal{0, 0, -1};      // of a flat lamp's front
-  Vec3 power{0};              // per channel
-  std::uint32_t light = ~0u;  // into Scene::lights, of a punctual one
-  float soft = 0;             // m²; > 0: an element of one bounce, which throws no shadows
-  float share = 1;            // of one with a light: power over the light's own colour or intensity
+  Vec4 place{0, 0, 0, 1};         // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
+  Vec3 normal{0, 0, -1};          // of a flat lamp's front
+  Vec3 power{0};                  // per channel
+  std::uint32_t light = ~0u;      // into Scene::lights, of a punctual one
+  float soft = 0;                 // m²; > 0: an element, of what surfaces reflect
+  float share = 1;                // of one with a light: power over the light's own colour or intensity
+  std::optional<Vec3> seen_at{};  // of an element: where the shadow ray goes; none: no shadows
 };
 
 // All that shines in a scene, by power.

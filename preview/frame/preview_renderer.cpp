@@ -11,8 +11,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
-constexpr int kTrials = 2;            // of volumes: the first one has shaders to compile
-constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
+constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
+constexpr std::uint64_t kElementStream = 0x72656673;
+constexpr std::size_t kElementsOfPass = 36;  // finer ones: four a pixel
+constexpr std::uint32_t kBatch = 64;         // elements of a draw, as shaders/passes/screen_preview_elements.frag
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
 class Stage {
@@ -29,6 +31,13 @@ class Stage {
   double& seconds_;
   Clock::time_point start_;
 };
+
+std::vector<LampPoint> lamps_of(std::span<const BounceElement> elements) {
+  std::vector<LampPoint> lamps;
+  for (const BounceElement& e : elements)
+    lamps.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
+  return lamps;
+}
 
 void draw_screen(const gpu::VertexArray& no_vertices) {
   glBindVertexArray(no_vertices.name());
@@ -131,6 +140,7 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
   const bool among_lamps = options.shared && stats.points > 0 && stats.shadows == ShadowMethod::kRays;
   if (options.bounce && !among_lamps) {
     const Stage stage(stats.bounce_s);
+    if (!options.shared && options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
     light_.framebuffer.bind();
     add_elements();
   }
@@ -184,11 +194,31 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
   points_ = read_points();
   read_ = true;
   std::vector<LampPoint> all(lamps.begin(), lamps.end());
-  if (options.shared && options.bounce)  // pixels share elements too
-    for (const BounceElement& e : scene_->elements)
-      all.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
+  if (options.shared && options.bounce) {  // pixels share elements too
+    const std::vector<LampPoint> elements = lamps_of(scene_->elements);
+    all.insert(all.end(), elements.begin(), elements.end());
+  }
   const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
   ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
+  light_.light.upload(0, light.data());
+  return {};
+}
+
+// Neighbours share them: they shine smoothly. Each pass takes others, and asks for shadows at other places of them.
+Status PreviewRenderer::add_shadowed_elements(Context& context) {
+  if (!read_) points_ = read_points();
+  read_ = true;
+  Sampler sampler(context.seed, kElementStream, passes_);
+  const auto elements = some_of(scene_->finer, kElementsOfPass, sampler.next1());
+  std::vector<LampPoint> lamps = lamps_of(elements);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const std::vector<Vec3>& places = elements[i].places;
+    lamps[i].seen_at = places[(passes_ + i) % places.size()];
+  }
+  ORIEL_TRY(const auto reflected,
+            lamps_by_rays(points_, lamps, *scene_->accel, {sharing_side(lamps.size()), passes_}, context));
+  std::vector<Vec4> light = read_texture(light_.light);
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] += reflected[i];
   light_.light.upload(0, light.data());
   return {};
 }

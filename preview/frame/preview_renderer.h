@@ -69,6 +69,7 @@ class PreviewRenderer {
                    PreviewStats& stats);
   void add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats);
   Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context);
+  Status add_shadowed_elements(Context& context);
   Status trace(Context& context, PreviewStats& stats);
   void add_elements() const;
   void add_pass(const PreviewOptions& options) const;

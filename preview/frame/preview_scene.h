@@ -21,6 +21,7 @@ struct PreviewScene {
   Lamps lamps;
   ShadowMesh shadows;
   std::vector<BounceElement> elements;
+  std::vector<BounceElement> finer;               // of the same light: a pass takes some
   double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
 
   const Scene& scene() const { return imported.scene; }
@@ -30,8 +31,11 @@ struct PreviewScene {
 struct PreviewSceneOptions {
   std::filesystem::path file;
   ImportOptions import;
-  std::uint32_t elements = 32;  // of one bounce; 0: none
+  std::uint32_t elements = 32;  // of what surfaces reflect; 0: none
 };
+
+// Of a scene whose lamps or materials are new: its elements.
+void find_elements(PreviewScene& scene, std::uint64_t seed, std::uint32_t elements);
 
 // The rest of a scene that is read. Errors: as Accel::build(), kStopped.
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,

@@ -107,7 +107,7 @@ void edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elem
     }
   scene.lamps = Lamps(scene.scene());
   scene.lights.emplace(scene.scene());
-  scene.elements = bounce_elements(scene.transport(), seed, elements);
+  find_elements(scene, seed, elements);
 }
 
 Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits) {

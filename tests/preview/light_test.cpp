@@ -126,8 +126,8 @@ TEST_F(PreviewLight, AnEvenSkyIsItsClosedForm) {
   EXPECT_NEAR(mean_of(draw(kDirectOnly, 64, look_at({0, 2, 0.001f}, {0, 0, 0}, 0.5f))), 1.5, 0.02);
 }
 
-// Elements leave out shadows and further bounces, so they are no more than near. More of them come nearer.
-TEST_F(PreviewLight, OneBounceComesNearerWithMoreElements) {
+// Near disks are not surfaces. More of them come nearer.
+TEST_F(PreviewLight, ReflectedLightComesNearerWithMoreElements) {
   PreviewOptions options = kDirectOnly;
   options.direct = false;
   options.bounce = true;
@@ -138,11 +138,39 @@ TEST_F(PreviewLight, OneBounceComesNearerWithMoreElements) {
   for (const std::uint32_t elements : {4u, 32u, 256u}) {
     take(room(), elements);
     EXPECT_LE(scene_->elements.size(), std::max(elements, 6u));
-    errors.push_back(apart(draw(options, 1), truth));
+    errors.push_back(apart(draw(options, 64), truth));
     std::printf("%u elements (%zu): relative RMSE of the indirect light %.3f\n", elements, scene_->elements.size(),
                 errors.back());
   }
   EXPECT_LT(errors.back(), errors.front());
+}
+
+constexpr PreviewOptions kBouncesOnly{
+    .direct = false, .bounce = true, .emission = false, .traced = false, .antialias = false};
+
+// After any number of bounces, in dark rooms and in white ones: as bright as paths.
+TEST_F(PreviewLight, ElementsHaveAllBounces) {
+  for (const float wall : {0.3f, 0.85f}) {
+    take(room(Vec3(wall)), 256);
+    const FloatImage truth = reference(128).indirect, shown = draw(kBouncesOnly, 32);
+    std::printf("walls of %.2f: mean of 256 elements %+.3f, relative RMSE %.3f\n", double{wall},
+                mean_of(shown) / mean_of(truth) - 1, apart(shown, truth));
+    EXPECT_NEAR(mean_of(shown) / mean_of(truth), 1, 0.15);  // near disks are darker than surfaces
+  }
+}
+
+TEST_F(PreviewLight, ElementsShineIntoTheirRoomAlone) {
+  test::SceneParts parts;
+  const std::uint32_t grey = parts.diffuse(Vec3(0.6f));
+  parts.box("bright", grey, {-2, 0, -2}, {2, 2.5f, 2}, true);
+  parts.box("dark", grey, {2.1f, 0, -2}, {6.1f, 2.5f, 2}, true);
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {-0.4f, 2.45f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f});
+  take(parts.finish(), 32);
+  const Camera inside = look_at({4, 1.4f, 1.8f}, {4, 0.8f, -1}, 1.1f);
+  EXPECT_EQ(mean_of(draw(kBouncesOnly, 8, inside)), 0);
+  PreviewOptions unshadowed = kBouncesOnly;
+  unshadowed.shadows = ShadowMethod::kNone;
+  EXPECT_GT(mean_of(draw(unshadowed, 1, inside)), 0);
 }
 
 TEST_F(PreviewLight, PathsAreTheReferenceToTheBit) {

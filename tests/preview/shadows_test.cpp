@@ -192,7 +192,8 @@ TEST_F(SharedPointsTest, ErrAtShadowsAlone) {
   EXPECT_NEAR(brighter / all, 0, 0.01);
 }
 
-TEST_F(SharedPointsTest, FramesWithOneBounceAreTheSame) {
+// Nothing is in the way of anything here.
+TEST_F(SharedPointsTest, FramesWithElementsAreTheSame) {
   test::SceneParts parts;
   const std::uint32_t grey = parts.diffuse(Vec3(0.5f)), red = parts.diffuse(Vec3(0.7f, 0.2f, 0.1f));
   parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
@@ -201,9 +202,12 @@ TEST_F(SharedPointsTest, FramesWithOneBounceAreTheSame) {
   take(parts.finish(), 32);
   const auto frame = [&](bool shared, bool bounce) {
     EXPECT_TRUE(renderer_.look(look_at({1, 3, 7}, {0, 1, 0}, 0.9f), kWidth, kHeight));
-    EXPECT_TRUE(renderer_.pass(
-        {.shadows = ShadowMethod::kRays, .samples = 36, .bounce = bounce, .emission = false, .shared = shared},
-        context_));
+    EXPECT_TRUE(renderer_.pass({.shadows = shared ? ShadowMethod::kRays : ShadowMethod::kNone,
+                                .samples = 36,
+                                .bounce = bounce,
+                                .emission = false,
+                                .shared = shared},
+                               context_));
     const FloatImage mean = renderer_.read_mean();
     std::vector<Vec4> light;
     for (std::size_t i = 0; i < mean.pixels.size(); i += 3) light.emplace_back(mean.pixels[i], 0, 0, 0);
