@@ -86,8 +86,16 @@ class Groups {
     }
   }
 
+  bool is_hour(const std::string& name) const {
+    return std::ranges::any_of(scene_.day.hours,
+                               [&](const DayHour& hour) { return name == "day " + clock_text(hour.hour); });
+  }
+
   Status by_names(const LightGroupOptions& options) {
     for (const auto& [name, patterns] : options.named) {
+      if (is_hour(name))
+        return fail(ErrorCode::kUsage, options.file, "found the group \"{}\", expected another name: that is an hour's",
+                    name);
       const std::uint32_t number = group(name);
       for (const std::string& pattern : patterns) {
         bool any = false;
@@ -110,7 +118,7 @@ class Groups {
 
   void by_marks(Context& context) {
     for (Lamp& lamp : lamps_)
-      if (!lamp.mark.empty()) lamp.group = group(lamp.mark);
+      if (!lamp.mark.empty()) lamp.group = group(is_hour(lamp.mark) ? lamp.mark + " lamp" : lamp.mark);
     std::set<std::string> without;
     for (const Surface& surface : scene_.surfaces)
       if (!surface.group_mark.empty() && std::ranges::find(names_, surface.group_mark) == names_.end())

@@ -137,9 +137,10 @@ Status parse_day(const std::string& text, DayOptions& options) {
   }
   if (numbers.size() != 2 && numbers.size() != 3)
     return fail(ErrorCode::kUsage, "", "found '{}', expected {}", text, kExpected);
-  if (std::abs(numbers[0]) > 90 || std::abs(numbers[1]) > 180)
-    return fail(ErrorCode::kUsage, "", "found latitude {} and longitude {}, expected -90 to 90 and -180 to 180 degrees",
-                numbers[0], numbers[1]);
+  if (std::abs(numbers[0]) > 90)
+    return fail(ErrorCode::kUsage, "", "found latitude {}, expected -90 to 90 degrees", numbers[0]);
+  if (std::abs(numbers[1]) > 180)
+    return fail(ErrorCode::kUsage, "", "found longitude {}, expected -180 to 180 degrees", numbers[1]);
   if (numbers.size() == 3 && std::abs(numbers[2]) > 360)
     return fail(ErrorCode::kUsage, "", "found north at {}, expected -360 to 360 degrees clockwise from -Z", numbers[2]);
   options.latitude_deg = numbers[0], options.longitude_deg = numbers[1];

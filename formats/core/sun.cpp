@@ -59,8 +59,10 @@ Result<Date> parse_date(const std::string& text) {
   char rest = 0;
   const bool numbers =
       text.size() == 10 && std::sscanf(text.c_str(), "%4d-%2d-%2d%c", &date.year, &date.month, &date.day, &rest) == 3;
-  if (!numbers || date.year < 1901 || date.year > 2099 || date.month < 1 || date.month > 12 || date.day < 1 ||
-      date.day > days_of_month(date))
+  if (numbers && date.month >= 1 && date.month <= 12 && date.day > days_of_month(date))
+    return fail(ErrorCode::kUsage, "", "found the date '{}', expected one that exists: that month has {} days", text,
+                days_of_month(date));
+  if (!numbers || date.year < 1901 || date.year > 2099 || date.month < 1 || date.month > 12 || date.day < 1)
     return fail(ErrorCode::kUsage, "", "found the date '{}', expected a day from 1901 to 2099 as 2026-06-21", text);
   return date;
 }

@@ -9,6 +9,9 @@ Result<BetweenHours> hours_around(const Day& day, float hour) {
   if (day.empty())
     return fail(ErrorCode::kUsage, "--hour", "found an hour, but the pack has no day: oriel-bake --day makes one");
   const std::vector<DayHour>& hours = day.hours;
+  if (hours.size() == 1 && hour != hours.front().hour)
+    return fail(ErrorCode::kUsage, "--hour", "found {:g}, expected {:g} ({}), the one hour that the pack was baked for",
+                hour, hours.front().hour, clock_name(day));
   if (!(hour >= hours.front().hour && hour <= hours.back().hour))
     return fail(ErrorCode::kUsage, "--hour", "found {:g}, expected {:g} to {:g} ({}), for which the pack was baked",
                 hour, hours.front().hour, hours.back().hour, clock_name(day));

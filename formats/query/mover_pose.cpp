@@ -57,7 +57,7 @@ Result<MoverMove> parse_move(std::string_view text) {
     }
   }
   if (!read || numbers.size() < 3 || numbers.size() > 4)
-    return fail(ErrorCode::kUsage, "--move", "found '{}', expected NODE=x,y,z or NODE=x,y,z,yaw: metres, degrees",
+    return fail(ErrorCode::kUsage, "", "found '{}', expected NODE=x,y,z or NODE=x,y,z,yaw: metres, degrees, below 1e9",
                 text);
   move.position = DVec3(numbers[0], numbers[1], numbers[2]);
   if (numbers.size() == 4) move.yaw_rad = numbers[3] * kPiD / 180;

@@ -76,7 +76,8 @@ class Work {
     both += indirect;
     const float kept = both.kept().value_or(around);
     sums.now += double{luminance(both.now)}, sums.missing += double{luminance(both.missing)};
-    sums.kept += double{kept}, sums.points += 1;
+    sums.kept += in_.mode == LiveMode::kFitted ? double{kept} : in_.mode == LiveMode::kOnly ? 0.0 : 1.0;
+    sums.points += 1;
     return added_light(both, in_.mode, kept, own);
   }
 

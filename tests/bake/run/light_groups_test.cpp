@@ -62,6 +62,22 @@ TEST(LightGroups, FollowMarks) {
   EXPECT_NE(warnings[0].find("\"walls\" has no lamp"), std::string::npos);
 }
 
+TEST(LightGroups, HaveNamesOfTheirOwnBesideHours) {
+  Context context;
+  Scene named = lit_scene(), marked = lit_scene();
+  DayHour noon;
+  noon.hour = 12, noon.group = 0;
+  for (Scene* scene : {&named, &marked}) scene->day.date = "2026-06-21", scene->day.hours = {noon};
+  const Status refused =
+      assign_light_groups({LightGrouping::kNamed, "groups.json", {{"day 12:00", {"panel*"}}}}, named, context);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text(),
+            "groups.json: found the group \"day 12:00\", expected another name: that is an hour's");
+  marked.surfaces[3].group_mark = "day 12:00";
+  ASSERT_TRUE(assign_light_groups({}, marked, context));
+  EXPECT_EQ(names(marked), (Names{"day 12:00", "day 12:00 lamp", kOtherLamps}));
+}
+
 TEST(LightGroups, FollowPlacesAndLamps) {
   Context context;
   Scene by_place = lit_scene(), each = lit_scene(), off = lit_scene();

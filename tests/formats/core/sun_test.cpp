@@ -1,4 +1,5 @@
 // The sun's place against published values, and how bright it and the sky are.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "formats/core/daylight.h"
@@ -104,6 +105,7 @@ TEST(Sun, TakesDaysThatThereAre) {
   for (const char* bad : {"2026-02-29", "2026-13-01", "2026-00-01", "2026-06-31", "1900-01-01", "2100-01-01",
                           "26-06-21", "2026-6-21", "2026-06-21x", "", "21.06.2026", "2026-06--1"})
     EXPECT_FALSE(parse_date(bad)) << bad;
+  EXPECT_THAT(parse_date("2026-02-30").error().text(), ::testing::HasSubstr("has 28 days"));
 }
 
 // IESNA's handbook: 40° north, a clear summer solstice at noon gives 8821 fc of the sun on level ground.
