@@ -271,9 +271,9 @@ std::vector<Option> light_options(PlayArguments& out) {
        "colour temperature, a colour. * stands for all groups. May be repeated; the last counts",
        texts(out.lights, "NAME=0.3|off|on|2700K|#rrggbb"), Use::kEveryday, "lights"},
       {"--hour", kLights,
-       "The time of the pack's day (oriel-bake --day) that is shown, in hours of its clock, between those baked: 14.5. "
+       "The time of the pack's day (oriel-bake --day) that is shown, by its clock, between those baked: 14.5 or 14:30. "
        "--list tells which it has",
-       number(out.hour, 0, 24), Use::kEveryday, "hour"},
+       clock_hour(out.hour), Use::kEveryday, "hour"},
       {"--lights", kLights,
        "What lamps are set to, from a file that the window keeps: {\"desk\": \"0.3 2700K\", \"hall\": \"off\"}. "
        "--light comes after it",

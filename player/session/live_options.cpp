@@ -1,5 +1,9 @@
 #include "player/session/live_options.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 #include "player/session/option_names.h"
 
 namespace oriel {
@@ -19,6 +23,19 @@ std::vector<Option> live_options(const char* group, LiveSettings& out) {
       {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone",
        number(out.lights.bounces, 0, kMostLiveBounces), Use::kRare, "live_bounces"},
   };
+}
+
+OptionValue clock_hour(std::optional<float>& out) {
+  OptionValue value = number(out, 0, 24);
+  value.type = "HOUR|HH:MM";
+  value.set = [set = value.set](const std::string& typed) -> Status {
+    int hours = 0, minutes = 0, read = 0;
+    const bool clock = std::sscanf(typed.c_str(), "%2d:%2d%n", &hours, &minutes, &read) == 2 &&
+                       read == static_cast<int>(typed.size()) && hours >= 0 && minutes >= 0 && minutes < 60;
+    if (set(clock ? fmt::format("{}", hours + minutes / 60.0) : typed)) return {};
+    return fail(ErrorCode::kUsage, "", "found '{}', expected an hour from 0 to 24 as 14.5 or 14:30", typed);
+  };
+  return value;
 }
 
 }  // namespace oriel

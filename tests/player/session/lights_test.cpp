@@ -4,6 +4,7 @@
 #include "formats/core/color.h"
 #include "formats/core/file.h"
 #include "player/session/light_settings.h"
+#include "player/session/live_options.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_pack.h"
 
@@ -28,6 +29,18 @@ std::string refusal(const Pack& pack, const std::string& change) {
   std::vector<LightSetting> settings = settings_of(pack);
   const Status set = set_lights(pack, {change}, settings);
   return set ? "" : set.error().text();
+}
+
+TEST(Hours, AreReadAsNumbersAndOfClocks) {
+  std::optional<float> hour;
+  const OptionValue value = clock_hour(hour);
+  for (const auto& [typed, hours] : {std::pair("14.5", 14.5f), std::pair("14:30", 14.5f), std::pair("0:00", 0.0f),
+                                     std::pair("24:00", 24.0f), std::pair("08:15", 8.25f)}) {
+    ASSERT_TRUE(value.set(typed)) << typed;
+    EXPECT_EQ(hour, hours);
+  }
+  for (const char* bad : {"", "24:01", "14:60", "14:", ":30", "14:3x", "-1:30", "25", "noon"})
+    EXPECT_FALSE(value.set(bad)) << bad;
 }
 
 TEST(Lights, AreDimmedSwitchedAndColoured) {
