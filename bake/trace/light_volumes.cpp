@@ -126,7 +126,8 @@ class Finder {
       DVec3 n = is_afar(image.light.light) ? glm::cross(b - a, image.direction)
                                            : glm::cross(a - image.position, b - image.position);
       const double size = glm::length(n);
-      if (!(size > 0)) continue;
+      // What cutting left of an edge does not tell where it runs; without it the volume is only wider.
+      if (!(size > 0) || glm::distance(a, b) < kInPlane * double{scene_.radius()}) continue;
       n *= (glm::dot(n, middle - a) < 0 ? -1 : 1) / size;
       image.light.sides.push_back({n, glm::dot(n, a)});
     }

@@ -19,6 +19,7 @@ class Walk {
       : t_(t), ray_(particle.ray), power_(particle.power), share_(share), sampler_(sampler), landed_(landed) {}
 
   void run() {
+    if (!(full_ > 0)) return;
     int bounces = 0;
     for (int passes = 0; bounces < kMostBounces && passes < kMaxPasses;) {
       const Hit hit = t_.accel.intersect(ray_);

@@ -206,6 +206,7 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
 
 // Neighbours share them: they shine smoothly. Each pass takes others, and asks for shadows at other places of them.
 Status PreviewRenderer::add_shadowed_elements(Context& context) {
+  if (scene_->finer.empty()) return {};
   if (!read_) points_ = read_points();
   read_ = true;
   Sampler sampler(context.seed, kElementStream, passes_);
