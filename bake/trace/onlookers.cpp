@@ -10,6 +10,7 @@ namespace {
 constexpr int kProbes = 12, kEscapes = 2;  // rays, and those that leave a gap by chance, less than which make it one
 constexpr int kLampSamples = 4;            // of lamps, bright and near ones first
 constexpr std::size_t kNearest = 16;       // eyes that are asked
+constexpr std::size_t kVeryMany = 256;     // where that must not be wrong
 constexpr std::uint64_t kSeed = 0x0e1e5;
 
 }  // namespace
@@ -48,11 +49,11 @@ bool Onlookers::is_lit_from_near(const SurfacePoint& surface, float reach_m, Sam
   return false;
 }
 
-std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal) const {
+std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal, std::size_t most) const {
   std::vector<std::pair<float, std::uint32_t>> before;  // squared distance, eye
   for (std::uint32_t e = 0; e < eyes_.size(); ++e)
     if (const Vec3 way = eyes_[e] - point; glm::dot(way, normal) > 0) before.emplace_back(glm::dot(way, way), e);
-  const std::size_t count = std::min(before.size(), kNearest);
+  const std::size_t count = std::min(before.size(), most);
   std::partial_sort(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(count), before.end());
   std::vector<Vec3> eyes;
   for (std::size_t i = 0; i < count; ++i) eyes.push_back(eyes_[before[i].second]);
@@ -68,7 +69,7 @@ bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t se
 }
 
 bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const {
-  if (!nearest) nearest = nearest_to(origin, normal);
+  if (!nearest) nearest = nearest_to(origin, normal, kNearest);
   for (const Vec3& eye : *nearest) {
     const float distance = glm::distance(eye, origin);
     if (distance > 0 && glm::dot(eye - origin, normal) <= 0) continue;
@@ -77,6 +78,11 @@ bool Onlookers::in_sight(const Vec3& origin, const Vec3& normal, Nearest& neares
       return true;
   }
   return false;
+}
+
+bool Onlookers::in_sight_of_any(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const {
+  Nearest eyes = nearest_to(point, normal, kVeryMany);
+  return in_sight(point, normal, eyes, rays);
 }
 
 }  // namespace oriel

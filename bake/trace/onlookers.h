@@ -30,12 +30,14 @@ class Onlookers {
            Nearest& nearest, std::uint64_t& rays) const;
   // Whether one of the nearest eyes has a line of sight to a point off the surface, of that normal.
   bool in_sight(const Vec3& point, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const;
+  // Whether any of very many eyes has one, as where all near ones may stand behind a wall.
+  bool in_sight_of_any(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const;
   bool any() const { return !eyes_.empty(); }
 
  private:
   bool in_dark_gap(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const;
   bool is_lit_from_near(const SurfacePoint& surface, float reach_m, Sampler& sampler, std::uint64_t& rays) const;
-  std::vector<Vec3> nearest_to(const Vec3& point, const Vec3& normal) const;
+  std::vector<Vec3> nearest_to(const Vec3& point, const Vec3& normal, std::size_t most) const;
 
   const Accel& accel_;
   const LightSet& lights_;

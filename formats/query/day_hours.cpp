@@ -36,6 +36,14 @@ Result<std::vector<float>> weights_at(const Day& day, float hour, std::size_t gr
   return weights;
 }
 
+bool is_night(const Day& day, float hour) {
+  const auto between = hours_around(day, hour);
+  if (!between) return true;
+  const bool before = day.hours[between->before].group != kNight && between->share < 1;
+  const bool after = day.hours[between->after].group != kNight && between->share > 0;
+  return !before && !after;
+}
+
 std::string clock_text(float hour) {
   const auto minutes = std::lround(60 * static_cast<double>(hour));
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);

@@ -19,6 +19,9 @@ Result<BetweenHours> hours_around(const Day& day, float hour);
 // By group of as many, how many times its baked light is shown at that hour; others than the day's keep 1.
 Result<std::vector<float>> weights_at(const Day& day, float hour, std::size_t groups);
 
+// Whether neither of the two hours around has a sun; nor where there are none around.
+bool is_night(const Day& day, float hour);
+
 // "14:30", rounded to the minute.
 std::string clock_text(float hour);
 // "solar time", "UTC", "UTC+02:00".

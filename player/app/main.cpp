@@ -28,6 +28,15 @@ void list_lamp(const Pack& pack, const LightGroup& group) {
   fmt::print("lights {}{}: {}\n", group.name, place, fmt::join(group.lamps, ", "));
 }
 
+void list_day(const Day& day) {
+  fmt::print("day {} at {:g},{:g}: --hour {:g} to {:g} ({}), opens at {:g}", day.date, day.latitude_deg,
+             day.longitude_deg, day.hours.front().hour, day.hours.back().hour, clock_name(day), day.shown_hour);
+  std::vector<std::string> dark;
+  for (const DayHour& hour : day.hours)
+    if (hour.group == kNight) dark.push_back(fmt::format("{:g}", hour.hour));
+  fmt::print("{}\n", dark.empty() ? std::string() : fmt::format("; without a sun at {}", fmt::join(dark, ", ")));
+}
+
 void list_cameras(const Pack& pack) {
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) {
     const Camera& camera = pack.cameras[i];
@@ -39,10 +48,7 @@ void list_cameras(const Pack& pack) {
     const DVec3 at = DVec3(mover.rest.position) + pack.mesh.origin;
     fmt::print("mover {} at {:.2f},{:.2f},{:.2f}\n", mover.name, at.x, at.y, at.z);
   }
-  if (!pack.day.empty())
-    fmt::print("day {} at {:g},{:g}: --hour {:g} to {:g} ({}), opens at {:g}\n", pack.day.date, pack.day.latitude_deg,
-               pack.day.longitude_deg, pack.day.hours.front().hour, pack.day.hours.back().hour, clock_name(pack.day),
-               pack.day.shown_hour);
+  if (!pack.day.empty()) list_day(pack.day);
   for (const LightGroup& group : pack.light_groups) list_lamp(pack, group);
   if (pack.cameras.empty() && pack.paths.empty()) fmt::print("no cameras and no paths\n");
 }
@@ -52,10 +58,13 @@ Result<std::vector<LightSetting>> choose_lights(const Pack& pack, const PlayArgu
   std::vector<LightSetting> settings = settings_of(pack);
   if (!arguments.lights_file.empty()) {
     ORIEL_TRY(const std::vector<std::string> changes, read_lights(arguments.lights_file));
-    ORIEL_TRY_VOID(set_lights(pack, changes, settings));
+    ORIEL_TRY_VOID(set_lights(pack, changes, settings, arguments.lights_file));
   }
-  ORIEL_TRY_VOID(set_lights(pack, arguments.lights, settings));
   if (arguments.hour) ORIEL_TRY_VOID(set_hour(pack, *arguments.hour, settings));
+  ORIEL_TRY_VOID(set_lights(pack, arguments.lights, settings));
+  if (const auto hour = shown_hour(pack, settings); hour && is_night(pack.day, *hour))
+    fmt::print(stderr, "oriel-play: the sun is down at {} ({}): only lamps shine\n", clock_text(*hour),
+               clock_name(pack.day));
   return settings;
 }
 

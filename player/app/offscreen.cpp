@@ -46,6 +46,18 @@ class Studio {
     if (arguments.ev100) options_.white = white_of_exposure(*arguments.ev100);
   }
 
+  // What takes seconds is told before: lamps' light from where they were moved to, which the first frame follows.
+  Status foretell() const {
+    ORIEL_TRY(const std::vector<MoverPose> lamps, lamps_at(scene_.pack(), arguments_.moves));
+    for (std::size_t g = 0; g < lamps.size(); ++g) {
+      const bool shines = g >= options_.lights.size() || options_.lights[g] != Vec3(0);
+      if (shines && !is_rest(lamps[g]))
+        fmt::print(stderr, "lamp \"{}\": following the light of {} lights that stand for it (--live-lights)\n",
+                   scene_.pack().light_groups[g].name, options_.live.lights.lights);
+    }
+    return {};
+  }
+
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
     ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
@@ -219,6 +231,7 @@ Status play_offscreen(DeferredPack pack, const PlayArguments& asked) {
     if (taken && arguments.cameras.empty() && !along_path) shots.front() = {taken->name, *taken, shots.front().file};
   }
   Studio studio(*scene, *renderer, arguments, other.get());
+  ORIEL_TRY_VOID(studio.foretell());
   FlickerMeter flicker;
   ORIEL_TRY(const auto records, along_path ? draw_path(shots, arguments, studio, *renderer, flicker)
                                            : draw_shots(shots, arguments, studio));

@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "formats/core/color.h"
 #include "formats/core/parallel.h"
 
 namespace oriel {
@@ -150,7 +151,7 @@ Result<PreparedImage> ImageSource::make(const ImageName& name, int coarser) cons
       return out;
     }
     case ImageKind::kLight: {
-      ORIEL_TRY(HalfPage page, light_of_page(name.index, out.lights));
+      ORIEL_TRY(HalfPage page, light_of_page(name.index, otherwise(name.index, out.lights)));
       LightData data = light_data(std::move(page), coarser);
       out.textures.push_back(std::move(data.light));
       out.directional = data.direction.has_value();
@@ -202,22 +203,25 @@ Result<std::shared_ptr<const HalfPage>> ImageSource::baked_page(std::uint32_t pa
   return lights_->baked.emplace(page, std::move(known)).first->second;
 }
 
-Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, std::uint64_t& lights) const {
-  std::vector<Vec3> factors;
-  std::shared_ptr<const PageChanges> added;
+ImageSource::Otherwise ImageSource::otherwise(std::uint32_t page, std::uint64_t& lights) const {
+  Otherwise of;
   {
     const std::scoped_lock lock(lights_->mutex);
-    lights = lights_->changes, factors = lights_->factors, added = lights_->added;
+    lights = lights_->changes, of.factors = lights_->factors, of.added = lights_->added;
   }
   const auto groups = std::ranges::find(page_groups_, page, &PageGroups::page);
-  const bool as_baked = groups == page_groups_.end() ||
-                        std::ranges::all_of(factors, [](const Vec3& factor) { return factor == Vec3(1); });
-  const bool adds = added && page < added->size() && !(*added)[page].empty();
-  if (as_baked && !adds && deferred_) return deferred_->light(page);
-  if (as_baked && !adds) return half_page(pack_->lightmaps[page]);
+  const bool as_baked = std::ranges::all_of(of.factors, [](const Vec3& factor) { return factor == Vec3(1); });
+  if (groups != page_groups_.end() && !as_baked) of.groups = &*groups;
+  if (of.added && page < of.added->size() && !(*of.added)[page].empty()) of.change = &(*of.added)[page];
+  return of;
+}
+
+Result<HalfPage> ImageSource::light_of_page(std::uint32_t page, const Otherwise& of) const {
+  if (!of.groups && !of.change)
+    return deferred_ ? deferred_->light(page) : Result<HalfPage>(half_page(pack_->lightmaps[page]));
   ORIEL_TRY(const auto known, baked_page(page));
-  HalfPage lit = as_baked ? *known : relit(*known, *groups, factors);
-  return adds ? changed(std::move(lit), (*added)[page]) : Result<HalfPage>(std::move(lit));
+  HalfPage lit = of.groups ? relit(*known, *of.groups, of.factors) : *known;
+  return of.change ? changed(std::move(lit), *of.change) : Result<HalfPage>(std::move(lit));
 }
 
 Result<PageChange> ImageSource::light_of_group(std::uint32_t page, std::size_t group) const {
@@ -234,6 +238,21 @@ Result<PageChange> ImageSource::light_of_group(std::uint32_t page, std::size_t g
 
 Result<LightmapPage> ImageSource::whole_page(std::uint32_t page) const {
   return deferred_ ? deferred_->lightmap(page) : Result<LightmapPage>(pack_->lightmaps[page]);
+}
+
+Result<LightmapPage> ImageSource::lit_page(std::uint32_t page, std::uint64_t& lights) const {
+  const Otherwise of = otherwise(page, lights);
+  ORIEL_TRY(LightmapPage out, whole_page(page));
+  if (!of.groups && !of.change) return out;
+  ORIEL_TRY(const HalfPage light, light_of_page(page, of));
+  const PageChange now = light_of(light);
+  for (std::size_t i = 0; i < out.irradiance.size(); ++i) {
+    const float baked = luminance(out.irradiance[i]);
+    if (baked > 0) out.standard_error[i] *= luminance(now.light[i]) / baked;
+    out.irradiance[i] = now.light[i];
+  }
+  out.detail = now.detail;
+  return out;
 }
 
 Result<PreparedImage> ImageSource::make_maps(std::uint32_t reflector, int coarser) const {

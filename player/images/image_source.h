@@ -57,8 +57,10 @@ class ImageSource {
   std::uint64_t lights() const;  // rises with each change
   // A group's own light of a page, as it was baked. Errors as prepare().
   Result<PageChange> light_of_group(std::uint32_t page, std::size_t group) const;
-  // A page with all that the bake knows of its texels.
+  // A page with all that the bake knows of its texels, as it was baked.
   Result<LightmapPage> whole_page(std::uint32_t page) const;
+  // The same with the irradiance of lamps as they shine now; standard errors keep their share of it. lights: for which.
+  Result<LightmapPage> lit_page(std::uint32_t page, std::uint64_t& lights) const;
 
   // coarser: halvings of the texels a side, up to coarsest(). Errors of DeferredImages; kRuntime without memory.
   Result<PreparedImage> prepare(const ImageName& name, int coarser) const;
@@ -74,7 +76,15 @@ class ImageSource {
 
  private:
   Result<PreparedImage> make(const ImageName& name, int coarser) const;
-  Result<HalfPage> light_of_page(std::uint32_t page, std::uint64_t& lights) const;
+  // What shines otherwise than it was baked, of a page.
+  struct Otherwise {
+    std::vector<Vec3> factors;
+    std::shared_ptr<const PageChanges> added;
+    const PageGroups* groups = nullptr;  // null: the factors change nothing
+    const PageChange* change = nullptr;  // null: nothing is added
+  };
+  Otherwise otherwise(std::uint32_t page, std::uint64_t& lights) const;
+  Result<HalfPage> light_of_page(std::uint32_t page, const Otherwise& of) const;
   Result<std::shared_ptr<const HalfPage>> baked_page(std::uint32_t page) const;
   Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;
   const Pack* pack_ = nullptr;  // null where images are deferred

@@ -307,22 +307,28 @@ Result<const gpu::Texture2d*> SceneImages::points(std::uint32_t radiance_map) {
 }
 
 Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const LightmapPage& in_pack) {
-  const DeferredImages* deferred = source_.deferred();
-  if (deferred == nullptr) return &in_pack;
-  for (auto& [made, page] : made_pages_.take()) {
-    if (!page) page_errors_.push_back(page.error());
-    pages_.emplace(made, std::move(page));
+  if (source_.deferred() == nullptr && source_.lights() == 0) return &in_pack;
+  const auto make = [this, index] {
+    KnownPage made;
+    made.page = source_.lit_page(index, made.lights);
+    return made;
+  };
+  for (auto& [of, made] : made_pages_.take()) {
+    if (!made.page) page_errors_.push_back(made.page.error());
+    coming_pages_.erase(of);
+    pages_[of] = std::move(made);
   }
   auto found = pages_.find(index);
-  if (found == pages_.end() && options_.background) {
-    if (coming_pages_.insert(index).second)
-      background_.add([this, deferred, index] { made_pages_.put({index, deferred->lightmap(index)}); });
+  const bool known = found != pages_.end() && (found->second.lights == source_.lights() || !found->second.page);
+  if (!known && options_.background) {
+    if (coming_pages_.insert(index).second) background_.add([=, this] { made_pages_.put({index, make()}); });
     return nullptr;
   }
-  if (found == pages_.end()) found = pages_.emplace(index, deferred->lightmap(index)).first;
-  if (!found->second && options_.background) return nullptr;  // advance() tells why
-  if (!found->second) return tl::unexpected<Error>(found->second.error());
-  return &*found->second;
+  if (!known) found = pages_.insert_or_assign(index, make()).first;
+  const Result<LightmapPage>& page = found->second.page;
+  if (!page && options_.background) return nullptr;  // advance() tells why
+  if (!page) return tl::unexpected<Error>(page.error());
+  return &*page;
 }
 
 void SceneImages::use_mipmaps(bool on) {

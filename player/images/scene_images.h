@@ -82,8 +82,8 @@ class SceneImages {
   const SurroundTextures& surround(std::uint32_t index) const { return surrounds_[index]; }
   // As points; null where there is no room for it. Uploaded when first asked for and kept.
   Result<const gpu::Texture2d*> points(std::uint32_t radiance_map);
-  // A page with all that the bake knows of its texels, which only few ask for; in the background null until it is
-  // there. in_pack: the pack's, which has it where it is not deferred.
+  // A page with all that the bake knows of its texels, as lamps shine now, which only few ask for; in the background
+  // null until it is there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
 
   // Pages of light and maps show lamps that shine so many times as they were baked, by group; those that are there at
@@ -154,9 +154,13 @@ class SceneImages {
   MapFactors map_factors_;
   std::map<std::uint32_t, gpu::Texture2d> points_;
   std::uint64_t points_bytes_ = 0;
-  std::map<std::uint32_t, Result<LightmapPage>> pages_;
+  struct KnownPage {
+    Result<LightmapPage> page = tl::unexpected<Error>(Error{});
+    std::uint64_t lights = 0;  // ImageSource::lights() that it was made for
+  };
+  std::map<std::uint32_t, KnownPage> pages_;
   std::set<std::uint32_t> coming_pages_;
-  Mailbox<std::pair<std::uint32_t, Result<LightmapPage>>> made_pages_;
+  Mailbox<std::pair<std::uint32_t, KnownPage>> made_pages_;
   std::vector<Error> page_errors_;  // not told yet
   gpu::Texture2d grey_, flat_;
   LoadedLightmap some_light_;

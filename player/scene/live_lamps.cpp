@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <limits>
 
 #include "formats/core/color.h"
 #include "formats/core/parallel.h"
@@ -12,6 +13,7 @@
 namespace oriel {
 namespace {
 
+constexpr float kSlack = 0.01f;                                 // metres: a lamp may lie on the ceiling
 constexpr std::uint32_t kCoarseShare = 16, kFewestCoarse = 16;  // of the lights, while a lamp is on its way
 
 }  // namespace
@@ -23,6 +25,7 @@ std::string text_of(const LiveReport& report) {
       report.lamp, report.lights, report.direct, report.points, report.between, report.seconds, 100 * report.missing,
       100 * report.left, 100 * report.kept);
   if (!report.through.empty()) text += fmt::format("; it goes through \"{}\"", report.through);
+  if (report.outside) text += "; it is outside of all that was baked";
   if (report.reaches_nothing) text += "; its light reaches no surface: is it inside something?";
   return text;
 }
@@ -81,8 +84,13 @@ void LiveLamps::Job::run(const ImageSource& images) {
 }
 
 LiveLamps::LiveLamps(const Pack& pack, const ImageSource& images)
-    : pack_(pack), images_(images), lights_(pack.light_field.lights) {
+    : pack_(pack),
+      images_(images),
+      lights_(pack.light_field.lights),
+      least_(std::numeric_limits<float>::max()),
+      most_(std::numeric_limits<float>::lowest()) {
   for (const Material& material : pack.materials) emission_.push_back(material.emission);
+  for (const Vec3& p : pack.mesh.positions) least_ = glm::min(least_, p), most_ = glm::max(most_, p);
 }
 
 LiveLamps::~LiveLamps() {
@@ -131,6 +139,8 @@ std::unique_ptr<LiveLamps::Job> LiveLamps::begin(std::size_t group, const LiveSe
   job->now = pose_lights(*lamp.scene, lights, lamp.wanted);
   job->baked = pose_lights(*lamp.scene, lights, {});
   job->report.lamp = pack_.light_groups[group].name;
+  const Vec3 at(pack_from_object(lamp.wanted) * DVec4(shape_of_lamp(pack_, pack_.light_groups[group]).centre, 1));
+  job->report.outside = at != glm::clamp(at, least_ - kSlack, most_ + kSlack);
   return job;
 }
 

@@ -25,6 +25,7 @@ struct LiveReport {
   float kept = 0;       // mean share of what the bake knows of it that still counts
   std::string through;  // the part that it goes through; empty: none
   bool reaches_nothing = false;
+  bool outside = false;  // its centre is outside of the box around all that was baked
 };
 std::string text_of(const LiveReport& report);
 
@@ -60,6 +61,7 @@ class LiveLamps {
   const ImageSource& images_;
   std::vector<Vec3> emission_;                          // by material
   std::vector<BrightLight> lights_;                     // of the light field
+  Vec3 least_, most_;                                   // of all that was baked
   std::map<std::size_t, std::unique_ptr<Lamp>> lamps_;  // that were ever moved, by group
   LiveSettings settings_;
   std::vector<LiveReport> reports_;

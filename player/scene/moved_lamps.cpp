@@ -43,7 +43,11 @@ Status GpuScene::set_lamps(std::span<const Vec3> factors, std::span<const MoverP
   if (factors.size() == groups) wanted.assign(factors.begin(), factors.end());
   std::vector<MoverPose> places(groups);
   if (poses.size() == groups) places.assign(poses.begin(), poses.end());
-  ORIEL_TRY(const bool other_light, live_->place(places, live));
+  // What is switched off gives nothing from wherever it is.
+  std::vector<MoverPose> lit = places;
+  for (std::size_t g = 0; g < groups; ++g)
+    if (wanted[g] == Vec3(0)) lit[g] = {};
+  ORIEL_TRY(const bool other_light, live_->place(lit, live));
   if (wanted == lights_ && !other_light && places == lamps_) return {};
   lights_ = std::move(wanted);
   serial_ = next_scene_serial();

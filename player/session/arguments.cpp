@@ -267,8 +267,8 @@ std::vector<Option> light_options(PlayArguments& out) {
   return {
       {"--light", kLights,
        "A group of lamps (--list tells which there are) dimmed, switched or coloured: a share of what was baked, off, "
-       "a "
-       "colour temperature, a colour. * stands for all groups. May be repeated; the last counts",
+       "a colour temperature, a colour. * stands for all groups, day for the sun and sky of the pack's day. May be "
+       "repeated; the last counts",
        texts(out.lights, "NAME=0.3|off|on|2700K|#rrggbb"), Use::kEveryday, "lights"},
       {"--hour", kLights,
        "The time of the pack's day (oriel-bake --day) that is shown, by its clock, between those baked: 14.5 or 14:30. "

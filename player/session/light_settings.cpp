@@ -13,7 +13,7 @@
 namespace oriel {
 namespace {
 
-constexpr const char* kHour = "hour";
+constexpr const char *kHour = "hour", *kDay = "day";
 constexpr float kMostValue = 100;   // of a dimmer
 constexpr float kLeastOwn = 0.01f;  // of a lamp's own colour: what it has less of is not made more of
 
@@ -65,14 +65,44 @@ bool take_value(const std::string& value, LightSetting& setting) {
   return true;
 }
 
-Error unknown(const Pack& pack, const std::string& name) {
+// Names of groups, the day's hours as one.
+std::vector<std::string> names_of(const Pack& pack, const std::vector<LightSetting>& settings) {
   std::vector<std::string> names;
-  for (const LightGroup& group : pack.light_groups) names.push_back(group.name);
+  bool has_day = false;
+  for (std::size_t g = 0; g < settings.size(); ++g)
+    if (!settings[g].hour)
+      names.push_back(pack.light_groups[g].name);
+    else if (!std::exchange(has_day, true))
+      names.emplace_back(kDay);
+  return names;
+}
+
+Status unknown(const Pack& pack, const std::vector<LightSetting>& settings, const std::string& name,
+               const std::string& from) {
+  const std::vector<std::string> names = names_of(pack, settings);
   if (names.empty())
-    return {ErrorCode::kUsage, "--light",
-            fmt::format("found \"{}\", but the pack has no light groups: oriel-bake --light-groups makes some", name)};
-  return {ErrorCode::kUsage, "--light",
-          fmt::format("found the light group \"{}\", expected one of the pack's: {}", name, names_like(name, names))};
+    return fail(ErrorCode::kUsage, from,
+                "found \"{}\", but the pack has no light groups: oriel-bake --light-groups makes some", name);
+  if (std::ranges::any_of(pack.light_groups, [&](const LightGroup& group) { return group.name == name; }))
+    return fail(ErrorCode::kUsage, from,
+                "found \"{}\", expected {} for sun and sky of every hour, or {}=14.5 for the time shown", name, kDay,
+                kHour);
+  return fail(ErrorCode::kUsage, from, "found the light group \"{}\", expected one of the pack's: {}", name,
+              names_like(name, names));
+}
+
+// Values of one name, with spaces between.
+Status take_values(const std::string& name, const std::string& values, const std::string& from, LightSetting& setting) {
+  std::istringstream read(values);
+  std::string value;
+  int count = 0;
+  for (; read >> value; ++count)
+    if (!take_value(value, setting))
+      return fail(ErrorCode::kUsage, from,
+                  "found \"{}\" for \"{}\", expected 0 to {}, on, off, {} to {} K as 2700K, or a colour as #ff8800",
+                  value, name, kMostValue, kLeastKelvin, kMostKelvin);
+  if (count > 0) return {};
+  return fail(ErrorCode::kUsage, from, "found nothing for \"{}\", expected a value as 0.3 or off", name);
 }
 
 }  // namespace
@@ -116,38 +146,31 @@ std::optional<float> shown_hour(const Pack& pack, const std::vector<LightSetting
   return std::nullopt;
 }
 
-Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings) {
+Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings,
+                  const std::string& from) {
   for (const std::string& change : changes) {
     const auto divides = change.rfind('=');
     if (divides == std::string::npos || divides == 0)
-      return fail(ErrorCode::kUsage, "--light", "found \"{}\", expected NAME=0.3, NAME=off, NAME=2700K or NAME=#rrggbb",
+      return fail(ErrorCode::kUsage, from, "found \"{}\", expected NAME=0.3, NAME=off, NAME=2700K or NAME=#rrggbb",
                   change);
-    const std::string name = change.substr(0, divides);
+    const std::string name = change.substr(0, divides), values = change.substr(divides + 1);
     const auto known = [&](const LightGroup& group) { return group.name == name; };
-    if (name == kHour && std::ranges::none_of(pack.light_groups, known)) {
-      const auto hour = number_of(change.substr(divides + 1));
-      if (!hour)
-        return fail(ErrorCode::kUsage, "--light", "found \"{}\" for the hour, expected a time as 14.5",
-                    change.substr(divides + 1));
-      ORIEL_TRY_VOID(set_hour(pack, *hour, settings));
+    const bool taken = std::ranges::any_of(pack.light_groups, known);  // by lamps
+    if (name == kHour && !taken) {
+      const auto hour = number_of(values);
+      if (!hour) return fail(ErrorCode::kUsage, from, "found \"{}\" for the hour, expected a time as 14.5", values);
+      if (Status set = set_hour(pack, *hour, settings); !set)
+        return fail(ErrorCode::kUsage, from, "{}: {}", kHour, set.error().message);
       continue;
     }
     bool any = false;
-    for (std::size_t g = 0; g < pack.light_groups.size(); ++g) {
-      if (name != "*" && name != pack.light_groups[g].name) continue;
+    for (std::size_t g = 0; g < settings.size(); ++g) {
+      const bool meant = settings[g].hour ? name == kDay && !taken : name == pack.light_groups[g].name;
+      if (name != "*" && !meant) continue;
       any = true;
-      std::istringstream values(change.substr(divides + 1));
-      std::string value;
-      int count = 0;
-      for (; values >> value; ++count)
-        if (!take_value(value, settings[g]))
-          return fail(ErrorCode::kUsage, "--light",
-                      "found \"{}\" for \"{}\", expected 0 to {}, on, off, {} to {} K as 2700K, or a colour as #ff8800",
-                      value, name, kMostValue, kLeastKelvin, kMostKelvin);
-      if (count == 0)
-        return fail(ErrorCode::kUsage, "--light", "found nothing for \"{}\", expected a value as 0.3 or off", name);
+      ORIEL_TRY_VOID(take_values(name, values, from, settings[g]));
     }
-    if (!any) return tl::unexpected<Error>(unknown(pack, name));
+    if (!any) return unknown(pack, settings, name, from);
   }
   return {};
 }
@@ -172,6 +195,7 @@ std::string lights_json(const Pack& pack, const std::vector<LightSetting>& setti
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const std::vector<LightSetting> before = settings_of(pack);
   if (shown_hour(pack, settings) != shown_hour(pack, before)) json[kHour] = *shown_hour(pack, settings);
+  // Hours of a day are set alike.
   for (std::size_t g = 0; g < settings.size(); ++g) {
     LightSetting s = settings[g];
     s.hour = before[g].hour;
@@ -188,7 +212,7 @@ std::string lights_json(const Pack& pack, const std::vector<LightSetting>& setti
       }
     }
     if (!s.on) text += " off";
-    json[pack.light_groups[g].name] = text;
+    json[s.hour ? kDay : pack.light_groups[g].name] = text;
   }
   return json.empty() ? std::string() : json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

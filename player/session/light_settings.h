@@ -30,10 +30,11 @@ Vec3 color_of_kelvin(float kelvin);
 std::vector<LightSetting> settings_of(const Pack& pack);
 
 // "NAME=0.3", "NAME=off", "NAME=on", "NAME=2700K" or "NAME=#rrggbb" (sRGB; how bright it is does not count), one after
-// the other; several values of a name with spaces between. The last = divides. NAME may be * for all groups, or hour,
-// whose value is a time of the pack's day. Error kUsage: what was found and expected, a name that the pack does not
-// know with those that it knows.
-Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings);
+// the other; several values of a name with spaces between. The last = divides. NAME may be * for all groups, day for
+// sun and sky of all hours, or hour, whose value is a time of the pack's day. Error kUsage: what was found and
+// expected, a name that the pack does not know with those that it knows. from: what errors name, an option or a file.
+Status set_lights(const Pack& pack, const std::vector<std::string>& changes, std::vector<LightSetting>& settings,
+                  const std::string& from = "--light");
 
 // Shows the pack's day at that time; other lamps stay as they are. Error kUsage: none of its hours, or no day.
 Status set_hour(const Pack& pack, float hour, std::vector<LightSetting>& settings);

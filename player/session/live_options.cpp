@@ -17,7 +17,7 @@ std::vector<Option> live_options(const char* group, LiveSettings& out) {
        choice(out.mode, kLiveModes), Use::kRare, "live"},
       {"--live-lights", group,
        "Lights that stand for a lamp that was moved, and for what it lights: more are smoother and slower",
-       number(out.lights.lights, 0, kMostLiveLights), Use::kRare, "live_lights"},
+       number(out.lights.lights, 1, kMostLiveLights), Use::kRare, "live_lights"},
       {"--live-direct", group, "The share of them on the lamp itself; the others are where its light bounces",
        number(out.lights.direct_share, 0, 1), Use::kRare, "live_direct"},
       {"--live-bounces", group, "Bounces of a moved lamp's light, 0: its direct light alone",

@@ -62,13 +62,14 @@ export function setLampKelvin(setting: Setting, kelvin: number): void {
   setting.kelvin = kelvin, setting.color = colorOfKelvin(kelvin);
 }
 
-/** NAME=0.3, NAME=off, NAME=2700K, NAME=#rrggbb, several with spaces; * is all. What is none of these changes nothing. */
+/** NAME=0.3, NAME=off, NAME=2700K, NAME=#rrggbb, several with spaces; * is all, day sun and sky. What is none of these changes nothing. */
 export function setLights(groups: LightGroup[], changes: string[], settings: Setting[], day?: Day): void {
   for (const change of changes) {
     const divides = change.lastIndexOf('='), name = change.slice(0, divides);
     if (day && name === 'hour' && groups.every((g) => g.name !== name)) setHour(day, Number(change.slice(divides + 1)), settings);
     groups.forEach((g, i) => {
-      if (divides > 0 && (name === '*' || name === g.name)) change.slice(divides + 1).split(/\s+/).forEach((v) => takeValue(v, settings[i]!));
+      const meant = name === '*' || name === g.name || (name === 'day' && settings[i]!.hour !== undefined);
+      if (divides > 0 && meant) change.slice(divides + 1).split(/\s+/).forEach((v) => takeValue(v, settings[i]!));
     });
   }
 }

@@ -10,6 +10,7 @@ namespace oriel {
 namespace {
 
 constexpr float kLift = 0.1f;          // of a texel's side
+constexpr float kFarEnd = 1.45f;       // of the texel beside: what parts them may stand on that one
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
@@ -55,8 +56,11 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   if (transport.lights.power() != DVec3(0)) look_for_lamp(*corners, middle.geometric_normal, rays);
   const Vec3 up = lift_ * middle.geometric_normal;
   if (is_free((*corners)[0] + up, (*corners)[2] + up, rays) && is_free((*corners)[1] + up, (*corners)[3] + up, rays) &&
-      !is_covered(middle, kPoints))
+      !is_covered(middle, kPoints)) {
+    if (const auto beyond = seen_beyond({atlas, map, texel, *corners, middle.geometric_normal}, onlookers, rays))
+      anchors_ = {*beyond};
     return;
+  }
   std::vector<Vec3> left;
   bool any = false;
   for (std::uint32_t k = 0; k < kPoints; ++k) {
@@ -84,6 +88,28 @@ bool TexelPart::is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std:
   ++rays;
   const Hit hit = accel_.intersect({p + 1e-3f * reach_m * up, up, reach_m});
   return hit && is_lamp(accel_.scene(), hit.triangle, hit.front);
+}
+
+std::optional<Vec3> TexelPart::seen_beyond(const Place& place, const Onlookers& onlookers, std::uint64_t& rays) const {
+  if (!onlookers.any()) return std::nullopt;
+  const auto& [atlas, map, texel, corners, normal] = place;
+  const Vec3 middle = 0.5f * (corners[0] + corners[2]) + lift_ * normal;
+  const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
+  const auto chart = [&](std::size_t i) { return atlas.chart[map.fragments[map.first[i]].triangle]; };
+  const IVec2 at(map.texel[texel] % map.width, map.texel[texel] / map.width);
+  for (const IVec2& step : {IVec2(1, 0), IVec2(-1, 0), IVec2(0, 1), IVec2(0, -1)}) {
+    const IVec2 beside = at + step;
+    if (std::min(beside.x, beside.y) < 0 || beside.x >= static_cast<int>(map.width)) continue;
+    const auto number = static_cast<std::uint32_t>(beside.y) * map.width + static_cast<std::uint32_t>(beside.x);
+    const auto found = std::ranges::lower_bound(map.texel, number);
+    if (found == map.texel.end() || *found != number) continue;
+    if (chart(static_cast<std::size_t>(found - map.texel.begin())) != chart(texel)) continue;
+    const Vec3 there = middle + kFarEnd * (static_cast<float>(step.x) * u + static_cast<float>(step.y) * v);
+    if (is_free(middle, there, rays) || !onlookers.in_sight_of_any(there, normal, rays)) continue;
+    if (onlookers.in_sight_of_any(middle, normal, rays)) return std::nullopt;
+    return there;
+  }
+  return std::nullopt;
 }
 
 // The corners tell whether a lamp hangs over a part of the texel.

@@ -132,6 +132,36 @@ TEST_P(Leaks, ObjectStandingInTheFloor) {
   for (std::size_t i = 0; i < with.size(); ++i) EXPECT_GT(with[i], 0.5 * without[i]) << i;
 }
 
+// A post reaches through the floor of a closed room into daylight. None of that comes up by its texels, where somebody
+// looks from inside.
+TEST_P(Leaks, PostThatReachesThroughTheFloor) {
+  SceneParts parts;
+  parts.box("room", two_sided(parts), Vec3(0), {2, 2, 2}, true);
+  add_lamp(parts, {0.85f, 1.99f, 0.85f});
+  parts.box("post", parts.diffuse(Vec3(0.5f)), {0.33f, -0.12f, 0.33f}, {0.63f, 0.6f, 0.63f});
+  parts.scene().sky = Vec3(100);
+  RadiosityOptions options = test::cached_options(0.05);
+  if (GetParam() == Estimator::kReference) options = {.samples = 64};
+  for (int i = 0; i < 9; ++i)
+    options.eyes.emplace_back(0.2f + 0.8f * static_cast<float>(i % 3), 1.5f, 0.2f + 0.8f * static_cast<float>(i / 3));
+  const Baked b = test::bake(parts.finish(), kTexel, options);
+  double low = 0, high = 0;
+  for (std::uint32_t t = 0; t < b.scene.triangles.size(); ++t) {
+    if (b.scene.surfaces[b.scene.triangle_surface[t]].name != "post") continue;
+    for (int k = 0; k < 400; ++k) {
+      const Vec2 u(static_cast<float>(k % 20) / 19, static_cast<float>(k / 20) / 19);
+      const Vec2 at = u.x + u.y > 1 ? 1.0f - u : u;
+      const Vec3 p = point_on(b.scene, t, at);
+      const auto& uv = b.atlas.uv[t];
+      const Vec2 on_page = uv[0] + at.x * (uv[1] - uv[0]) + at.y * (uv[2] - uv[0]);
+      const double light = irradiance_at(b.radiosity.pages[static_cast<std::size_t>(b.atlas.page[t])], on_page).g;
+      if (p.y > 0.005f) (p.y < 0.1f ? low : high) = std::max(p.y < 0.1f ? low : high, light);
+    }
+  }
+  EXPECT_GT(high, 0.1);
+  EXPECT_LT(low, high) << "eighty times that without";
+}
+
 INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, testing::Values(Estimator::kReference, Estimator::kCached),
                          [](const auto& test) { return test.param == Estimator::kReference ? "Reference" : "Cached"; });
 

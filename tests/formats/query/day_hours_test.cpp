@@ -30,6 +30,13 @@ TEST(DayHours, AreShownAloneAndBetween) {
   EXPECT_EQ(weights_at(one, 6, 2).value(), (Weights{1, 1}));
 }
 
+TEST(DayHours, AreNightWhereNoSunIsAround) {
+  EXPECT_TRUE(is_night(day(), 4));
+  EXPECT_FALSE(is_night(day(), 5)) << "between night and six";
+  EXPECT_FALSE(is_night(day(), 6));
+  EXPECT_FALSE(is_night(day(), 10));
+}
+
 TEST(DayHours, RefuseOthersAndSayWhichThereAre) {
   for (const float hour : {3.9f, 10.1f, NAN}) {
     const auto weights = weights_at(day(), hour, 4);

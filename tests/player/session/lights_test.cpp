@@ -137,6 +137,24 @@ TEST(Hours, AreShownByTheirSharesOfTheDay) {
   EXPECT_NE(refusal(pack_as_baked(), "hour=12").find("no day"), std::string::npos);
 }
 
+// One hour's lamps are no lamps that somebody would switch: the day is.
+TEST(Hours, AreSetTogether) {
+  Pack pack = pack_of_a_day();
+  EXPECT_EQ(factors(pack, {"hour=10.5", "day=0.5"}), (std::vector<Vec3>{Vec3(0.75f), Vec3(0.25f)}));
+  EXPECT_EQ(factors(pack, {"day=off"}), std::vector<Vec3>(2, Vec3(0)));
+  const std::string one = refusal(pack, "desk=off");  // the hour 9
+  EXPECT_NE(one.find("expected day for sun and sky of every hour"), std::string::npos) << one;
+  EXPECT_NE(refusal(pack, "dusk=off").find("\"day\""), std::string::npos) << refusal(pack, "dusk=off");
+  std::vector<LightSetting> settings = settings_of(pack), again = settings;
+  ASSERT_TRUE(set_lights(pack, {"day=0.5 off"}, settings));
+  EXPECT_EQ(lights_json(pack, settings), "{\n  \"day\": \"0.5 off\"\n}");
+  ASSERT_TRUE(set_lights(pack, {"day=0.5 off"}, again));
+  EXPECT_EQ(again, settings);
+  const Status set = set_lights(pack, {"hour=30"}, settings, "evening.json");
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().where, "evening.json") << set.error().text();
+}
+
 TEST(Hours, ComeBackAfterAllWasSwitchedOff) {
   const Pack pack = pack_of_a_day();
   EXPECT_EQ(factors(pack, {"*=off", "hour=15"}), (std::vector<Vec3>{Vec3(0), Vec3(2)}));
