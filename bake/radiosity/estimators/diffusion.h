@@ -23,7 +23,7 @@ void each_texel(Context& context, std::size_t count, const Body& body) {
 // they are symmetric, so that what one texel gains its neighbour loses.
 using Conductance = std::vector<std::array<float, kMaxNeighbours>>;
 
-// Light by texel with its variance.
+// Light by texel, or what it has beside that around, with its variance.
 struct Guide {
   const std::vector<Vec3>& light;
   const std::vector<Vec3>& variance;

@@ -6,7 +6,7 @@
 namespace oriel {
 namespace {
 
-constexpr int kPoolPasses = 4, kWidePasses = 16;
+constexpr int kPoolPasses = 4, kWidePasses = 16, kAroundPasses = 4;
 // Each scale spreads light for so long, which makes the kernel of all up to it twice as wide as that before.
 constexpr float kNarrow = 2, kByChance = 4;
 constexpr float kFirstScale = 6, kNextScale = 4, kPooledOver = 4;
@@ -91,6 +91,14 @@ void smooth_by_scales(const TexelGraph& graph, const Conductance& c, const std::
       for (std::size_t i = 0; i < change.size(); ++i) halves[h][i] += change[i];
     }
   }
+}
+
+// What a texel has beside the light around: a slope is no edge, however steep it is. Told apart by their light itself,
+// texels along a slope joined those on their own level alone, and noise became contour lines.
+std::vector<Vec3> beside_slopes(const TexelGraph& graph, std::vector<Vec3> light, Context& context) {
+  const std::vector<Vec3> around = pooled(graph, light, kAroundPasses, context);
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] -= around[i];
+  return light;
 }
 
 // Texels are no points: what rays find within one is taken as linear, and what that changed against its mean tells how
@@ -212,7 +220,8 @@ Estimate filter(const Texels& texels, const TexelGraph& graph, const Halves& hal
   std::vector<Vec3> guide_variance = noise;
   for (std::size_t i = 0; i < n; ++i) guide_variance[i] *= 0.5f * 3 * left_of_noise(graph.of(i).size());
   for (Vec3& v : raw_variance) v *= 0.5f;
-  const Conductance edges = conductances(texels, graph, {guide, guide_variance}, {mean, raw_variance, halves.steps},
+  const std::vector<Vec3> apart = halves.steps ? guide : beside_slopes(graph, guide, context);
+  const Conductance edges = conductances(texels, graph, {apart, guide_variance}, {mean, raw_variance, halves.steps},
                                          options.strength, context);
   TwoHalves smooth = half;
   smooth_by_scales(graph, edges, relative_to(texels, guide, halves.beside), options.scales, smooth, context);
