@@ -5,12 +5,14 @@
 
 #include "bake/radiosity/texels/seeds.h"
 #include "bake/trace/buried.h"
+#include "bake/trace/warp.h"
 
 namespace oriel {
 namespace {
 
 constexpr float kLift = 0.1f;          // of a texel's side
 constexpr float kFarEnd = 1.45f;       // of the texel beside: what parts them may stand on that one
+constexpr std::uint32_t kLooks = 16;   // whether the sky is around
 constexpr std::uint32_t kPoints = 32;  // among which the sides of a wall are weighed
 
 // The corners of a texel in the plane of its largest fragment, in turn; nothing where that has no area on the page.
@@ -106,10 +108,22 @@ std::optional<Vec3> TexelPart::seen_beyond(const Place& place, const Onlookers& 
     if (chart(static_cast<std::size_t>(found - map.texel.begin())) != chart(texel)) continue;
     const Vec3 there = middle + kFarEnd * (static_cast<float>(step.x) * u + static_cast<float>(step.y) * v);
     if (is_free(middle, there, rays) || !onlookers.in_sight_of_any(there, normal, rays)) continue;
-    if (onlookers.in_sight_of_any(middle, normal, rays)) return std::nullopt;
+    if (onlookers.in_sight_of_any(middle, normal, rays) || !is_outdoors(middle, normal, rays)) return std::nullopt;
     return there;
   }
   return std::nullopt;
+}
+
+bool TexelPart::is_outdoors(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const {
+  const Mat3 frame = frame_from_normal(normal);
+  Sampler sampler(seeds::kWalls, 0, 0);
+  std::uint32_t escaped = 0;
+  for (std::uint32_t k = 0; k < kLooks; ++k) {
+    const Vec3 direction = glm::normalize(frame * square_to_cosine_hemisphere(sampler.next2()));
+    escaped += !accel_.intersect({point, direction});
+  }
+  rays += kLooks;
+  return 4 * escaped >= kLooks;
 }
 
 // The corners tell whether a lamp hangs over a part of the texel.

@@ -21,10 +21,11 @@ inline constexpr float kGapTexels = 4, kGapReach_m = 0.2f;
 // So the floor before a hollow plinth is not that inside. What lies lower still under another body is no side: nobody
 // looks in there. Which side is taken depends on the texel and on where people look alone, not on seeds or estimators:
 // all of them speak of the same light.
-// A texel that lies on the far side of a floor or wall as a whole, where nobody sees it, has no light of its own
-// either: it would shine through to the texel beside it, which somebody sees, as far as textures are interpolated. Nor
-// is the mean of a lit gap between a lamp and a ceiling, and of the ceiling beside it, what anybody sees: a texel that
-// reaches under a lamp has the light beside it, where one next to it lies under the lamp as a whole.
+// A texel that lies outdoors, on the far side of a floor or wall as a whole, where nobody sees it, has no light of its
+// own either: it would shine through to the texel beside it, which somebody sees, as far as textures are interpolated.
+// Indoors it keeps it: rays that meet it there would find the light of the other side.
+// Nor is the mean of a lit gap between a lamp and a ceiling, and of the ceiling beside it, what anybody sees: a texel
+// that reaches under a lamp has the light beside it, where one next to it lies under the lamp as a whole.
 class TexelPart {
  public:
   // The whole texel where nothing stands on its diagonals nor lies on its middle: a few rays. texel: as
@@ -68,6 +69,8 @@ class TexelPart {
   Side take_side(std::vector<Vec3>& left, std::uint64_t& rays) const;
   // A point of a texel beside it that people see, while nobody sees its own middle and a surface parts them; lifted.
   std::optional<Vec3> seen_beyond(const Place& place, const Onlookers& onlookers, std::uint64_t& rays) const;
+  // Whether a quarter of what a point faces is the sky, as beneath an overhang.
+  bool is_outdoors(const Vec3& point, const Vec3& normal, std::uint64_t& rays) const;
   void look_for_lamp(const std::array<Vec3, 4>& corners, const Vec3& up, std::uint64_t& rays);
   bool is_under_lamp(const Vec3& p, const Vec3& up, float reach_m, std::uint64_t& rays) const;
   Vec3 lifted(const SurfacePoint& point) const;

@@ -162,6 +162,24 @@ TEST_P(Leaks, PostThatReachesThroughTheFloor) {
   EXPECT_LT(low, high) << "eighty times that without";
 }
 
+// A closed room stands on a floor that goes on outdoors, where all eyes are: it stays as dark as it is.
+TEST_P(Leaks, RoomThatIsSeenFromOutsideAlone) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.7f));
+  parts.quad("floor", white, {-2.03f, 0, 2.03f}, {4.06f, 0, 0}, {0, 0, -4.06f});
+  parts.box("room", two_sided(parts), {-1, -0.5f, -1}, {1, 2, 1}, true);
+  parts.scene().sky = Vec3(100);
+  RadiosityOptions options = test::cached_options(0.05);
+  if (GetParam() == Estimator::kReference) options = {.samples = 64};
+  for (int i = 0; i < 8; ++i)
+    options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
+  const Baked b = test::bake(parts.finish(), kTexel, options);
+  const auto inside = [](const Surface& surface, const SurfacePoint& at) {
+    return surface.name == "floor" && std::max(std::abs(at.position.x), std::abs(at.position.z)) < 0.99f;
+  };
+  EXPECT_LT(leaked_share(b, inside), 0.001);
+}
+
 INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, testing::Values(Estimator::kReference, Estimator::kCached),
                          [](const auto& test) { return test.param == Estimator::kReference ? "Reference" : "Cached"; });
 
