@@ -105,7 +105,7 @@ class PreviewWindow {
     paths_.stop();
     const auto fresh = std::const_pointer_cast<PreviewScene>(news->scene);  // nobody else looks at it
     const SceneEdits originals = edits_of(fresh->scene());
-    if (!edits_.empty()) edit_scene(*fresh, edits_, arguments_.scene.elements, arguments_.seed);
+    if (!edits_.empty()) ORIEL_TRY_VOID(edit_scene(*fresh, edits_, arguments_.scene.elements, context_));
     if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
@@ -196,17 +196,17 @@ class PreviewWindow {
     PanelWishes wishes;
     if (status_.panel && scene_) wishes = draw_edit_panel(scene_->scene(), bake_, edits_, selection_);
     gui_.end();
-    fulfil(wishes);
+    ORIEL_TRY_VOID(fulfil(wishes));
     glfwSwapBuffers(window_.get());
     if (!worked_ || !scene_) glfwWaitEventsTimeout(kResting_s);
     return {};
   }
 
-  void fulfil(const PanelWishes& wishes) {
+  Status fulfil(const PanelWishes& wishes) {
     if (wishes.undoes) edits_ = {};
     if (wishes.edited || wishes.undoes) {
       paths_.stop();  // who reads the scene
-      edit_scene(*scene_, wishes.undoes ? originals_ : edits_, arguments_.scene.elements, arguments_.seed);
+      ORIEL_TRY_VOID(edit_scene(*scene_, wishes.undoes ? originals_ : edits_, arguments_.scene.elements, context_));
       renderer_.take_edits();
       restart_ = true;
     }
@@ -220,6 +220,7 @@ class PreviewWindow {
     if (wishes.bakes) {
       if (const Status begun = begin_bake(arguments_, edits_, bake_); !begun) say(begun.error().text());
     }
+    return {};
   }
 
   // A pass, or what paths there are; whatever is there is shown.

@@ -2,51 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 
 #include "formats/core/color.h"
-#include "preview/frame/landings.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kParticles = 64, kMostParticles = 8192;  // by element; of all
-constexpr std::size_t kPlaces = 32;                              // of an element, that rays go to
-constexpr int kMostCells = 64;                                   // along the scene's diameter
-
-struct Landed {
-  Vec3 place, normal, power;
-  Vec3 origin;              // of rays to it
-  std::uint32_t group = 0;  // of those that become one element
-};
+constexpr std::size_t kPlaces = 32;       // of an element, that rays go to
+constexpr std::uint32_t kMostCells = 64;  // along the scene's diameter
 
 // Of six, the axis that the normal is nearest to.
-int axis_of(const Vec3& n) {
+std::uint32_t axis_of(const Vec3& n) {
   const Vec3 a = glm::abs(n);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return 2 * axis + (n[axis] < 0 ? 1 : 0);
+  return 2 * static_cast<std::uint32_t>(axis) + (n[axis] < 0 ? 1 : 0);
 }
 
-// Groups by place, on a grid of so many cells along the scene, and by normal. How many there are.
-std::uint32_t group(std::vector<Landed>& landed, const Scene& scene, int cells) {
-  const float cell = 2 * scene.radius() / static_cast<float>(cells) * 1.0001f;
-  const auto key = [&](const Landed& l) {
-    const glm::ivec3 at((l.place - scene.lower) / std::max(cell, 1e-20f));
-    return std::tuple(axis_of(l.normal), at.x, at.y, at.z);
-  };
-  std::stable_sort(landed.begin(), landed.end(), [&](const Landed& x, const Landed& y) { return key(x) < key(y); });
-  std::uint32_t groups = 0;
-  for (std::size_t i = 0; i < landed.size(); ++i) {
-    if (i == 0 || key(landed[i]) != key(landed[i - 1])) ++groups;
-    landed[i].group = groups - 1;
+// By landing, which group it is of: those with one normal's axis and one cell of a grid of so many along the scene.
+std::vector<std::uint32_t> groups_of(std::span<const Landing> landings, const Scene& scene, std::uint32_t cells) {
+  const float cell = std::max(2 * scene.radius() / static_cast<float>(cells) * 1.0001f, 1e-20f);
+  std::vector<std::uint32_t> groups;
+  groups.reserve(landings.size());
+  for (const Landing& l : landings) {
+    const UVec3 at = glm::min(UVec3(glm::max((l.place - scene.lower) / cell, Vec3(0))), UVec3(cells - 1));
+    groups.push_back(((axis_of(l.normal) * cells + at.x) * cells + at.y) * cells + at.z);
   }
   return groups;
 }
 
-BounceElement element_of(std::span<const Landed> members) {
+std::size_t count_of(std::span<const std::uint32_t> groups, std::uint32_t cells) {
+  std::vector<bool> there(std::size_t{6} * cells * cells * cells);
+  std::size_t count = 0;
+  for (const std::uint32_t group : groups)
+    if (!there[group]) there[group] = true, ++count;
+  return count;
+}
+
+BounceElement element_of(std::span<const Landing> members) {
   DVec3 place(0), normal(0), power(0);
   double weight = 0, spread = 0;
-  for (const Landed& l : members) {
+  for (const Landing& l : members) {
     const double w = luminance(DVec3(l.power)) + 1e-300;
     place += w * DVec3(l.place);
     normal += w * DVec3(l.normal);
@@ -54,7 +50,7 @@ BounceElement element_of(std::span<const Landed> members) {
     weight += w;
   }
   place /= weight;
-  for (const Landed& l : members) {
+  for (const Landing& l : members) {
     const DVec3 off = DVec3(l.place) - place;
     spread += (luminance(DVec3(l.power)) + 1e-300) * glm::dot(off, off);
   }
@@ -64,8 +60,10 @@ BounceElement element_of(std::span<const Landed> members) {
                     static_cast<float>(2 * kPiD * spread / weight),
                     Vec3(power),
                     {}};
-  for (std::size_t i = 0; i < std::min(members.size(), kPlaces); ++i)
-    out.places.push_back(members[i * members.size() / std::min(members.size(), kPlaces)].origin);
+  for (std::size_t i = 0; i < std::min(members.size(), kPlaces); ++i) {
+    const Landing& l = members[i * members.size() / std::min(members.size(), kPlaces)];
+    out.places.push_back(offset_origin(l.place, l.normal, l.magnitude));
+  }
   return out;
 }
 
@@ -87,18 +85,24 @@ std::vector<BounceElement> some_of(std::span<const BounceElement> elements, std:
   return some;
 }
 
-std::vector<BounceElement> bounce_elements(const Transport& t, std::uint64_t seed, std::uint32_t count) {
+std::vector<BounceElement> bounce_elements(std::span<const Landing> landings, const Scene& scene, std::uint32_t count) {
   std::vector<BounceElement> elements;
   if (count == 0) return elements;
-  std::vector<Landed> landed;
-  for (const Landing& l : land_particles(t, seed, std::min(kParticles * count, kMostParticles)))
-    landed.push_back({l.place, l.normal, l.power, offset_origin(l.place, l.normal, l.magnitude)});
-  int cells = 1;
-  for (int finer = 2; finer <= kMostCells && group(landed, t.accel.scene(), finer) <= count; ++finer) cells = finer;
-  group(landed, t.accel.scene(), cells);
-  for (std::size_t i = 0, end = 0; i < landed.size(); i = end) {
-    for (end = i; end < landed.size() && landed[end].group == landed[i].group;) ++end;
-    elements.push_back(element_of(std::span(landed).subspan(i, end - i)));
+  std::vector<std::uint32_t> groups = groups_of(landings, scene, 1);
+  for (std::uint32_t cells = 2; cells <= kMostCells; ++cells) {
+    std::vector<std::uint32_t> finer = groups_of(landings, scene, cells);
+    if (count_of(finer, cells) > count) break;
+    groups = std::move(finer);
+  }
+  std::vector<std::uint32_t> order(landings.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return groups[i] < groups[j]; });
+  std::vector<Landing> members;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    members.push_back(landings[order[i]]);
+    if (i + 1 < order.size() && groups[order[i + 1]] == groups[order[i]]) continue;
+    elements.push_back(element_of(members));
+    members.clear();
   }
   std::stable_sort(elements.begin(), elements.end(), [](const BounceElement& x, const BounceElement& y) {
     return luminance(x.power) > luminance(y.power);

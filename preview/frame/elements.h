@@ -4,8 +4,7 @@
 
 #include <span>
 
-#include "bake/jobs/context.h"
-#include "bake/trace/path.h"
+#include "preview/frame/landings.h"
 
 namespace oriel {
 
@@ -19,7 +18,7 @@ struct BounceElement {
 
 // At most `count` elements that reflect diffusely what comes to surfaces: landings of the lamps' particles, brought
 // together by place and normal until so few are left. No light is lost by that. The brightest come first.
-std::vector<BounceElement> bounce_elements(const Transport& transport, std::uint64_t seed, std::uint32_t count);
+std::vector<BounceElement> bounce_elements(std::span<const Landing> landings, const Scene& scene, std::uint32_t count);
 
 // At most so many of them by power, each as bright as those that it stands for; on the mean over u in [0,1) all.
 std::vector<BounceElement> some_of(std::span<const BounceElement> elements, std::size_t count, float u);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bake/jobs/parallel.h"
 #include "bake/trace/emission.h"
 #include "bake/trace/shading.h"
 
@@ -12,6 +13,7 @@ namespace {
 constexpr std::uint64_t kStream = 0x656c656d;
 constexpr int kMostBounces = 64;
 constexpr int kRouletteFrom = 2;
+constexpr std::uint32_t kTogether = 256;  // particles of a task
 
 class Walk {
  public:
@@ -78,16 +80,22 @@ class Walk {
 
 }  // namespace
 
-std::vector<Landing> land_particles(const Transport& t, std::uint64_t seed, std::uint32_t count) {
+Result<std::vector<Landing>> land_particles(const Transport& t, std::uint32_t count, Context& context) {
   const Sources sources(t.accel.scene(), t.lights);
-  std::vector<Landing> landed;
-  for (std::size_t kind = 0; kind < sources.kinds().size(); ++kind)
-    for (std::uint32_t i = 0; i < count; ++i) {
-      Sampler sampler(seed, kStream + kind, i);
+  const std::size_t tasks = (count + kTogether - 1) / kTogether;  // of each kind
+  std::vector<std::vector<Landing>> landed(tasks * sources.kinds().size());
+  ORIEL_TRY_VOID(parallel_for(context, "", landed.size(), [&](std::size_t task) {
+    const std::size_t kind = task / tasks;
+    const auto first = static_cast<std::uint32_t>(task % tasks) * kTogether;
+    for (std::uint32_t i = first; i < std::min(count, first + kTogether); ++i) {
+      Sampler sampler(context.seed, kStream + kind, i);
       const Particle particle = sources.emit(sources.kinds()[kind], sampler);
-      Walk(t, particle, 1 / static_cast<float>(count), sampler, landed).run();
+      Walk(t, particle, 1 / static_cast<float>(count), sampler, landed[task]).run();
     }
-  return landed;
+  }));
+  std::vector<Landing> all;
+  for (const std::vector<Landing>& some : landed) all.insert(all.end(), some.begin(), some.end());
+  return all;
 }
 
 }  // namespace oriel

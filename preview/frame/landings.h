@@ -1,6 +1,7 @@
 // Where light lands on its way: each place shines back what it reflects diffusely (instant radiosity, Keller 1997).
 #pragma once
 
+#include "bake/jobs/context.h"
 #include "bake/trace/path.h"
 
 namespace oriel {
@@ -13,6 +14,7 @@ struct Landing {
 
 // Of `count` particles of each kind of source, on their way through all reflections and glass, each place with diffuse
 // reflection. On the mean over many all of them shine back what diffuse surfaces reflect, after any number of bounces.
-std::vector<Landing> land_particles(const Transport& transport, std::uint64_t seed, std::uint32_t count);
+// Seed and threads: the context's. Error kStopped.
+Result<std::vector<Landing>> land_particles(const Transport& transport, std::uint32_t count, Context& context);
 
 }  // namespace oriel

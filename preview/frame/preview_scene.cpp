@@ -14,12 +14,22 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+Status make_rays(PreviewScene& scene, std::uint32_t elements, Context& context) {
+  ORIEL_TRY(scene.accel, Accel::build(scene.scene(), {false, thread_count(context)}));
+  scene.lights.emplace(scene.scene());
+  return find_elements(scene, elements, context);
+}
+
 }  // namespace
 
-void find_elements(PreviewScene& scene, std::uint64_t seed, std::uint32_t elements) {
-  constexpr std::uint32_t kFiner = 16;  // times as many
-  scene.elements = bounce_elements(scene.transport(), seed, elements);
-  scene.finer = bounce_elements(scene.transport(), seed, kFiner * elements);
+Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& context) {
+  constexpr std::uint32_t kFiner = 16;                               // times as many
+  constexpr std::uint32_t kParticles = 1024, kMostParticles = 8192;  // by element; of all
+  ORIEL_TRY(const std::vector<Landing> landings,
+            land_particles(scene.transport(), std::min(kParticles * elements, kMostParticles), context));
+  scene.elements = bounce_elements(landings, scene.scene(), elements);
+  scene.finer = bounce_elements(landings, scene.scene(), kFiner * elements);
+  return {};
 }
 
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
@@ -35,15 +45,10 @@ Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene 
     out->passes_s = seconds_since(begun);
   });
   const Clock::time_point begun = Clock::now();
-  auto accel = Accel::build(scene, {false, thread_count(context)});
-  if (accel) {
-    out->accel.emplace(std::move(*accel));
-    out->lights.emplace(scene);
-    find_elements(*out, context.seed, elements);
-  }
+  const Status rays = make_rays(*out, elements, context);
   out->rays_s = seconds_since(begun);
   passes.join();
-  if (!accel) return tl::unexpected<Error>(accel.error());
+  if (!rays) return tl::unexpected<Error>(rays.error());
   if (context.stopped()) return fail(ErrorCode::kStopped, "", "stopped");
   return std::shared_ptr<const PreviewScene>(std::move(out));
 }

@@ -34,8 +34,8 @@ struct PreviewSceneOptions {
   std::uint32_t elements = 32;  // of what surfaces reflect; 0: none
 };
 
-// Of a scene whose lamps or materials are new: its elements.
-void find_elements(PreviewScene& scene, std::uint64_t seed, std::uint32_t elements);
+// Of a scene whose lamps or materials are new: its elements. Error kStopped.
+Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& context);
 
 // The rest of a scene that is read. Errors: as Accel::build(), kStopped.
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,

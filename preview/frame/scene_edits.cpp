@@ -87,7 +87,7 @@ SceneEdits edits_of(const Scene& scene) {
   return all;
 }
 
-void edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, std::uint64_t seed) {
+Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, Context& context) {
   std::vector<SceneMaterial>& materials = scene.imported.scene.materials;
   for (const auto& [index, edit] : edits.materials) {
     if (index >= materials.size()) continue;
@@ -107,7 +107,7 @@ void edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elem
     }
   scene.lamps = Lamps(scene.scene());
   scene.lights.emplace(scene.scene());
-  find_elements(scene, seed, elements);
+  return find_elements(scene, elements, context);
 }
 
 Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits) {

@@ -32,9 +32,9 @@ LightEdit edit_of(const Light& light);
 // All of it: what undoes edits.
 SceneEdits edits_of(const Scene& scene);
 
-// Sets them, and what follows from them: lamps and the elements of one bounce (at most so many). Rays, shadow volumes
-// and all geometry stay. Nobody else may read the scene meanwhile.
-void edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, std::uint64_t seed);
+// Sets them, and what follows from them: lamps and the elements of reflected light (at most so many). Rays, shadow
+// volumes and all geometry stay. Nobody else may read the scene meanwhile. Error kStopped.
+Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, Context& context);
 
 // A .glb or .gltf with these edits: its JSON alone differs. A light that several nodes share changes with each of them.
 // Error kInvalid where it is no such file, or has not what was edited.

@@ -46,7 +46,7 @@ TEST(SceneEdits, ACopyHasThemAndNothingElse) {
     EXPECT_EQ((*after)->scene().materials[other].emission, before->scene().materials[other].emission) << other;
   }
   // The scene that is edited in place is the one that is read.
-  edit_scene(*std::const_pointer_cast<PreviewScene>(before), edits, 32, 1);
+  ASSERT_TRUE(edit_scene(*std::const_pointer_cast<PreviewScene>(before), edits, 32, context));
   EXPECT_EQ(before->elements.size(), (*after)->elements.size());
   for (std::size_t i = 0; i < before->elements.size(); ++i)
     EXPECT_LT(glm::distance(before->elements[i].power, (*after)->elements[i].power),
