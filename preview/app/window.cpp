@@ -35,7 +35,7 @@ class PreviewWindow {
         options_(arguments.frame),
         input_(window.get()),
         gui_(window.get()),
-        live_(arguments.scene, arguments.threads, arguments.seed),
+        live_(arguments.scene, arguments.threads, arguments.seed, [] { glfwPostEmptyEvent(); }),
         paths_(arguments.threads),
         ev100_(arguments.ev100) {
     status_.most_passes = arguments.passes;
@@ -76,9 +76,13 @@ class PreviewWindow {
  private:
   static constexpr std::uint32_t kPaths = 4096;
 
-  // --stats: how soon a scene was seen, after the program's start and after the file was saved.
+  // A scene's first frame was one of shared points, for it to come soon. --stats: how soon it was seen, after the
+  // program's start and after the file was saved.
   void tell(Clock::time_point started) {
-    if (!arguments_.stats || !scene_ || !std::exchange(fresh_, false)) return;
+    if (!fresh_ || renderer_.passes() == 0) return;
+    fresh_ = false;
+    restart_ = true;
+    if (!arguments_.stats) return;
     if (std::exchange(first_, false)) {
       fmt::print("{{\"first_lit_s\":{:.3f}}}\n", seconds_since(started));
     } else {
@@ -198,7 +202,7 @@ class PreviewWindow {
     gui_.end();
     ORIEL_TRY_VOID(fulfil(wishes));
     glfwSwapBuffers(window_.get());
-    if (!worked_ || !scene_) glfwWaitEventsTimeout(kResting_s);
+    if (!worked_) glfwWaitEventsTimeout(kResting_s);
     return {};
   }
 
@@ -233,14 +237,11 @@ class PreviewWindow {
       size_ = size;
       ORIEL_TRY_VOID(renderer_.look(camera_, size.x, size.y));
     }
-    worked_ = renderer_.passes() < arguments_.passes;
-    if (worked_) {
-      PreviewOptions options = options_;
-      options.shared |= moving_;
-      ORIEL_TRY(const PreviewStats stats, renderer_.pass(options, context_));
-      status_.pass_s = stats.total_s;
-      status_.passes = renderer_.passes();
-      if (renderer_.passes() == arguments_.passes) begin_paths();
+    worked_ = false;
+    paths_.hold(gives_way());
+    if (renderer_.passes() < arguments_.passes) {
+      ORIEL_TRY(worked_, draw_pass());
+      if (worked_ && renderer_.passes() == arguments_.passes) begin_paths();
     } else if (auto mean = paths_.newer(status_.paths)) {
       status_.paths = mean->samples;
       status_.noise = mean->relative_noise;
@@ -250,6 +251,23 @@ class PreviewWindow {
     ORIEL_TRY(const FrameTarget* frame, renderer_.frame(blended_ ? &*blended_ : nullptr));
     ORIEL_TRY_VOID(expose(*frame));
     return display_.draw_in_window(*frame, shown_ev100_, arguments_.curve, window, false);
+  }
+
+  // A scene that is being read may have the processors, unless one moves or sees nothing yet.
+  bool gives_way() const { return live_.reading() && !moving_ && !fresh_; }
+
+  // False where it was left for a scene that is being read.
+  Result<bool> draw_pass() {
+    if (gives_way()) return false;
+    const Interruptible leaves(context_, [this] { return gives_way(); });
+    PreviewOptions options = options_;
+    options.shared |= moving_ || fresh_;
+    const auto stats = renderer_.pass(options, context_);
+    if (!stats && stats.error().code == ErrorCode::kStopped && !context_.stop) return false;
+    if (!stats) return tl::unexpected<Error>(stats.error());
+    status_.pass_s = stats->total_s;
+    status_.passes = renderer_.passes();
+    return true;
   }
 
   // Of the last pass, how much larger the window is than what it drew.

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{40};  // how often files are looked at
+constexpr std::chrono::milliseconds kLook{20};  // how often files are looked at
 
 // What tells that a file is another: none where it is not there.
 struct FileStamp {
@@ -30,7 +30,8 @@ std::vector<FileStamp> stamps_of(const std::vector<std::filesystem::path>& files
 
 }  // namespace
 
-LiveScene::LiveScene(PreviewSceneOptions options, int threads, std::uint64_t seed) : options_(std::move(options)) {
+LiveScene::LiveScene(PreviewSceneOptions options, int threads, std::uint64_t seed, std::function<void()> told)
+    : options_(std::move(options)), told_(std::move(told)) {
   context_.threads = threads;
   context_.seed = seed;
   context_.warn = [this](const Warning& warning) {
@@ -74,6 +75,8 @@ bool LiveScene::sleep() {
 
 void LiveScene::work() {
   while (true) {
+    reading_ = true;
+    if (told_) told_();
     const std::vector<FileStamp> read = stamps_of(files_);
     auto loaded = load_preview_scene(options_, context_);
     {
@@ -81,7 +84,9 @@ void LiveScene::work() {
       if (ends_) return;
       news_ = loaded ? SceneNews{*loaded, {}} : SceneNews{nullptr, loaded.error()};
     }
+    reading_ = false;
     changed_.notify_all();
+    if (told_) told_();
     bool followed = false;  // the files that the scene names
     if (loaded) {
       std::vector<std::filesystem::path> files{options_.file};

@@ -18,12 +18,15 @@ struct SceneNews {
 // Loads on a thread of its own, again whenever the file, or one that it names, has changed and is left in peace.
 class LiveScene {
  public:
-  // Reading begins at once. threads: of rays; 0: all CPUs.
-  LiveScene(PreviewSceneOptions options, int threads, std::uint64_t seed);
+  // Reading begins at once. threads: of rays; 0: all CPUs. told: is called from another thread when reading begins and
+  // when there is news; may be empty.
+  LiveScene(PreviewSceneOptions options, int threads, std::uint64_t seed, std::function<void()> told = {});
   ~LiveScene();
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
 
+  // A file is being read: who can wait leaves the processors to it.
+  bool reading() const { return reading_; }
   // The last news, once.
   std::optional<SceneNews> news();
   // The same, waiting for it at most so long.
@@ -37,6 +40,8 @@ class LiveScene {
   PreviewSceneOptions options_;
   Context context_;
   std::vector<std::filesystem::path> files_;  // that are watched
+  std::function<void()> told_;
+  std::atomic<bool> reading_{true};
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SceneNews> news_;

@@ -66,7 +66,14 @@ void PathFrame::stop() {
   wanted_.reset();
   mean_ = {};
   context_.stop = true;
+  changed_.notify_all();
   changed_.wait(lock, [&] { return !busy_; });
+}
+
+void PathFrame::hold(bool held) {
+  if (held_.exchange(held) == held) return;
+  { const std::scoped_lock lock(mutex_); }  // whoever looked before it changed waits by now
+  changed_.notify_all();
 }
 
 std::optional<PathMean> PathFrame::newer(std::uint32_t than) const {
@@ -100,6 +107,25 @@ void PathFrame::work() {
   }
 }
 
+// Each pixel once, with rests while it is held. False: it was ended before.
+bool PathFrame::trace_pixels(const ReferenceOptions& frame,
+                             const std::function<void(std::uint32_t x, std::uint32_t y)>& pixel) {
+  const auto width = static_cast<std::uint32_t>(frame.width);
+  std::vector<std::uint32_t> done(static_cast<std::size_t>(frame.height));  // of each row
+  const auto row = [&](std::size_t y) {
+    for (std::uint32_t& x = done[y]; x < width && !held_ && !context_.stopped(); ++x)
+      pixel(x, static_cast<std::uint32_t>(y));
+  };
+  while (std::any_of(done.begin(), done.end(), [&](std::uint32_t x) { return x < width; })) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return !held_ || context_.stopped(); });
+    }
+    if (!parallel_for(context_, "", done.size(), row)) return false;
+  }
+  return true;
+}
+
 // Rounds of 1, 1, 2, 4, … samples of all pixels, at most 16, so that news comes soon and costs little later.
 void PathFrame::trace(const PathView& view) {
   const auto width = static_cast<std::size_t>(view.frame.width), height = static_cast<std::size_t>(view.frame.height);
@@ -110,16 +136,14 @@ void PathFrame::trace(const PathView& view) {
   while (sums.samples < view.frame.samples) {
     const std::uint32_t from = sums.samples;
     const std::uint32_t to = std::min(view.frame.samples, from + std::clamp(from, 1u, 16u));
-    const auto row = [&](std::size_t y) {
-      for (std::size_t x = 0; x < width && !context_.stopped(); ++x)
-        for (std::uint32_t i = from; i < to; ++i) {
-          const DVec3 light(trace_sample(transport, view.camera, view.frame,
-                                         {view.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i}));
-          sums.sum[y * width + x] += light;
-          sums.squares[y * width + x] += light * light;
-        }
+    const auto pixel = [&](std::uint32_t x, std::uint32_t y) {
+      for (std::uint32_t i = from; i < to; ++i) {
+        const DVec3 light(trace_sample(transport, view.camera, view.frame, {view.seed, x, y, i}));
+        sums.sum[y * width + x] += light;
+        sums.squares[y * width + x] += light * light;
+      }
     };
-    if (!parallel_for(context_, "", height, row)) return;
+    if (!trace_pixels(view.frame, pixel)) return;
     sums.samples = to;
     PathMean mean = sums.mean(view.frame);
     const std::scoped_lock lock(mutex_);

@@ -35,6 +35,8 @@ class PathFrame {
   // From the first path on; what was under way is dropped.
   void start(PathView view);
   void stop();
+  // Lets the processors to others until it is called with false; nothing is lost.
+  void hold(bool held);
   // The mean of more samples than that, once it is there.
   std::optional<PathMean> newer(std::uint32_t than) const;
   // Waits until all samples are taken, or for so long.
@@ -43,6 +45,7 @@ class PathFrame {
  private:
   void work();
   void trace(const PathView& view);
+  bool trace_pixels(const ReferenceOptions& frame, const std::function<void(std::uint32_t x, std::uint32_t y)>& pixel);
 
   Context context_;
   mutable std::mutex mutex_;
@@ -50,6 +53,7 @@ class PathFrame {
   std::optional<PathView> wanted_;
   PathMean mean_;  // published
   bool busy_ = false, ends_ = false;
+  std::atomic<bool> held_{false};
   std::thread thread_;
 };
 

@@ -88,6 +88,9 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
   ORIEL_TRY(light_, make_pass_light(*surfaces_));
   ORIEL_TRY(sum_, make_pass_light(*surfaces_));
   ORIEL_TRY(frame_, make_frame_target(width, height, 1, false));
+  frame_->framebuffer.bind();
+  gpu::apply({});
+  glClear(GL_COLOR_BUFFER_BIT);
   costs_ = {};
   const std::vector<Vec4> black(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   traced_ = gpu::Texture2d(gpu::kRgba32f, width, height, black.data());
@@ -296,6 +299,7 @@ void PreviewRenderer::add_pass(const PreviewOptions& options) const {
 }
 
 Result<const FrameTarget*> PreviewRenderer::frame(const FloatImage* paths) {
+  if (passes_ == 0) return &*frame_;
   if (paths != nullptr) paths_.upload(0, paths->pixels.data());
   frame_->framebuffer.bind();
   glViewport(0, 0, frame_->size().x, frame_->size().y);

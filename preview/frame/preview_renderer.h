@@ -53,7 +53,7 @@ class PreviewRenderer {
   std::uint32_t passes() const { return passes_; }
 
   // The mean of the passes, cd/m², into a frame that DisplayPass shows; `paths` (RGBA, row 0 at the top, a: its
-  // weight) over it, if any.
+  // weight) over it, if any. Before the first pass: what was shown last.
   Result<const FrameTarget*> frame(const FloatImage* paths);
   // The mean of the passes, RGB, row 0 at the top.
   FloatImage read_mean();

@@ -177,7 +177,13 @@ TEST_F(PreviewLight, PathsAreTheReferenceToTheBit) {
   take(room());
   PathFrame paths(2);
   const ReferenceOptions frame{.width = kWidth, .height = kHeight, .samples = 32, .antialias = false};
+  paths.hold(true);
   paths.start({scene_, kCamera, frame, 7});
+  EXPECT_FALSE(paths.wait(0.05));
+  for (int i = 0; i < 20; ++i) {  // rests change nothing
+    paths.hold(i % 2 == 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   ASSERT_TRUE(paths.wait(60));
   const auto mean = paths.newer(0);
   ASSERT_TRUE(mean);
