@@ -1,5 +1,6 @@
 #include "bake/import/import.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -57,14 +58,13 @@ class ImageLoader {
               gltf::MemoryBudget& budget, ImportedScene& out)
       : document_(document), buffers_(buffers), folder_(folder), budget_(budget), out_(out) {}
 
-  Status load(Context& context) {
+  Status load(const ImportedScene* last, Context& context) {
     find_used();
     ORIEL_TRY_VOID(read(context));
     std::vector<Result<Image>> decoded(sources_.size(), tl::unexpected<Error>(Error{}));
     if (!sources_.empty())
-      ORIEL_TRY_VOID(parallel_for(context, "images", sources_.size(), [&](std::size_t i) {
-        decoded[i] = decode_image(sources_[i].bytes, sources_[i].name);
-      }));
+      ORIEL_TRY_VOID(parallel_for(context, "images", sources_.size(),
+                                  [&](std::size_t i) { decoded[i] = decode(sources_[i], last); }));
     std::vector<std::int32_t> scene_image(document_.images.size(), -1);
     for (std::size_t i = 0; i < decoded.size(); ++i) {
       if (!decoded[i] && decoded[i].error().code != ErrorCode::kInvalid)
@@ -75,6 +75,7 @@ class ImageLoader {
       }
       scene_image[sources_[i].image] = static_cast<std::int32_t>(out_.scene.images.size());
       out_.scene.images.push_back(std::move(*decoded[i]));
+      out_.image_files.push_back(sources_[i].hash);
     }
     for (SceneMaterial& material : out_.scene.materials)
       for (TextureSlot* slot : texture_slots(material))
@@ -87,7 +88,21 @@ class ImageLoader {
     std::size_t image;  // of the document
     std::string name;
     std::span<const std::byte> bytes;
+    Hash128 hash = {};
   };
+
+  static Result<Image> decode(Source& source, const ImportedScene* last) {
+    Hasher hasher;
+    hasher.add(source.bytes);
+    source.hash = hasher.result();
+    for (std::size_t i = 0; last != nullptr && i < last->image_files.size(); ++i) {
+      if (last->image_files[i] != source.hash) continue;
+      Image known = last->scene.images[i];
+      known.name = source.name;
+      return known;
+    }
+    return decode_image(source.bytes, source.name);
+  }
 
   void find_used() {
     used_.assign(document_.images.size(), false);
@@ -138,13 +153,31 @@ class ImageLoader {
   std::vector<Source> sources_;
 };
 
-// Advice about meshes in the scene; each mesh once, however often it is placed.
-void warn_of_topology(const Scene& scene, Context& context) {
+// Whether a surface is one of the last scene's: its triangles, and whether it has a back.
+bool is_known(const Scene& scene, std::size_t surface, const Scene& last) {
+  if (surface >= last.surfaces.size()) return false;
+  const Surface &a = scene.surfaces[surface], &b = last.surfaces[surface];
+  const auto triangles = [](const Scene& of, const Surface& s) {
+    return std::span(of.triangles).subspan(s.first_triangle, s.triangle_count);
+  };
+  const auto places = [](const Scene& of, const Surface& s) {
+    return std::span(of.positions).subspan(s.first_vertex, s.vertex_count);
+  };
+  const auto same = [&](const UVec3& x, const UVec3& y) { return x - a.first_vertex == y - b.first_vertex; };
+  return a.name == b.name && scene.materials[a.material].double_sided == last.materials[b.material].double_sided &&
+         std::ranges::equal(triangles(scene, a), triangles(last, b), same) &&
+         std::ranges::equal(places(scene, a), places(last, b));
+}
+
+// Advice about meshes in the scene; each mesh once, however often it is placed, and none that the last scene has.
+void warn_of_topology(const Scene& scene, const Scene* last, Context& context) {
   std::set<std::string> seen;
   WarningGroup odd(context,
                    "surfaces with edges of more than two triangles or triangles that face against their neighbours",
                    WarningKind::kFacingApart);
-  for (const Surface& surface : scene.surfaces) {
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    if (last != nullptr && is_known(scene, i, *last)) continue;
     if (!seen.insert(fmt::format("{}\n{}\n{}", surface.mesh_name, surface.material, surface.triangle_count)).second)
       continue;
     if (context.stopped()) return;
@@ -182,7 +215,8 @@ Result<Bytes> read_scene_file(const fs::path& path, std::uint64_t max_bytes) {
   return read_file(path, max_bytes);
 }
 
-Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& options, Context& context) {
+Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& options, Context& context,
+                                     const ImportedScene* last) {
   ORIEL_TRY(const Bytes bytes, read_scene_file(path, options.max_bytes));
   gltf::MemoryBudget budget(options.max_bytes);
   const std::string file = path.filename().string();
@@ -215,17 +249,18 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY_VOID(place_viewpoints(document, poses, animations, out.scene, context));
   ORIEL_TRY_VOID(place_movers(document, poses, movers, animations, out.scene, context));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
-  ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(context));
-  warn_of_topology(out.scene, context);
+  ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(last, context));
+  warn_of_topology(out.scene, last != nullptr ? &last->scene : nullptr, context);
   if (context.stopped()) return fail(ErrorCode::kStopped, file, "stopped");
   return out;
 }
 
 }  // namespace
 
-Result<ImportedScene> import_gltf(const fs::path& path, const ImportOptions& options, Context& context) {
+Result<ImportedScene> import_gltf(const fs::path& path, const ImportOptions& options, Context& context,
+                                  const ImportedScene* last) {
   try {
-    return import_checked(path, options, context);
+    return import_checked(path, options, context, last);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kRuntime, path.string(), "not enough memory to import the scene");
   } catch (const std::exception& e) {

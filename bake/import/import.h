@@ -6,6 +6,7 @@
 
 #include "bake/jobs/context.h"
 #include "bake/scene/daylight.h"
+#include "formats/core/hash.h"
 
 namespace oriel {
 
@@ -30,6 +31,7 @@ struct ImportOptions {
 struct ImportedScene {
   Scene scene;
   std::vector<std::pair<std::string, std::string>> inputs;  // file name (relative to the scene file) and its XXH3-128
+  std::vector<Hash128> image_files = {};                    // by Scene::images: of the bytes that hold it
 };
 
 // Reads a .gltf (external or embedded buffers and images) or a .glb. The file is told by its first bytes, not its name.
@@ -37,6 +39,10 @@ struct ImportedScene {
 // are dropped with one warning per mesh, a non-finite vertex is an error; what is not supported gets one warning
 // each through context.warning. Errors: kIo where a file cannot be read, kInvalid where the content breaks glTF 2.0
 // (found, expected and where) or requires an extension that Oriel does not know; those of apply_lighting.
-Result<ImportedScene> import_gltf(const std::filesystem::path& path, const ImportOptions& options, Context& context);
+//
+// last: what was read before, of a file that was saved again; null: nothing. Images that it has are not decoded again,
+// and advice about meshes that it has is not given again.
+Result<ImportedScene> import_gltf(const std::filesystem::path& path, const ImportOptions& options, Context& context,
+                                  const ImportedScene* last = nullptr);
 
 }  // namespace oriel

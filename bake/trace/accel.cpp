@@ -7,6 +7,7 @@
 
 #include "bake/scene/shade.h"
 #include "bake/trace/glass.h"
+#include "formats/core/check.h"
 
 namespace oriel {
 namespace {
@@ -20,8 +21,14 @@ constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ra
 
 // Triangles of one kind (opaque, letting some light through, solid glass) as one Embree geometry.
 struct Group {
-  std::vector<UVec3> indices;           // empty: the scene's own, all of them
+  std::vector<UVec3> indices;
   std::vector<std::uint32_t> triangle;  // primitive → Scene triangle; empty: the same number
+};
+
+// What Embree reads as long as its scene lives.
+struct Shape {
+  std::vector<Vec3> positions;
+  Group groups[3];
 };
 
 bool traceable(const Ray& ray, float scale) {
@@ -36,8 +43,7 @@ struct Accel::Impl {
   DroppedSamples dropped;
   const Scene* scene = nullptr;
   float scale = 1;  // Embree's units per metre: a power of two, so that scaling is exact
-  std::vector<Vec3> positions;
-  Group groups[3];
+  std::shared_ptr<Shape> shape = std::make_shared<Shape>();
   bool any_transmitting = false;  // solid glass too
   RTCDevice device = nullptr;
   RTCScene rtc_scene = nullptr;
@@ -48,10 +54,10 @@ struct Accel::Impl {
   }
 
   void add_group(int id, unsigned mask) {
-    const Group& group = groups[id];
-    const auto& indices = group.indices.empty() ? scene->triangles : group.indices;
+    const std::vector<UVec3>& indices = shape->groups[id].indices;
+    if (indices.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, shape->positions.data(), 0,
                                sizeof(Vec3), scene->positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(UVec3),
                                indices.size());
@@ -72,10 +78,13 @@ struct Accel::Impl {
       any_transmitting |= kind[m] = may_transmit(material);
       if (kind[m] && material.solid) kind[m] = 2;
     }
-    if (!any_transmitting && scene->twin.empty()) return;
+    if (!any_transmitting && scene->twin.empty()) {
+      shape->groups[0].indices = scene->triangles;
+      return;
+    }
     for (std::uint32_t t = 0; t < scene->triangles.size(); ++t) {
       if (is_second_twin(t)) continue;
-      Group& group = groups[kind[scene->surfaces[scene->triangle_surface[t]].material]];
+      Group& group = shape->groups[kind[scene->surfaces[scene->triangle_surface[t]].material]];
       group.indices.push_back(scene->triangles[t]);
       group.triangle.push_back(t);
     }
@@ -99,7 +108,7 @@ struct Accel::Impl {
 
   Hit hit_of(unsigned geometry, unsigned primitive, float distance, const Vec2& barycentric, const Vec3& normal,
              const Vec3& direction) const {
-    const Group& group = groups[geometry];
+    const Group& group = shape->groups[geometry];
     Hit hit;
     hit.triangle = group.triangle.empty() ? primitive : group.triangle[primitive];
     hit.distance = distance / scale;
@@ -205,9 +214,10 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   impl->scene = &scene;
   const float radius = scene.radius();
   if (radius > 0 && std::isfinite(radius)) impl->scale = std::ldexp(1.0f, -std::ilogb(radius));
-  impl->positions.reserve(scene.positions.size() + 2);
-  for (const Vec3& p : scene.positions) impl->positions.push_back(p * impl->scale);
-  impl->positions.resize(scene.positions.size() + 2);  // Embree reads 16 bytes at the last vertex
+  std::vector<Vec3>& positions = impl->shape->positions;
+  positions.reserve(scene.positions.size() + 2);
+  for (const Vec3& p : scene.positions) positions.push_back(p * impl->scale);
+  positions.resize(scene.positions.size() + 2);  // Embree reads 16 bytes at the last vertex
 
   const std::string config = fmt::format("threads={}{}", options.threads, options.reproducible ? ",isa=sse4.2" : "");
   impl->device = rtcNewDevice(config.c_str());
@@ -217,14 +227,28 @@ Result<Accel> Accel::build(const Scene& scene, const AccelOptions& options) {
   rtcSetSceneFlags(impl->rtc_scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(impl->rtc_scene, RTC_BUILD_QUALITY_MEDIUM);
   impl->split_groups();
-  if (!impl->any_transmitting || !impl->groups[0].indices.empty()) impl->add_group(0, kOpaqueMask);
-  if (!impl->groups[1].indices.empty()) impl->add_group(1, kTransmittingMask);
-  if (!impl->groups[2].indices.empty()) impl->add_group(2, kSolidMask);
+  impl->add_group(0, kOpaqueMask);
+  impl->add_group(1, kTransmittingMask);
+  impl->add_group(2, kSolidMask);
   rtcCommitScene(impl->rtc_scene);
   if (const RTCError error = rtcGetDeviceError(impl->device); error != RTC_ERROR_NONE)
     return fail(ErrorCode::kRuntime, "Embree", "building the ray accelerator of {} triangles failed: {}",
                 scene.triangles.size(),
                 error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", static_cast<int>(error)));
+  return Accel(std::move(impl));
+}
+
+Accel Accel::of(const Scene& scene) const {
+  ORIEL_CHECK_EQ(scene.triangles.size(), impl_->scene->triangles.size());
+  auto impl = std::make_unique<Impl>();
+  impl->scene = &scene;
+  impl->scale = impl_->scale;
+  impl->shape = impl_->shape;
+  impl->any_transmitting = impl_->any_transmitting;
+  impl->device = impl_->device;
+  impl->rtc_scene = impl_->rtc_scene;
+  rtcRetainDevice(impl->device);
+  rtcRetainScene(impl->rtc_scene);
   return Accel(std::move(impl));
 }
 

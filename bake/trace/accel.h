@@ -45,6 +45,10 @@ class Accel {
   Accel& operator=(Accel&&) noexcept;
   ~Accel();
 
+  // The same for another scene, whose triangles lie as this one's and let light through where this one's do: nothing is
+  // built again. Each may end before the other. As build(): that scene must outlive it.
+  Accel of(const Scene& scene) const;
+
   const Scene& scene() const;
 
   // The nearest surface, whatever its material.

@@ -148,7 +148,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                                          {"rays_s", scene->rays_s},
                                          {"passes_s", scene->passes_s},
                                          {"triangles", scene->scene().triangles.size()},
-                                         {"edges", scene->shadows.edges()},
+                                         {"edges", scene->shadows->edges()},
                                          {"lamps", scene->lamps.count()},
                                          {"elements", scene->elements.size()},
                                          {"passes", renderer.passes()},

@@ -78,7 +78,8 @@ void LiveScene::work() {
     reading_ = true;
     if (told_) told_();
     const std::vector<FileStamp> read = stamps_of(files_);
-    auto loaded = load_preview_scene(options_, context_);
+    auto loaded = load_preview_scene(options_, context_, last_.get());
+    if (loaded) last_ = *loaded;
     {
       const std::scoped_lock lock(mutex_);
       if (ends_) return;

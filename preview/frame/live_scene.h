@@ -40,6 +40,7 @@ class LiveScene {
   PreviewSceneOptions options_;
   Context context_;
   std::vector<std::filesystem::path> files_;  // that are watched
+  std::shared_ptr<const PreviewScene> last_;  // that could be read
   std::function<void()> told_;
   std::atomic<bool> reading_{true};
   std::mutex mutex_;

@@ -69,8 +69,8 @@ Result<PreviewRenderer> PreviewRenderer::create(const gpu::Device& device) {
 }
 
 Status PreviewRenderer::take(std::shared_ptr<const PreviewScene> scene) {
-  ORIEL_TRY(mesh_, PreviewMesh::create(scene->scene(), device_));
-  volume_pass_.take(scene->shadows);
+  ORIEL_TRY(mesh_, PreviewMesh::create(scene->scene(), scene->parts, device_, mesh_));
+  if (!scene_ || scene_->shadows != scene->shadows) volume_pass_.take(*scene->shadows);
   scene_ = std::move(scene);
   passes_ = 0;
   costs_ = {};
@@ -183,7 +183,7 @@ void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, PreviewStat
   light_.framebuffer.bind();
   if (volumes) {
     const Stage stage(stats.shadows_s);
-    const ShadowVolumes shadow = scene_->shadows.volumes(point.place, view_.eye);
+    const ShadowVolumes shadow = scene_->shadows->volumes(point.place, view_.eye);
     stats.shadow_quads += shadow.indices.size() / 6;
     volume_pass_.draw(shadow, point.place, view_);
   }
@@ -335,7 +335,7 @@ SeenPoints PreviewRenderer::read_points() const {
 
 std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point) const {
   light_.framebuffer.bind();
-  volume_pass_.draw(scene_->shadows.volumes(point.place, view_.eye), point.place, view_);
+  volume_pass_.draw(scene_->shadows->volumes(point.place, view_.eye), point.place, view_);
   const IVec2 size = surfaces_->size();
   std::vector<std::uint8_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

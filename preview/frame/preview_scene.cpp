@@ -14,8 +14,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Status make_rays(PreviewScene& scene, std::uint32_t elements, Context& context) {
-  ORIEL_TRY(scene.accel, Accel::build(scene.scene(), {false, thread_count(context)}));
+// same: a scene of the same shape, or null.
+Status make_rays(PreviewScene& scene, const PreviewScene* same, std::uint32_t elements, Context& context) {
+  if (same != nullptr) {
+    scene.accel = same->accel->of(scene.scene());
+  } else {
+    ORIEL_TRY(scene.accel, Accel::build(scene.scene(), {false, thread_count(context)}));
+  }
   scene.lights.emplace(scene.scene());
   return find_elements(scene, elements, context);
 }
@@ -33,19 +38,21 @@ Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& conte
 }
 
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
-                                                                  Context& context) {
+                                                                  Context& context, const PreviewScene* last) {
   auto out = std::make_shared<PreviewScene>();
   out->imported = std::move(imported);
   const Scene& scene = out->scene();
+  out->parts = parts_of(scene);
+  const PreviewScene* same = last != nullptr && last->parts.shape == out->parts.shape ? last : nullptr;
   // What passes need is made beside what rays need.
   std::jthread passes([&] {
     const Clock::time_point begun = Clock::now();
     out->lamps = Lamps(scene);
-    out->shadows = ShadowMesh(scene);
+    out->shadows = same != nullptr ? same->shadows : std::make_shared<const ShadowMesh>(scene);
     out->passes_s = seconds_since(begun);
   });
   const Clock::time_point begun = Clock::now();
-  const Status rays = make_rays(*out, elements, context);
+  const Status rays = make_rays(*out, same, elements, context);
   out->rays_s = seconds_since(begun);
   passes.join();
   if (!rays) return tl::unexpected<Error>(rays.error());
@@ -53,11 +60,13 @@ Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene 
   return std::shared_ptr<const PreviewScene>(std::move(out));
 }
 
-Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context) {
+Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context,
+                                                               const PreviewScene* last) {
   const Clock::time_point start = Clock::now();
-  ORIEL_TRY(ImportedScene imported, import_gltf(options.file, options.import, context));
+  ORIEL_TRY(ImportedScene imported,
+            import_gltf(options.file, options.import, context, last != nullptr ? &last->imported : nullptr));
   const double import_s = seconds_since(start);
-  ORIEL_TRY(const auto scene, prepare_preview_scene(std::move(imported), options.elements, context));
+  ORIEL_TRY(const auto scene, prepare_preview_scene(std::move(imported), options.elements, context, last));
   auto out = std::const_pointer_cast<PreviewScene>(scene);  // nobody else has it yet
   out->import_s = import_s;
   return scene;

@@ -9,6 +9,7 @@
 #include "bake/trace/path.h"
 #include "preview/frame/elements.h"
 #include "preview/frame/lamps.h"
+#include "preview/frame/scene_parts.h"
 #include "preview/frame/shadow_mesh.h"
 
 namespace oriel {
@@ -16,10 +17,11 @@ namespace oriel {
 // Its parts refer to each other: it stays where it is.
 struct PreviewScene {
   ImportedScene imported;
+  SceneParts parts;  // as it was read, whatever is edited since
   std::optional<Accel> accel;
   std::optional<LightSet> lights;
   Lamps lamps;
-  ShadowMesh shadows;
+  std::shared_ptr<const ShadowMesh> shadows;
   std::vector<BounceElement> elements;
   std::vector<BounceElement> finer;               // of the same light: a pass takes some
   double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
@@ -37,11 +39,13 @@ struct PreviewSceneOptions {
 // Of a scene whose lamps or materials are new: its elements. Error kStopped.
 Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& context);
 
-// The rest of a scene that is read. Errors: as Accel::build(), kStopped.
+// The rest of a scene that is read. last: the one before, whose rays and shadow volumes are taken where its shape is
+// the same; null: none. Errors: as Accel::build(), kStopped.
 Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
-                                                                  Context& context);
+                                                                  Context& context, const PreviewScene* last = nullptr);
 
 // Errors also: as import_gltf().
-Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context);
+Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context,
+                                                               const PreviewScene* last = nullptr);
 
 }  // namespace oriel

@@ -53,37 +53,48 @@ Result<SeenSurfaces> make_seen_surfaces(int width, int height) {
   return s;
 }
 
-Result<PreviewMesh> PreviewMesh::create(const Scene& scene, const gpu::Device& device) {
+Result<PreviewMesh> PreviewMesh::create(const Scene& scene, const SceneParts& parts, const gpu::Device& device,
+                                        const PreviewMesh& last) {
   PreviewMesh mesh;
   mesh.scene_ = &scene;
+  mesh.parts_ = parts;
   const std::uint8_t white[4] = {255, 255, 255, 255};
   mesh.white_ = gpu::Texture2d(gpu::kRgba8, 1, 1, white);
-  const auto rows = static_cast<int>(scene.triangles.size() / kFaceColumns) + 1;
-  if (rows > device.texture_size)
-    return fail(ErrorCode::kRuntime, "preview", "found {} triangles, expected at most {} on this device",
-                scene.triangles.size(), std::size_t{kFaceColumns} * static_cast<std::size_t>(device.texture_size));
-  mesh.upload_vertices(scene);
-  std::vector<Vec4> faces(static_cast<std::size_t>(rows) * kFaceColumns);
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) faces[t] = Vec4(geometric_normal(scene, t), 0);
-  mesh.faces_ = gpu::Texture2d(gpu::kRgba32f, kFaceColumns, rows, faces.data());
+  if (last.parts_.vertices == parts.vertices) {
+    mesh.vertices_ = last.vertices_;
+  } else {
+    ORIEL_TRY(mesh.vertices_, upload_vertices(scene, device));
+  }
+  if (last.parts_.images == parts.images) mesh.textures_ = last.textures_;
   ORIEL_TRY_VOID(mesh.upload_textures(scene, device));
+  mesh.lighting_ = last.parts_.lighting == parts.lighting ? last.lighting_ : upload_lighting(scene);
   mesh.upload_reflectances(scene);
-  mesh.upload_lighting(scene);
   ORIEL_TRY_VOID(gpu::check_gl("loading the scene"));
   return mesh;
 }
 
-void PreviewMesh::upload_vertices(const Scene& scene) {
-  vertices_ = gpu::make_vertex_array();
-  glBindVertexArray(vertices_.name());
-  gpu::add_attribute(buffers_, 0, scene.positions, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers_, 1, scene.normals, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers_, 2, scene.uv0, 2, GL_FLOAT, false);
-  gpu::add_attribute(buffers_, 3, scene.uv1, 2, GL_FLOAT, false);
-  if (!scene.colors.empty()) gpu::add_attribute(buffers_, 4, scene.colors, 4, GL_UNSIGNED_BYTE, true);
-  if (!scene.tangents.empty()) gpu::add_attribute(buffers_, 5, scene.tangents, 4, GL_FLOAT, false);
-  indices_ = gpu::Buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const UVec3>(scene.triangles));
+auto PreviewMesh::upload_vertices(const Scene& scene, const gpu::Device& device)
+    -> Result<std::shared_ptr<const Vertices>> {
+  const auto rows = static_cast<int>(scene.triangles.size() / kFaceColumns) + 1;
+  if (rows > device.texture_size)
+    return fail(ErrorCode::kRuntime, "preview", "found {} triangles, expected at most {} on this device",
+                scene.triangles.size(), std::size_t{kFaceColumns} * static_cast<std::size_t>(device.texture_size));
+  auto vertices = std::make_shared<Vertices>();
+  std::vector<Vec4> faces(static_cast<std::size_t>(rows) * kFaceColumns);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) faces[t] = Vec4(geometric_normal(scene, t), 0);
+  vertices->faces = gpu::Texture2d(gpu::kRgba32f, kFaceColumns, rows, faces.data());
+  vertices->array = gpu::make_vertex_array();
+  glBindVertexArray(vertices->array.name());
+  std::vector<gpu::Buffer>& buffers = vertices->buffers;
+  gpu::add_attribute(buffers, 0, scene.positions, 3, GL_FLOAT, false);
+  gpu::add_attribute(buffers, 1, scene.normals, 3, GL_FLOAT, false);
+  gpu::add_attribute(buffers, 2, scene.uv0, 2, GL_FLOAT, false);
+  gpu::add_attribute(buffers, 3, scene.uv1, 2, GL_FLOAT, false);
+  if (!scene.colors.empty()) gpu::add_attribute(buffers, 4, scene.colors, 4, GL_UNSIGNED_BYTE, true);
+  if (!scene.tangents.empty()) gpu::add_attribute(buffers, 5, scene.tangents, 4, GL_FLOAT, false);
+  vertices->indices = gpu::Buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const UVec3>(scene.triangles));
   glBindVertexArray(0);
+  return std::shared_ptr<const Vertices>(std::move(vertices));
 }
 
 Status PreviewMesh::upload_textures(const Scene& scene, const gpu::Device& device) {
@@ -97,12 +108,11 @@ Status PreviewMesh::upload_textures(const Scene& scene, const gpu::Device& devic
       return fail(ErrorCode::kRuntime, image.name, "found an image of {}x{}, expected at most {} a side on this device",
                   image.width, image.height, device.texture_size);
     const GLenum filter = slot.nearest ? GL_NEAREST : GL_LINEAR;
-    textures_.emplace(key, gpu::Texture2d(srgb ? gpu::kSrgbAlpha8 : gpu::kRgba8, static_cast<int>(image.width),
-                                          static_cast<int>(image.height), image.texels.data(),
-                                          {.min_filter = filter,
-                                           .mag_filter = filter,
-                                           .wrap_s = wrap_of(slot.wrap_s),
-                                           .wrap_t = wrap_of(slot.wrap_t)}));
+    const gpu::TextureOptions options{
+        .min_filter = filter, .mag_filter = filter, .wrap_s = wrap_of(slot.wrap_s), .wrap_t = wrap_of(slot.wrap_t)};
+    textures_[key] =
+        std::make_shared<const gpu::Texture2d>(srgb ? gpu::kSrgbAlpha8 : gpu::kRgba8, static_cast<int>(image.width),
+                                               static_cast<int>(image.height), image.texels.data(), options);
     return {};
   };
   for (const SceneMaterial& m : scene.materials) {
@@ -137,35 +147,38 @@ void PreviewMesh::take_materials() {
   upload_reflectances(*scene_);
 }
 
-void PreviewMesh::upload_lighting(const Scene& scene) {
+auto PreviewMesh::upload_lighting(const Scene& scene) -> std::shared_ptr<const Lighting> {
+  auto lighting = std::make_shared<Lighting>();
   const SkyImage& sky = scene.sky_image;
   if (!sky.texels.empty()) {
     std::vector<Vec4> texels;
     for (const Vec3& t : sky.texels) texels.emplace_back(t, 1);
-    sky_ = gpu::Texture2d(gpu::kRgba32f, static_cast<int>(sky.width), static_cast<int>(sky.height), texels.data(),
-                          {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .wrap_s = GL_REPEAT});
+    lighting->sky =
+        gpu::Texture2d(gpu::kRgba32f, static_cast<int>(sky.width), static_cast<int>(sky.height), texels.data(),
+                       {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .wrap_s = GL_REPEAT});
   }
   for (const Light& light : scene.lights) {
-    profiles_.emplace_back();
+    lighting->profiles.emplace_back();
     if (light.profile < 0) continue;
     std::vector<float> candela;
     for (int v = 0; v < kProfileHeight; ++v)
       for (int h = 0; h < kProfileWidth; ++h)
         candela.push_back(profile_candela(scene.profiles[static_cast<std::size_t>(light.profile)],
                                           static_cast<float>(v), static_cast<float>(h)));
-    profiles_.back() = gpu::Texture2d(gpu::kR32f, kProfileWidth, kProfileHeight, candela.data(),
-                                      {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR});
+    lighting->profiles.back() = gpu::Texture2d(gpu::kR32f, kProfileWidth, kProfileHeight, candela.data(),
+                                               {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR});
   }
+  return lighting;
 }
 
 const gpu::Texture2d& PreviewMesh::profile(std::uint32_t light) const {
-  return light < profiles_.size() ? profiles_[light] : no_profile_;
+  return light < lighting_->profiles.size() ? lighting_->profiles[light] : no_profile_;
 }
 
 void PreviewMesh::set_slot(const gpu::Program& program, const TextureSlot& slot, bool srgb, const char* name,
                            int unit) const {
   const auto found = textures_.find({slot.image, srgb, slot.wrap_s, slot.wrap_t, slot.nearest});
-  (found != textures_.end() ? found->second : white_).bind(unit);
+  (found != textures_.end() ? *found->second : white_).bind(unit);
   program.set(fmt::format("u_{}_texture", name).c_str(), unit);
   const Mat3& m = slot.image_from_uv;  // rows, as programs take no 3x3 matrices
   program.set(fmt::format("u_{}_u", name).c_str(), Vec3(m[0][0], m[1][0], m[2][0]));
@@ -193,10 +206,10 @@ void PreviewMesh::set_material(const gpu::Program& program, std::uint32_t materi
 }
 
 void PreviewMesh::draw(const gpu::Program& program) const {
-  glBindVertexArray(vertices_.name());
+  glBindVertexArray(vertices_->array.name());
   if (scene_->colors.empty()) glVertexAttrib4f(4, 1, 1, 1, 1);
   if (scene_->tangents.empty()) glVertexAttrib4f(5, 0, 0, 0, 0);
-  faces_.bind(kFaces);
+  vertices_->faces.bind(kFaces);
   left_.bind(kLeft);
   program.set("u_faces", kFaces);
   program.set("u_left", kLeft);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "bake/scene/scene.h"
@@ -9,6 +10,7 @@
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/program.h"
 #include "player/navigation/view.h"
+#include "preview/frame/scene_parts.h"
 
 namespace oriel {
 
@@ -24,34 +26,46 @@ Result<SeenSurfaces> make_seen_surfaces(int width, int height);
 class PreviewMesh {
  public:
   PreviewMesh() = default;
-  // Errors: kRuntime where the device takes no texture or buffer of that size.
-  static Result<PreviewMesh> create(const Scene& scene, const gpu::Device& device);
+  // last: of a scene before, whose buffers and textures are taken where the scene's parts are the same. Errors:
+  // kRuntime where the device takes no texture or buffer of that size.
+  static Result<PreviewMesh> create(const Scene& scene, const SceneParts& parts, const gpu::Device& device,
+                                    const PreviewMesh& last);
   // The scene's materials have other numbers than before; their textures stay.
   void take_materials();
   const Scene& scene() const { return *scene_; }
   // Draws all of it; the program of SurfacePass is in use.
   void draw(const gpu::Program& program) const;
-  const gpu::Texture2d& sky() const { return sky_; }  // an image, or none
+  const gpu::Texture2d& sky() const { return lighting_->sky; }  // an image, or none
   // Candela of Scene::lights[light]'s profile; one without is empty.
   const gpu::Texture2d& profile(std::uint32_t light) const;
 
  private:
-  void upload_vertices(const Scene& scene);
+  // What is shared among meshes whose parts are the same.
+  struct Vertices {
+    gpu::VertexArray array;
+    std::vector<gpu::Buffer> buffers;
+    gpu::Buffer indices;
+    gpu::Texture2d faces;
+  };
+  struct Lighting {
+    gpu::Texture2d sky;
+    std::vector<gpu::Texture2d> profiles;  // by light
+  };
+  static Result<std::shared_ptr<const Vertices>> upload_vertices(const Scene& scene, const gpu::Device& device);
   Status upload_textures(const Scene& scene, const gpu::Device& device);
   void upload_reflectances(const Scene& scene);
-  void upload_lighting(const Scene& scene);
+  static std::shared_ptr<const Lighting> upload_lighting(const Scene& scene);
   void set_slot(const gpu::Program& program, const TextureSlot& slot, bool srgb, const char* name, int unit) const;
   void set_material(const gpu::Program& program, std::uint32_t material) const;
 
   using TextureKey = std::tuple<std::int32_t, bool, Wrap, Wrap, bool>;  // image, srgb, wraps, nearest
   const Scene* scene_ = nullptr;
-  gpu::VertexArray vertices_;
-  std::vector<gpu::Buffer> buffers_;
-  gpu::Buffer indices_;
-  std::map<TextureKey, gpu::Texture2d> textures_;
-  gpu::Texture2d white_, faces_, left_, sky_;
-  std::vector<Vec2> left_rows_;           // by material
-  std::vector<gpu::Texture2d> profiles_;  // by light
+  SceneParts parts_;
+  std::shared_ptr<const Vertices> vertices_;
+  std::map<TextureKey, std::shared_ptr<const gpu::Texture2d>> textures_;
+  std::shared_ptr<const Lighting> lighting_;
+  gpu::Texture2d white_, left_;
+  std::vector<Vec2> left_rows_;  // by material
   gpu::Texture2d no_profile_;
 };
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "formats/image/png.h"
 #include "formats/query/camera.h"
 #include "player/gpu/headless.h"
 #include "preview/frame/live_scene.h"
@@ -99,6 +100,94 @@ TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
               slowest_s, (static_cast<double>(resident()) - static_cast<double>(held)) / (1 << 20));
   EXPECT_EQ(broken, 20);
   EXPECT_LT(resident(), held + (std::size_t{8} << 20));
+}
+
+// What a file is changed by, and what is kept then.
+struct Edit {
+  const char* what;
+  void (*edit)(test::Gltf&);
+  bool shape, vertices, images;  // stay
+};
+
+// Of one colour, as a data URI.
+std::string image_of(std::uint8_t grey) {
+  const Bytes png = *encode_png({1, 1, 3, {grey, grey, 255}});
+  return "data:image/png;base64," + test::base64({reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+// A pane before a triangle with a texture, and a lamp before both.
+test::Gltf edited_scene() {
+  test::Gltf g;
+  for (const float z : {0.0f, -1.0f}) {
+    const int places = g.floats("VEC3", {-1, -1, z, 2, -1, z, -1, 2, z}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1});
+    g.add({{"attributes", {{"POSITION", places}, {"TEXCOORD_0", uv}}}, {"material", z < 0 ? 1 : 0}});
+  }
+  g.use("KHR_materials_transmission");
+  g.use("KHR_lights_punctual");
+  g.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.8, 0.9, 1}}, {"metallicFactor", 0.0}}},
+                  {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.7}}}}}};
+  g.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"baseColorTexture", {{"index", 0}}}}}};
+  g.doc["images"] = {{{"uri", image_of(90)}}};
+  g.doc["textures"] = {{{"source", 0}}};
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10.0}}};
+  g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size());
+  g.doc["nodes"].push_back(
+      {{"translation", {0.3, 0.3, 1.0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  return g;
+}
+
+const Edit kEdits[] = {
+    {"nothing", [](test::Gltf&) {}, true, true, true},
+    {"a lamp's place", [](test::Gltf& g) { g.doc["nodes"][2]["translation"][2] = 1.5; }, true, true, true},
+    {"a lamp's power",
+     [](test::Gltf& g) { g.doc["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 20.0; }, true, true,
+     true},
+    {"a colour",
+     [](test::Gltf& g) {
+       g.doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.9, 0.2, 0.9, 1};
+     },
+     true, true, true},
+    {"a roughness", [](test::Gltf& g) { g.doc["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0.2; }, true,
+     true, true},
+    {"an image", [](test::Gltf& g) { g.doc["images"][0]["uri"] = image_of(200); }, true, true, false},
+    {"coordinates of textures",
+     [](test::Gltf& g) {
+       g.doc["meshes"][1]["primitives"][0]["attributes"]["TEXCOORD_0"] = g.floats("VEC2", {1, 1, 0, 0, 0, 1});
+     },
+     true, false, true},
+    {"glass that is none", [](test::Gltf& g) { g.doc["materials"][0].erase("extensions"); }, false, false, true},
+    {"a mesh's place",
+     [](test::Gltf& g) {
+       g.doc["nodes"][0]["translation"] = {0, 0.2, 0};
+     },
+     false, false, true}};
+
+// To the bit the frames of who never saw the scene before; and not those of the scene before.
+TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
+  const auto frame = [&](PreviewRenderer& renderer, const std::shared_ptr<const PreviewScene>& scene) {
+    EXPECT_TRUE(renderer.take(scene));
+    EXPECT_TRUE(renderer.look(look_at(Vec3(0, 0, 3), Vec3(0), 0.5f), 64, 48));
+    EXPECT_TRUE(renderer.pass({.samples = 1, .antialias = false}, context_));
+    return renderer.read_mean().pixels;
+  };
+  PreviewSceneOptions options{.file = folder_.write("a.gltf", edited_scene().text()), .import = {}, .elements = 4};
+  const auto first = *load_preview_scene(options, context_);
+  for (const Edit& e : kEdits) {
+    test::Gltf changed = edited_scene();
+    e.edit(changed);
+    const std::vector<float> before = frame(renderer_, first);
+    options.file = folder_.write("b.gltf", changed.text());
+    const auto scene = *load_preview_scene(options, context_, first.get()),
+               alone = *load_preview_scene(options, context_);
+    EXPECT_EQ(scene->shadows == first->shadows, e.shape) << e.what;
+    EXPECT_EQ(scene->parts.shape == first->parts.shape, e.shape) << e.what;
+    EXPECT_EQ(scene->parts.vertices == first->parts.vertices, e.vertices) << e.what;
+    EXPECT_EQ(scene->parts.images == first->parts.images, e.images) << e.what;
+    PreviewRenderer fresh = *PreviewRenderer::create(*gpu::open_device());
+    const std::vector<float> after = frame(renderer_, scene);
+    EXPECT_EQ(after, frame(fresh, alone)) << e.what;
+    EXPECT_EQ(after == before, std::string(e.what) == "nothing") << e.what;
+  }
 }
 
 TEST_F(Live, AFileThatGoesAndComesBack) {

@@ -72,7 +72,7 @@ class ShadowVolumesTest : public ::testing::Test {
     const std::vector<std::uint8_t> counts = renderer_.read_in_shadow(light);
     const std::vector<Vec4> light_there = *lamps_by_rays(points, {{light}}, *scene_->accel, {}, context_);
     const Vec4 eye = camera.vertical_fov_rad > 0 ? Vec4(camera.eye, 1) : Vec4(-camera.forward, 0);
-    out.around_eye = scene_->shadows.volumes(light.place, eye).around_eye;
+    out.around_eye = scene_->shadows->volumes(light.place, eye).around_eye;
     const auto passes = [&](int x, int y) { return light_there[static_cast<std::size_t>(y * kWidth + x)].x > 0; };
     const auto faces = [&](int x, int y) { return light_there[static_cast<std::size_t>(y * kWidth + x)].w > 0; };
     for (int y = 1; y + 1 < kHeight; ++y)

@@ -243,5 +243,27 @@ TEST(Repair, SeesWhatIsOddAndNothingElse) {
   EXPECT_EQ(inspect_soup(p, fin).non_manifold_edges, 1u);
 }
 
+// Two triangles, of which one shows its back.
+TEST(Repair, AdviceThatWasGivenIsNotGivenAgain) {
+  const TempFolder folder;
+  std::vector<std::string> said;
+  Context context;
+  context.warn = [&](const Warning& warning) { said.push_back(warning.text); };
+  const auto read = [&](float corner, const ImportedScene* last) {
+    Gltf g;
+    const int places = g.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, corner});
+    g.add({{"attributes", {{"POSITION", places}}}, {"indices", g.indices({0, 1, 2, 1, 2, 3})}});
+    said.clear();
+    return *import_gltf(folder.write("a.gltf", g.text()), {}, context, last);
+  };
+  const ImportedScene first = read(0, nullptr);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("face against"), std::string::npos) << said[0];
+  read(0, &first);
+  EXPECT_EQ(said.size(), 0u);
+  read(0.5f, &first);  // another mesh
+  EXPECT_EQ(said.size(), 1u);
+}
+
 }  // namespace
 }  // namespace oriel::test

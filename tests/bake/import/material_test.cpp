@@ -102,6 +102,26 @@ TEST(Image, ABrokenOneLeavesTheFactorAndAWarning) {
   }
 }
 
+// A mark in the texels tells where they come from.
+TEST(Image, OfTheSameFileIsTakenFromTheLastReading) {
+  const TempFolder folder;
+  Context context;
+  Gltf g = textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  const auto file = folder.write("a.gltf", g.text());
+  ImportedScene last = *import_gltf(file, {}, context);
+  ASSERT_EQ(last.image_files.size(), 1u);
+  last.scene.images[0].texels[0] ^= 1;
+  g.doc["images"][0]["name"] = "another";
+  folder.write("a.gltf", g.text());
+  const ImportedScene again = *import_gltf(file, {}, context, &last);
+  EXPECT_EQ(again.scene.images[0].texels, last.scene.images[0].texels);
+  EXPECT_EQ(again.scene.images[0].name, "another");
+  g.doc["images"][0]["uri"] = png_uri(kGrey16);
+  folder.write("a.gltf", g.text());
+  const ImportedScene other = *import_gltf(file, {}, context, &last);
+  EXPECT_EQ(other.scene.images[0].texels, import_gltf(file, {}, context)->scene.images[0].texels);
+}
+
 TEST(Image, OnlyUsedOnesAreLoaded) {
   Gltf g = textured(R"({"emissiveTexture":{"index":0}})");
   g.doc["images"] = {{{"uri", "unused-and-missing.png"}}, g.doc["images"][0]};

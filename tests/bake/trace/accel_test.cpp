@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 
 #include "bake/trace/accel.h"
 #include "bake/trace/sampler.h"
@@ -98,6 +99,41 @@ TEST(Accel, CutOutsAndGlassLetLightPass) {
   EXPECT_NEAR(t.g, 0.0625f, 1e-6f);
   EXPECT_NEAR(t.b, 1, 1e-6f);
   EXPECT_EQ(accel.transmittance({{0.1f, 4, 0.2f}, {0, -1, 0}, 100}), Vec3(0));
+}
+
+// A pane of some colour in a room, whose opaque triangles are all or not all of the scene.
+Scene room_with_pane(const Vec3& tint, bool pane) {
+  SceneParts parts;
+  SceneMaterial glass;
+  glass.metallic = 0;
+  glass.specular = 0;
+  glass.transmission = 1;
+  glass.base_color = tint;
+  parts.box("room", parts.diffuse(Vec3(0.5f)), Vec3(-2), Vec3(2), true);
+  if (pane) parts.quad("pane", parts.add(glass), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  return parts.finish();
+}
+
+TEST(Accel, OfAnotherSceneIsThatScenesOwn) {
+  for (const bool pane : {false, true}) {
+    std::optional<Scene> before = room_with_pane({0.5f, 0.5f, 0.5f}, pane);
+    const Scene after = room_with_pane({0.5f, 0.25f, 1}, pane);
+    const Accel built = *Accel::build(after);
+    std::optional<Accel> first = *Accel::build(*before);
+    const Accel accel = first->of(after);
+    first.reset();
+    before.reset();
+    EXPECT_EQ(&accel.scene(), &after);
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      Sampler sampler(1, 2, i);
+      const Vec3 from(sampler.next1(), 2 * sampler.next1() - 1, sampler.next1());
+      const Ray ray{from, square_to_sphere(sampler.next2()), 1.9f};
+      EXPECT_EQ(accel.transmittance(ray), built.transmittance(ray));
+      EXPECT_EQ(accel.intersect(ray).triangle, built.intersect(ray).triangle);
+    }
+    const Vec3 down = accel.transmittance({{0.1f, 1, 0.2f}, {0, -1, 0}, 1.5f});
+    EXPECT_NEAR(down.g, pane ? 0.25f : 1, 1e-6f);
+  }
 }
 
 }  // namespace
