@@ -67,9 +67,9 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
        flag(a.frame.shared)},
       {"--elements", kEffects,
-       "Elements of surfaces that shine back what comes to them, after any number of bounces; without shadows while "
-       "one "
-       "moves; 0: none",
+       "Elements of surfaces that shine back what comes to them, after any number of bounces, and sixteen times as "
+       "many "
+       "finer ones, of which frames take some; 0: none",
        number(a.scene.elements, 0, 1024), Use::kEveryday},
       {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
       {"--no-bounce", kEffects, "Leaves out what surfaces shine back", flag(a.frame.bounce, false)},

@@ -13,8 +13,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
 constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
 constexpr std::uint64_t kElementStream = 0x72656673;
-constexpr std::size_t kElementsOfPass = 36;  // finer ones: four a pixel
-constexpr std::uint32_t kBatch = 64;         // elements of a draw, as shaders/passes/screen_preview_elements.frag
+constexpr std::size_t kElementsOfPixel = 4;  // finer ones
+constexpr std::size_t kElementsOfPass = 9 * kElementsOfPixel, kFewestElements = 8;
+constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
 class Stage {
@@ -143,7 +144,7 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
   const bool among_lamps = options.shared && stats.points > 0 && stats.shadows == ShadowMethod::kRays;
   if (options.bounce && !among_lamps) {
     const Stage stage(stats.bounce_s);
-    if (!options.shared && options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
+    if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
     light_.framebuffer.bind();
     add_elements();
   }
@@ -197,28 +198,35 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
   points_ = read_points();
   read_ = true;
   std::vector<LampPoint> all(lamps.begin(), lamps.end());
+  const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
   if (options.shared && options.bounce) {  // pixels share elements too
-    const std::vector<LampPoint> elements = lamps_of(scene_->elements);
+    const auto step = static_cast<std::size_t>(shared.side) * static_cast<std::size_t>(shared.side);
+    const auto elements = shadowed_elements(std::max(kFewestElements, kElementsOfPixel * step), context.seed);
     all.insert(all.end(), elements.begin(), elements.end());
   }
-  const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
   ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
   light_.light.upload(0, light.data());
   return {};
 }
 
-// Neighbours share them: they shine smoothly. Each pass takes others, and asks for shadows at other places of them.
-Status PreviewRenderer::add_shadowed_elements(Context& context) {
-  if (scene_->finer.empty()) return {};
-  if (!read_) points_ = read_points();
-  read_ = true;
-  Sampler sampler(context.seed, kElementStream, passes_);
-  const auto elements = some_of(scene_->finer, kElementsOfPass, sampler.next1());
+// Some of the finer elements. Each pass takes others, and asks for shadows at other places of them.
+std::vector<LampPoint> PreviewRenderer::shadowed_elements(std::size_t count, std::uint64_t seed) const {
+  Sampler sampler(seed, kElementStream, passes_);
+  const auto elements = some_of(scene_->finer, count, sampler.next1());
   std::vector<LampPoint> lamps = lamps_of(elements);
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     const std::vector<Vec3>& places = elements[i].places;
     lamps[i].seen_at = places[(passes_ + i) % places.size()];
   }
+  return lamps;
+}
+
+// Neighbours share them: they shine smoothly.
+Status PreviewRenderer::add_shadowed_elements(Context& context) {
+  if (scene_->finer.empty()) return {};
+  if (!read_) points_ = read_points();
+  read_ = true;
+  const std::vector<LampPoint> lamps = shadowed_elements(kElementsOfPass, context.seed);
   ORIEL_TRY(const auto reflected,
             lamps_by_rays(points_, lamps, *scene_->accel, {sharing_side(lamps.size()), passes_}, context));
   std::vector<Vec4> light = read_texture(light_.light);

@@ -74,6 +74,7 @@ class PreviewRenderer {
   void add_elements() const;
   void add_pass(const PreviewOptions& options) const;
   View view_of_pass(bool antialias) const;
+  std::vector<LampPoint> shadowed_elements(std::size_t count, std::uint64_t seed) const;
 
   gpu::Device device_;
   SurfacePass surface_pass_;

@@ -23,7 +23,7 @@ struct PreviewScene {
   Lamps lamps;
   std::shared_ptr<const ShadowMesh> shadows;
   std::vector<BounceElement> elements;
-  std::vector<BounceElement> finer;               // of the same light: a pass takes some
+  std::vector<BounceElement> finer;               // of the same light: frames take some
   double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
 
   const Scene& scene() const { return imported.scene; }

@@ -10,8 +10,7 @@ SceneParts parts_of(const Scene& scene) {
   std::vector<std::uint32_t> surfaces;  // in their order
   for (const Surface& s : scene.surfaces) {
     const SceneMaterial& m = scene.materials[s.material];
-    for (const std::uint32_t value :
-         {s.first_triangle, s.triangle_count, may_transmit(m) ? 1u : 0u, m.solid ? 1u : 0u})
+    for (const std::uint32_t value : {s.first_triangle, s.triangle_count, may_transmit(m) ? 1u : 0u, m.solid ? 1u : 0u})
       surfaces.push_back(value);
   }
   parts.shape = hash_of(scene.lower, scene.upper, scene.positions, scene.triangles, scene.twin, surfaces);

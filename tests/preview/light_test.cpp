@@ -168,6 +168,9 @@ TEST_F(PreviewLight, ElementsShineIntoTheirRoomAlone) {
   take(parts.finish(), 32);
   const Camera inside = look_at({4, 1.4f, 1.8f}, {4, 0.8f, -1}, 1.1f);
   EXPECT_EQ(mean_of(draw(kBouncesOnly, 8, inside)), 0);
+  const PreviewOptions shared{.shadows = ShadowMethod::kRays, .emission = false, .traced = false, .shared = true};
+  EXPECT_EQ(mean_of(draw(shared, 1, inside)), 0);
+  EXPECT_GT(mean_of(draw(shared, 1)), 0);
   PreviewOptions unshadowed = kBouncesOnly;
   unshadowed.shadows = ShadowMethod::kNone;
   EXPECT_GT(mean_of(draw(unshadowed, 1, inside)), 0);

@@ -202,12 +202,9 @@ TEST_F(SharedPointsTest, FramesWithElementsAreTheSame) {
   take(parts.finish(), 32);
   const auto frame = [&](bool shared, bool bounce) {
     EXPECT_TRUE(renderer_.look(look_at({1, 3, 7}, {0, 1, 0}, 0.9f), kWidth, kHeight));
-    EXPECT_TRUE(renderer_.pass({.shadows = shared ? ShadowMethod::kRays : ShadowMethod::kNone,
-                                .samples = 36,
-                                .bounce = bounce,
-                                .emission = false,
-                                .shared = shared},
-                               context_));
+    EXPECT_TRUE(renderer_.pass(
+        {.shadows = ShadowMethod::kRays, .samples = 36, .bounce = bounce, .emission = false, .shared = shared},
+        context_));
     const FloatImage mean = renderer_.read_mean();
     std::vector<Vec4> light;
     for (std::size_t i = 0; i < mean.pixels.size(); i += 3) light.emplace_back(mean.pixels[i], 0, 0, 0);
