@@ -71,6 +71,9 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "many "
        "finer ones, of which frames take some; 0: none",
        number(a.scene.elements, 0, 1024), Use::kEveryday},
+      {"--no-classes", kEffects,
+       "Traces every shadow ray. Otherwise one in eight is, where earlier passes saw a lamp wholly or not at all",
+       flag(a.frame.classes, false)},
       {"--no-direct", kEffects, "Leaves out what lamps throw on surfaces", flag(a.frame.direct, false)},
       {"--no-bounce", kEffects, "Leaves out what surfaces shine back", flag(a.frame.bounce, false)},
       {"--no-emission", kEffects, "Leaves out what surfaces emit", flag(a.frame.emission, false)},

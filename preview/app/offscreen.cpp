@@ -32,6 +32,7 @@ nlohmann::ordered_json json_of_pass(const PreviewStats& s) {
           {"traced_s", s.traced_s},
           {"points", s.points},
           {"shadow_quads", s.shadow_quads},
+          {"shadow_rays", s.shadow_rays},
           {"traced_pixels", s.traced_pixels}};
 }
 

@@ -72,24 +72,7 @@ class LampTracer {
       receivers[x] = {Vec3(seen_.place[i]), Vec3(seen_.normal[i]), Vec3(seen_.face[i])};
       origins[x] = origin_of(i);
     }
-    std::vector<Ray> rays;
-    std::vector<Vec3> shone, passed;
-    std::vector<std::size_t> pixels;
-    for (std::size_t p = 0; p < lamps_.size(); ++p) {
-      rays.clear(), shone.clear(), pixels.clear();
-      for (std::size_t x = first_pixel(y, p); x < width; x += static_cast<std::size_t>(shared_.side)) {
-        if (seen_.place[y * width + x].w == 0) continue;
-        const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
-        if (!lit) continue;
-        if (lamps_[p].soft > 0 && !lamps_[p].seen_at)
-          light[y * width + x] += Vec4(lit->light, 1);
-        else
-          rays.push_back(ray_to(lamps_[p], *lit)), shone.push_back(lit->light), pixels.push_back(y * width + x);
-      }
-      passed.resize(rays.size());
-      accel_.transmittance(rays, passed);
-      for (std::size_t k = 0; k < rays.size(); ++k) light[pixels[k]] += Vec4(shone[k] * passed[k], 1);
-    }
+    for (std::size_t p = 0; p < lamps_.size(); ++p) add_point(y, p, receivers, origins, light);
   }
 
   // The mean of the neighbours on the pixel's surface, of all points.
@@ -118,6 +101,46 @@ class LampTracer {
     for (std::size_t x = 0; x < side; ++x)
       if (first_point(x, y) == point % step_) return x;
     return kNone;
+  }
+
+  void add_point(std::size_t y, std::size_t p, const std::vector<Receiver>& receivers, const std::vector<Vec3>& origins,
+                 std::vector<Vec4>& light) const {
+    struct Asked {
+      std::size_t pixel;
+      Vec3 light;
+      ShadowClasses::Class known;
+    };
+    const std::size_t width = receivers.size();
+    std::vector<Ray> rays;
+    std::vector<Asked> asked;
+    ShadowClasses* classes = shared_.classes;
+    for (std::size_t x = first_pixel(y, p); x < width; x += static_cast<std::size_t>(shared_.side)) {
+      const std::size_t i = y * width + x;
+      if (seen_.place[i].w == 0) continue;
+      const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
+      if (!lit) continue;
+      light[i].w += 1;
+      auto known = ShadowClasses::kUnknown;
+      if (lamps_[p].soft > 0 && !lamps_[p].seen_at)
+        known = ShadowClasses::kLit;
+      else if (classes != nullptr)
+        known = classes->known(p, classes->block_of(x, y));
+      if (known == ShadowClasses::kLit) light[i] += Vec4(lit->light, 0);
+      if (known == ShadowClasses::kLit || known == ShadowClasses::kUmbra)
+        if (classes == nullptr || !classes->asks(p, x, y)) continue;
+      rays.push_back(ray_to(lamps_[p], *lit));
+      asked.push_back({i, lit->light, known});
+    }
+    std::vector<Vec3> passed(rays.size());
+    accel_.transmittance(rays, passed);
+    if (shared_.rays != nullptr) *shared_.rays += rays.size();
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const Asked& a = asked[k];
+      if (classes != nullptr) classes->tell(p, classes->block_of(a.pixel % width, y), passed[k]);
+      const bool lit = a.known == ShadowClasses::kLit, umbra = a.known == ShadowClasses::kUmbra;
+      const Vec3 found = passed[k] - (lit ? Vec3(1) : Vec3(0));
+      light[a.pixel] += Vec4(a.light * found * (lit || umbra ? float{ShadowClasses::kOne} : 1.0f), 0);
+    }
   }
 
   // But for the surface's own thickness of rounding.
@@ -156,7 +179,10 @@ Result<std::vector<Vec4>> lamps_by_rays(const SeenPoints& seen, std::span<const 
   const auto width = static_cast<std::size_t>(seen.width), height = static_cast<std::size_t>(seen.height);
   std::vector<Vec4> taken(seen.place.size(), Vec4(0));
   const LampTracer tracer(seen, lamps, accel, shared);
-  ORIEL_TRY_VOID(parallel_for(context, "", height, [&](std::size_t y) { tracer.row(y, taken); }));
+  const std::size_t side = ShadowClasses::kSide;  // a thread has whole blocks
+  ORIEL_TRY_VOID(parallel_for(context, "", (height + side - 1) / side, [&](std::size_t block) {
+    for (std::size_t y = block * side; y < std::min(height, (block + 1) * side); ++y) tracer.row(y, taken);
+  }));
   if (shared.side == 1) return taken;
   std::vector<Vec4> light(seen.place.size(), Vec4(0));
   ORIEL_TRY_VOID(parallel_for(context, "", height, [&](std::size_t y) {

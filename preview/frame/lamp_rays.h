@@ -2,11 +2,12 @@
 // against.
 #pragma once
 
+#include <atomic>
 #include <span>
 
 #include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
-#include "preview/frame/lamps.h"
+#include "preview/frame/shadow_classes.h"
 
 namespace oriel {
 
@@ -24,6 +25,9 @@ struct SeenPoints {
 struct SharedPoints {
   int side = 1;            // 1 to 3; 1: every pixel takes all points
   std::uint32_t turn = 0;  // who takes which
+  // Of one side: what earlier passes tell, begun for these points; null: all rays are traced.
+  ShadowClasses* classes = nullptr;
+  std::atomic<std::size_t>* rays = nullptr;  // is grown by those that are traced
 };
 // The side for so many points: each pixel takes at least two.
 int sharing_side(std::size_t points);

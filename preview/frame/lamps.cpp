@@ -69,11 +69,13 @@ LampPoint Lamps::near_point(double at, const Vec2& on, float count) const {
     point.normal = light.direction;
     point.power = share * (light.profile >= 0 ? light.color : light.intensity);
     point.light = near_[i].index;
+    point.lamp = static_cast<std::uint32_t>(scene_->surfaces.size()) + point.light;
     point.share = share;
     return point;
   }
   const std::uint32_t t = near_[i].index;
   const Vec2 barycentric = square_to_triangle(on);
+  point.lamp = scene_->triangle_surface[t];
   point.normal = geometric_normal(*scene_, t) * (near_[i].back ? -1.0f : 1.0f);
   point.place = Vec4(point_on(*scene_, t, barycentric) + off * point.normal, 1);
   point.power = share * static_cast<float>(triangle_area(*scene_, t)) * shade_point(*scene_, t, barycentric).emission;
@@ -83,6 +85,7 @@ LampPoint Lamps::near_point(double at, const Vec2& on, float count) const {
 LampPoint Lamps::sky_point(const Vec2& on, float count) const {
   LampPoint point;
   point.kind = LampKind::kAfar;
+  point.lamp = static_cast<std::uint32_t>(scene_->surfaces.size() + scene_->lights.size());
   if (sky_.empty()) {
     point.place = Vec4(square_to_sphere(on), 0);
     point.power = scene_->sky * (4 * kPi / count);
@@ -115,11 +118,11 @@ std::vector<LampPoint> Lamps::points(std::uint64_t seed, std::uint32_t pass, std
       }
       const Light& sun = scene_->lights[afar_[k]];
       const float angle = std::max(sun.angular_radius_rad, kOff);
-      points.push_back({LampKind::kAfar,
-                        Vec4(sample_cone(-sun.direction, angle, on), 0),
-                        {},
-                        sun.intensity * (2 / (1 + std::cos(angle)) / n),
-                        ~0u});
+      LampPoint& point = points.emplace_back();
+      point.kind = LampKind::kAfar;
+      point.place = Vec4(sample_cone(-sun.direction, angle, on), 0);
+      point.power = sun.intensity * (2 / (1 + std::cos(angle)) / n);
+      point.lamp = static_cast<std::uint32_t>(scene_->surfaces.size()) + afar_[k];
     }
   }
   std::erase_if(points, [](const LampPoint& p) { return !(max_component(p.power) > 0); });

@@ -24,6 +24,7 @@ struct LampPoint {
   float soft = 0;                 // m²; > 0: an element, of what surfaces reflect
   float share = 1;                // of one with a light: power over the light's own colour or intensity
   std::optional<Vec3> seen_at{};  // of an element: where the shadow ray goes; none: no shadows
+  std::uint32_t lamp = ~0u;       // a number of its own: surfaces, then lights, then the sky; ~0u: of an element
 };
 
 // All that shines in a scene, by power.

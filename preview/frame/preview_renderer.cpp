@@ -73,7 +73,7 @@ Status PreviewRenderer::take(std::shared_ptr<const PreviewScene> scene) {
   ORIEL_TRY(mesh_, PreviewMesh::create(scene->scene(), scene->parts, device_, mesh_));
   if (!scene_ || scene_->shadows != scene->shadows) volume_pass_.take(*scene->shadows);
   scene_ = std::move(scene);
-  passes_ = 0;
+  begin_again();
   costs_ = {};
   return {};
 }
@@ -83,7 +83,7 @@ Status PreviewRenderer::look(const Camera& camera, int width, int height) {
     return fail(ErrorCode::kUsage, "", "found a frame of {}x{}, expected at most {} a side on this device", width,
                 height, device_.texture_size);
   camera_ = camera;
-  passes_ = 0;
+  begin_again();
   if (surfaces_ && surfaces_->size() == IVec2(width, height)) return {};
   ORIEL_TRY(surfaces_, make_seen_surfaces(width, height));
   ORIEL_TRY(light_, make_pass_light(*surfaces_));
@@ -169,7 +169,7 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
   const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
   {
     const Stage stage(stats.shadows_s);
-    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context));
+    ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context, stats));
   }
   rays = stats.shadows_s / static_cast<double>(traced.size());
   if (!tries) return {};
@@ -194,17 +194,24 @@ void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, PreviewStat
 
 // All of the light so far is theirs.
 Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options,
-                                          Context& context) {
+                                          Context& context, PreviewStats& stats) {
   points_ = read_points();
   read_ = true;
   std::vector<LampPoint> all(lamps.begin(), lamps.end());
-  const SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_};
+  std::atomic<std::size_t> rays{0};
+  SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_, nullptr, &rays};
+  if (!options.shared && options.classes) {
+    if (!classes_) classes_.emplace(surfaces_->size());
+    classes_->begin(lamps, context.seed, passes_);
+    shared.classes = &*classes_;
+  }
   if (options.shared && options.bounce) {  // pixels share elements too
     const auto step = static_cast<std::size_t>(shared.side) * static_cast<std::size_t>(shared.side);
     const auto elements = shadowed_elements(std::max(kFewestElements, kElementsOfPixel * step), context.seed);
     all.insert(all.end(), elements.begin(), elements.end());
   }
   ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
+  stats.shadow_rays = rays;
   light_.light.upload(0, light.data());
   return {};
 }

@@ -27,14 +27,16 @@ struct PreviewOptions {
   bool direct = true, bounce = true, emission = true, traced = true;
   bool antialias = true;  // each pass looks through other points of the pixels
   bool shared = false;    // neighbours share points on lamps (SharedPoints), by rays: a frame that will not stay
-  float glossy = 0.35f;   // roughness below which surfaces are traced
+  // Where earlier passes saw a lamp wholly or not at all, one ray in eight is traced (ShadowClasses).
+  bool classes = true;
+  float glossy = 0.35f;  // roughness below which surfaces are traced
 };
 
 // Of the last pass: where its time went, seconds, and what it drew.
 struct PreviewStats {
   double surfaces_s = 0, shadows_s = 0, direct_s = 0, bounce_s = 0, traced_s = 0, total_s = 0;
-  std::size_t points = 0, shadow_quads = 0, traced_pixels = 0;
-  ShadowMethod shadows = ShadowMethod::kNone;  // the one that was taken
+  std::size_t points = 0, shadow_quads = 0, shadow_rays = 0, traced_pixels = 0;  // rays: to lamps
+  ShadowMethod shadows = ShadowMethod::kNone;                                    // the one that was taken
 };
 
 class PreviewRenderer {
@@ -45,7 +47,7 @@ class PreviewRenderer {
   // To be drawn from now on; what was added up is left.
   Status take(std::shared_ptr<const PreviewScene> scene);
   // The scene was edited (edit_scene()); what was added up is left.
-  void take_edits() { mesh_.take_materials(), passes_ = 0; }
+  void take_edits() { mesh_.take_materials(), begin_again(); }
   // From here, of that size; what was added up is left.
   Status look(const Camera& camera, int width, int height);
   // One more pass. context: for rays. Errors: kRuntime of the driver, kStopped.
@@ -68,11 +70,13 @@ class PreviewRenderer {
   Status add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
                    PreviewStats& stats);
   void add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats);
-  Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context);
+  Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
+                           PreviewStats& stats);
   Status add_shadowed_elements(Context& context);
   Status trace(Context& context, PreviewStats& stats);
   void add_elements() const;
   void add_pass(const PreviewOptions& options) const;
+  void begin_again() { passes_ = 0, classes_.reset(); }
   View view_of_pass(bool antialias) const;
   std::vector<LampPoint> shadowed_elements(std::size_t count, std::uint64_t seed) const;
 
@@ -99,7 +103,8 @@ class PreviewRenderer {
     int trials = 0;
   } costs_;
   std::uint32_t passes_ = 0;
-  bool has_traced_ = false;  // traced_ is not black
+  std::optional<ShadowClasses> classes_;  // of those passes
+  bool has_traced_ = false;               // traced_ is not black
 };
 
 }  // namespace oriel

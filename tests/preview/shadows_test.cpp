@@ -192,6 +192,56 @@ TEST_F(SharedPointsTest, ErrAtShadowsAlone) {
   EXPECT_NEAR(brighter / all, 0, 0.01);
 }
 
+double sum_of(const std::vector<Vec4>& light) {
+  double sum = 0;
+  for (const Vec4& l : light) sum += l.x;
+  return sum;
+}
+
+TEST_F(SharedPointsTest, ClassesSaveRaysAndLeaveTheMean) {
+  look_at_floor(true);
+  for (LampPoint& point : lamp_) point.lamp = 0;
+  const SeenPoints seen = renderer_.read_points();
+  const auto truth = light(1);
+  std::vector<Vec4> mean(truth.size(), Vec4(0));
+  std::atomic<std::size_t> rays{0}, all{0};
+  ASSERT_TRUE(lamps_by_rays(seen, lamp_, *scene_->accel, {1, 0, nullptr, &all}, context_));
+  ShadowClasses classes(IVec2(kWidth, kHeight));
+  constexpr int kPasses = 16;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    classes.begin(lamp_, 1, static_cast<std::uint32_t>(pass));
+    const auto some = *lamps_by_rays(seen, lamp_, *scene_->accel, {1, 0, &classes, &rays}, context_);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += some[i] / float{kPasses};
+  }
+  std::printf("classes: %.1f %% of rays are traced, relative RMSE of 16 passes %.2f %%\n",
+              100 * static_cast<double>(rays) / (kPasses * static_cast<double>(all)), 100 * relative_rmse(mean, truth));
+  EXPECT_LT(static_cast<double>(rays), 0.5 * kPasses * static_cast<double>(all));
+  EXPECT_LT(relative_rmse(mean, truth), 0.01);
+  EXPECT_NEAR(sum_of(mean) / sum_of(truth), 1, 1e-3);
+}
+
+// Whoever believes that the floor is lit learns of the box by the rays that are asked, in the first pass.
+TEST_F(SharedPointsTest, ClassesThatAreWrongLeaveTheMean) {
+  look_at_floor(true);
+  const std::shared_ptr<const PreviewScene> with_box = scene_;
+  lamp_.clear();
+  look_at_floor(false);
+  for (LampPoint& point : lamp_) point.lamp = 0;
+  const SeenPoints floor = renderer_.read_points();
+  double sum = 0;
+  constexpr std::uint32_t kTrials = 32;
+  for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+    ShadowClasses classes(IVec2(kWidth, kHeight));
+    classes.begin(lamp_, trial, 0);
+    ASSERT_TRUE(lamps_by_rays(floor, lamp_, *scene_->accel, {1, 0, &classes}, context_));
+    classes.begin(lamp_, trial, 1);
+    sum += sum_of(*lamps_by_rays(floor, lamp_, *with_box->accel, {1, 0, &classes}, context_)) / kTrials;
+  }
+  const double assumed = sum_of(light(1)), truth = sum_of(*lamps_by_rays(floor, lamp_, *with_box->accel, {}, context_));
+  EXPECT_GT(assumed, 1.05 * truth);
+  EXPECT_NEAR(sum / truth, 1, 2e-3);
+}
+
 // Nothing is in the way of anything here.
 TEST_F(SharedPointsTest, FramesWithElementsAreTheSame) {
   test::SceneParts parts;
