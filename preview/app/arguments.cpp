@@ -71,6 +71,10 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "many "
        "finer ones, of which frames take some; 0: none",
        number(a.scene.elements, 0, 1024), Use::kEveryday},
+      {"--cap-rays", kEffects,
+       "Of --shadows volumes: which triangles hold the eye in their shadow, as so many rays from the view plane tell, "
+       "which miss some; 0: exactly",
+       number(a.frame.cap_rays, 0, 65536)},
       {"--no-classes", kEffects,
        "Traces every shadow ray. Otherwise one in eight is, where earlier passes saw a lamp wholly or not at all",
        flag(a.frame.classes, false)},

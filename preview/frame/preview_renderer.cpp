@@ -5,6 +5,7 @@
 
 #include "bake/trace/sampler.h"
 #include "player/gpu/raster_state.h"
+#include "preview/frame/sampled_caps.h"
 
 namespace oriel {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
 constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
-constexpr std::uint64_t kElementStream = 0x72656673;
+constexpr std::uint64_t kElementStream = 0x72656673, kCapStream = 0x63617073;
 constexpr std::size_t kElementsOfPixel = 4;  // finer ones
 constexpr std::size_t kElementsOfPass = 9 * kElementsOfPixel, kFewestElements = 8;
 constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
@@ -161,7 +162,7 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
                                   PreviewStats& stats) {
   stats.shadows = method(options);
   if (stats.shadows != ShadowMethod::kRays) {
-    for (const LampPoint& point : lamps) add_lamp(point, stats.shadows == ShadowMethod::kVolumes, stats);
+    for (const LampPoint& point : lamps) add_lamp(point, stats.shadows == ShadowMethod::kVolumes, options, stats);
     return {};
   }
   double& rays = costs_.rays[options.shared ? 1 : 0];
@@ -174,17 +175,25 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
   rays = stats.shadows_s / static_cast<double>(traced.size());
   if (!tries) return {};
   const double before_s = stats.shadows_s + stats.direct_s;
-  add_lamp(lamps.front(), true, stats);
+  add_lamp(lamps.front(), true, options, stats);
   const double took_s = stats.shadows_s + stats.direct_s - before_s;
   costs_.volumes = costs_.trials++ == 0 ? took_s : std::min(costs_.volumes, took_s);
   return {};
 }
 
-void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats) {
+ShadowVolumes PreviewRenderer::volumes_of(const LampPoint& point, std::uint32_t cap_rays) const {
+  if (cap_rays == 0) return scene_->shadows->volumes(point.place, view_.eye);
+  Sampler sampler(1, kCapStream, passes_);
+  return scene_->shadows->volumes(point.place, view_.eye,
+                                  sampled_occluders(*scene_->accel, view_, point.place, cap_rays, sampler));
+}
+
+void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, const PreviewOptions& options,
+                               PreviewStats& stats) {
   light_.framebuffer.bind();
   if (volumes) {
     const Stage stage(stats.shadows_s);
-    const ShadowVolumes shadow = scene_->shadows->volumes(point.place, view_.eye);
+    const ShadowVolumes shadow = volumes_of(point, options.cap_rays);
     stats.shadow_quads += shadow.indices.size() / 6;
     volume_pass_.draw(shadow, point.place, view_);
   }
@@ -348,9 +357,9 @@ SeenPoints PreviewRenderer::read_points() const {
           read_texture(surfaces_->normal)};
 }
 
-std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point) const {
+std::vector<std::uint8_t> PreviewRenderer::read_in_shadow(const LampPoint& point, std::uint32_t cap_rays) const {
   light_.framebuffer.bind();
-  volume_pass_.draw(scene_->shadows->volumes(point.place, view_.eye), point.place, view_);
+  volume_pass_.draw(volumes_of(point, cap_rays), point.place, view_);
   const IVec2 size = surfaces_->size();
   std::vector<std::uint8_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -29,7 +29,8 @@ struct PreviewOptions {
   bool shared = false;    // neighbours share points on lamps (SharedPoints), by rays: a frame that will not stay
   // Where earlier passes saw a lamp wholly or not at all, one ray in eight is traced (ShadowClasses).
   bool classes = true;
-  float glossy = 0.35f;  // roughness below which surfaces are traced
+  std::uint32_t cap_rays = 0;  // of volumes: what holds the eye, as so many rays tell (sampled_caps.h); 0: exactly
+  float glossy = 0.35f;        // roughness below which surfaces are traced
 };
 
 // Of the last pass: where its time went, seconds, and what it drew.
@@ -62,14 +63,15 @@ class PreviewRenderer {
 
   // For checks: what the last pass saw, and which pixels a lamp's point does not reach by its shadow volumes.
   SeenPoints read_points() const;
-  std::vector<std::uint8_t> read_in_shadow(const LampPoint& point) const;
+  std::vector<std::uint8_t> read_in_shadow(const LampPoint& point, std::uint32_t cap_rays = 0) const;
 
  private:
   Status light(const PreviewOptions& options, Context& context, PreviewStats& stats);
   ShadowMethod method(const PreviewOptions& options) const;
   Status add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
                    PreviewStats& stats);
-  void add_lamp(const LampPoint& point, bool volumes, PreviewStats& stats);
+  void add_lamp(const LampPoint& point, bool volumes, const PreviewOptions& options, PreviewStats& stats);
+  ShadowVolumes volumes_of(const LampPoint& point, std::uint32_t cap_rays) const;
   Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
                            PreviewStats& stats);
   Status add_shadowed_elements(Context& context);

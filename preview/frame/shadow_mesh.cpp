@@ -66,10 +66,15 @@ void ShadowMesh::weld(const Scene& scene, const std::vector<std::uint32_t>& opaq
     if (i == 0 || place(order[i]) != place(order[i - 1])) positions_.push_back(scene.positions[order[i]]);
     welded[order[i]] = static_cast<std::uint32_t>(positions_.size() - 1);
   }
+  of_scene_.assign(scene.triangles.size(), ~0u);
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     const UVec3 t(welded[corners[i]], welded[corners[i + 1]], welded[corners[i + 2]]);
-    if (t.x != t.y && t.y != t.z && t.z != t.x) triangles_.push_back(t);
+    if (t.x == t.y || t.y == t.z || t.z == t.x) continue;
+    of_scene_[opaque[i / 3]] = static_cast<std::uint32_t>(triangles_.size());
+    triangles_.push_back(t);
   }
+  all_.resize(triangles_.size());
+  std::iota(all_.begin(), all_.end(), 0u);
 }
 
 void ShadowMesh::find_edges() {
@@ -101,18 +106,14 @@ void ShadowMesh::find_edges() {
 }
 
 // Whether a triangle's front is towards it.
-std::vector<char> ShadowMesh::facing(const Vec4& from) const {
-  const DVec3 place(from);
-  const double w = from.w;
-  std::vector<char> front(planes_.size());
-  for (std::size_t t = 0; t < planes_.size(); ++t)
-    front[t] = glm::dot(planes_[t].normal, place) - planes_[t].offset * w >= 0;
-  return front;
+bool ShadowMesh::faces(std::size_t triangle, const Vec4& from) const {
+  const Plane& plane = planes_[triangle];
+  return glm::dot(plane.normal, DVec3(from)) - plane.offset * double{from.w} >= 0;
 }
 
 // Triangles between eye and light, those of an even body as pairs.
-std::uint32_t ShadowMesh::volumes_around(const Vec4& eye, const Vec4& light, const std::vector<char>& lit) const {
-  const std::vector<char> seen = facing(eye);
+std::uint32_t ShadowMesh::volumes_around(const Vec4& eye, const Vec4& light, const std::vector<char>& lit,
+                                         std::span<const std::uint32_t> asked) const {
   const Line line = line_through(DVec4(eye), DVec4(light));
   const auto left = [&](std::uint32_t from, std::uint32_t to) {
     const bool of_edge =
@@ -120,8 +121,8 @@ std::uint32_t ShadowMesh::volumes_around(const Vec4& eye, const Vec4& light, con
     return of_edge == (from < to);
   };
   std::vector<std::uint32_t> crossed;  // their bodies
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (seen[t] == lit[t]) continue;
+  for (const std::uint32_t t : asked) {
+    if (faces(t, eye) == (lit[t] != 0)) continue;
     const UVec3& v = triangles_[t];
     const bool first = left(v.x, v.y);
     if (left(v.y, v.z) == first && left(v.z, v.x) == first) crossed.push_back(body_[t]);
@@ -136,9 +137,11 @@ std::uint32_t ShadowMesh::volumes_around(const Vec4& eye, const Vec4& light, con
   return count;
 }
 
-ShadowVolumes ShadowMesh::volumes(const Vec4& light, const Vec4& eye) const {
+ShadowVolumes ShadowMesh::volumes(const Vec4& light, const Vec4& eye,
+                                  const std::optional<std::vector<std::uint32_t>>& asked) const {
   ShadowVolumes out;
-  const std::vector<char> lit = facing(light);
+  std::vector<char> lit(planes_.size());
+  for (std::size_t t = 0; t < lit.size(); ++t) lit[t] = faces(t, light);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Edge& edge = edges_[e];
     const std::size_t end = e + 1 < edges_.size() ? edges_[e + 1].first : sides_.size();
@@ -149,7 +152,10 @@ ShadowVolumes ShadowMesh::volumes(const Vec4& light, const Vec4& eye) const {
     for (int i = edge.halved ? std::abs(net) / 2 : std::abs(net); i > 0; --i)
       out.indices.insert(out.indices.end(), {to, from, from + 1, to, from + 1, to + 1});
   }
-  out.around_eye = volumes_around(eye, light, lit);
+  std::vector<std::uint32_t> some;
+  for (const std::uint32_t t : asked.value_or(std::vector<std::uint32_t>()))
+    if (of_scene_[t] != ~0u) some.push_back(of_scene_[t]);
+  out.around_eye = volumes_around(eye, light, lit, asked ? some : all_);
   return out;
 }
 

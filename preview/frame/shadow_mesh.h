@@ -1,6 +1,7 @@
 // Shadow volumes of any triangles (Udeshi & Hansen 1999, section 2), closed or not, convex or not.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,8 +32,10 @@ class ShadowMesh {
   // Places that corners share, scene space.
   const std::vector<Vec3>& positions() const { return positions_; }
   std::size_t edges() const { return edges_.size(); }
-  // light, eye: homogeneous, w = 1 a place, w = 0 the direction towards it.
-  ShadowVolumes volumes(const Vec4& light, const Vec4& eye) const;
+  // light, eye: homogeneous, w = 1 a place, w = 0 the direction towards it. asked: the triangles, into
+  // Scene::triangles, that alone may hold the eye in their volumes; none: all are asked, which is exact.
+  ShadowVolumes volumes(const Vec4& light, const Vec4& eye,
+                        const std::optional<std::vector<std::uint32_t>>& asked = {}) const;
 
  private:
   struct Edge {
@@ -44,14 +47,17 @@ class ShadowMesh {
     DVec3 normal{0};
     double offset = 0;
   };
-  std::vector<char> facing(const Vec4& from) const;
-  std::uint32_t volumes_around(const Vec4& eye, const Vec4& light, const std::vector<char>& lit) const;
+  bool faces(std::size_t triangle, const Vec4& from) const;
+  std::uint32_t volumes_around(const Vec4& eye, const Vec4& light, const std::vector<char>& lit,
+                               std::span<const std::uint32_t> asked) const;
   void weld(const Scene& scene, const std::vector<std::uint32_t>& opaque);
   void find_edges();
 
   std::vector<Vec3> positions_;
-  std::vector<UVec3> triangles_;  // into positions_
-  std::vector<Plane> planes_;     // by triangle
+  std::vector<UVec3> triangles_;         // into positions_
+  std::vector<std::uint32_t> all_;       // 0, 1, … of them
+  std::vector<std::uint32_t> of_scene_;  // by Scene::triangles: into triangles_, ~0u where it throws no shadow
+  std::vector<Plane> planes_;            // by triangle
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> sides_;  // triangle * 2 + 1 where it goes from a to b, else triangle * 2
   std::vector<std::uint32_t> body_;   // by triangle: of those that edges join, the least

@@ -102,18 +102,31 @@ LampPoint lamp_at(const Vec3& place) {
   return {LampKind::kPunctual, Vec4(place, 1), {0, -1, 0}, Vec3(1), ~0u};
 }
 
+// Of a random scene: a light, near or afar, and three eyes, some of them orthographic.
+struct Views {
+  LampPoint light;
+  std::array<Camera, 3> cameras;
+};
+Views random_views(std::uint32_t seed) {
+  Random random{std::mt19937(1000 + seed)};
+  Views views{lamp_at(random.inside(1.9f)), {}};
+  if (seed % 4 == 1)
+    views.light = {LampKind::kAfar, Vec4(glm::normalize(random.inside(1) + Vec3(0, 1, 0)), 0), {}, Vec3(1), ~0u};
+  for (Camera& camera : views.cameras) {
+    camera = look_at(random.inside(2), random.inside(0.5f), 1.2f);
+    if (seed % 5 == 4) camera.vertical_fov_rad = 0, camera.half_height = 2.5f;
+  }
+  return views;
+}
+
 TEST_F(ShadowVolumesTest, AreRaysButForSilhouettes) {
   Compared all;
   int eyes_inside = 0;
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     take(random_scene(seed));
-    Random random{std::mt19937(1000 + seed)};
-    LampPoint light = lamp_at(random.inside(1.9f));
-    if (seed % 4 == 1)
-      light = {LampKind::kAfar, Vec4(glm::normalize(random.inside(1) + Vec3(0, 1, 0)), 0), {}, Vec3(1), ~0u};
+    const auto [light, cameras] = random_views(seed);
     for (int i = 0; i < 3; ++i) {
-      Camera camera = look_at(random.inside(2), random.inside(0.5f), 1.2f);
-      if (seed % 5 == 4) camera.vertical_fov_rad = 0, camera.half_height = 2.5f;
+      const Camera& camera = cameras[static_cast<std::size_t>(i)];
       const Compared c = compare(camera, light);
       all.lit += c.lit, all.dark += c.dark, all.silhouettes += c.silhouettes;
       all.wrong += c.wrong, all.wrong_on_silhouettes += c.wrong_on_silhouettes;
@@ -126,6 +139,42 @@ TEST_F(ShadowVolumesTest, AreRaysButForSilhouettes) {
   EXPECT_GT(all.lit, 50000);
   EXPECT_GT(all.dark, 50000);
   EXPECT_GT(eyes_inside, 10);
+}
+
+// The approximate capping: what no ray from the view plane meets is missed, and then all pixels of that shadow are
+// wrong.
+TEST_F(ShadowVolumesTest, CapsBySampledRaysMissSome) {
+  constexpr std::array<std::uint32_t, 4> kRays{1, 4, 16, 64};
+  std::array<double, kRays.size()> wrong{}, wrong_near{}, eyes{};
+  double pixels = 0;
+  int orthographic = 0;
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    take(random_scene(seed));
+    const auto [light, cameras] = random_views(seed);
+    for (const Camera& camera : cameras) {
+      ASSERT_TRUE(renderer_.look(camera, kWidth, kHeight));
+      ASSERT_TRUE(renderer_.pass({.shadows = ShadowMethod::kNone, .antialias = false}, context_));
+      orthographic += camera.vertical_fov_rad == 0;
+      const std::vector<std::uint8_t> exact = renderer_.read_in_shadow(light);
+      pixels += static_cast<double>(exact.size());
+      for (std::size_t k = 0; k < kRays.size(); ++k) {
+        const std::vector<std::uint8_t> sampled = renderer_.read_in_shadow(light, kRays[k]);
+        double off = 0;
+        for (std::size_t p = 0; p < exact.size(); ++p) off += (exact[p] == 0) != (sampled[p] == 0);
+        (camera.vertical_fov_rad > 0 ? wrong_near : wrong)[k] += off;
+        eyes[k] += off > 0;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < kRays.size(); ++k) {
+    std::printf(
+        "caps by %u rays: %.0f of 60 eyes are wrong; of the pixels of perspective frames %.2f %%, of all %.2f %%\n",
+        kRays[k], eyes[k], 100 * wrong_near[k] / pixels * 60 / (60 - orthographic),
+        100 * (wrong[k] + wrong_near[k]) / pixels);
+    EXPECT_LT(wrong_near[k], 0.002 * pixels) << "the view plane is small beside what casts shadows";
+  }
+  EXPECT_GT(wrong.front(), 0);
+  EXPECT_LT(wrong.back(), wrong.front());
 }
 
 TEST_F(ShadowVolumesTest, AnEyeInsideThatIsForgottenIsSeen) {
