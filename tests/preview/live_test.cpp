@@ -109,17 +109,18 @@ struct Edit {
   bool shape, vertices, images;  // stay
 };
 
-// Of one colour, as a data URI.
+// Two texels, as a data URI.
 std::string image_of(std::uint8_t grey) {
-  const Bytes png = *encode_png({1, 1, 3, {grey, grey, 255}});
+  const Bytes png = *encode_png({2, 1, 3, {grey, grey, 255, 255, 10, 10}});
   return "data:image/png;base64," + test::base64({reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
-// A pane before a triangle with a texture, and a lamp before both.
+// A pane before a half of a triangle with a texture, and a lamp before both.
 test::Gltf edited_scene() {
   test::Gltf g;
   for (const float z : {0.0f, -1.0f}) {
-    const int places = g.floats("VEC3", {-1, -1, z, 2, -1, z, -1, 2, z}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1});
+    const float left = z < 0 ? -1 : 0;
+    const int places = g.floats("VEC3", {left, -1, z, 2, -1, z, left, 2, z}), uv = g.floats("VEC2", {0, 0, 1, 0, 0, 1});
     g.add({{"attributes", {{"POSITION", places}, {"TEXCOORD_0", uv}}}, {"material", z < 0 ? 1 : 0}});
   }
   g.use("KHR_materials_transmission");
