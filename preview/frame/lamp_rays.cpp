@@ -106,7 +106,7 @@ class LampTracer {
   void add_point(std::size_t y, std::size_t p, const std::vector<Receiver>& receivers, const std::vector<Vec3>& origins,
                  std::vector<Vec4>& light) const {
     struct Asked {
-      std::size_t pixel;
+      std::size_t x;
       Vec3 light;
       ShadowClasses::Class known;
     };
@@ -129,17 +129,17 @@ class LampTracer {
       if (known == ShadowClasses::kLit || known == ShadowClasses::kUmbra)
         if (classes == nullptr || !classes->asks(p, x, y)) continue;
       rays.push_back(ray_to(lamps_[p], *lit));
-      asked.push_back({i, lit->light, known});
+      asked.push_back({x, lit->light, known});
     }
     std::vector<Vec3> passed(rays.size());
     accel_.transmittance(rays, passed);
     if (shared_.rays != nullptr) *shared_.rays += rays.size();
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const Asked& a = asked[k];
-      if (classes != nullptr) classes->tell(p, classes->block_of(a.pixel % width, y), passed[k]);
+      if (classes != nullptr) classes->tell(p, classes->block_of(a.x, y), passed[k]);
       const bool lit = a.known == ShadowClasses::kLit, umbra = a.known == ShadowClasses::kUmbra;
       const Vec3 found = passed[k] - (lit ? Vec3(1) : Vec3(0));
-      light[a.pixel] += Vec4(a.light * found * (lit || umbra ? float{ShadowClasses::kOne} : 1.0f), 0);
+      light[y * width + a.x] += Vec4(a.light * found * (lit || umbra ? float{ShadowClasses::kOne} : 1.0f), 0);
     }
   }
 

@@ -22,7 +22,8 @@ std::vector<std::uint32_t> sampled_occluders(const Accel& accel, const View& vie
   const std::uint32_t rows = (rays + columns - 1) / columns;
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < rays; ++i) {
-    const Vec2 cell(static_cast<float>(i % columns), static_cast<float>(i / columns));
+    const std::uint32_t column = i % columns, row = i / columns;
+    const Vec2 cell(static_cast<float>(column), static_cast<float>(row));
     const Vec2 at = (cell + sampler.next2()) / Vec2(static_cast<float>(columns), static_cast<float>(rows));
     Ray ray{on_view_plane(pack_from_clip, at), Vec3(light)};
     if (light.w > 0) {
