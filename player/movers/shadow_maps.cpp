@@ -25,6 +25,7 @@ static_assert(kLayers >= kMaxShadowMovers * kMaxLightSamples / kPointsOfLayer);
 Result<ShadowMaps> ShadowMaps::create(gpu::Dialect dialect) {
   ShadowMaps maps;
   ORIEL_TRY(maps.depth_, gpu::Program::create("depth", dialect));
+  ORIEL_TRY(maps.plain_depth_, gpu::Program::create("depth", dialect, "PLAIN"));
   return maps;
 }
 
@@ -51,20 +52,26 @@ int ShadowMaps::free_layer() {
 
 void ShadowMaps::draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_pack,
                              FrameStats& stats) const {
-  depth_.set("u_clip_from_pack", clip_from_pack);
+  for (const gpu::Program* program : {&depth_, &plain_depth_}) {
+    program->use();
+    program->set("u_clip_from_pack", clip_from_pack);
+  }
   for (const DrawBatch& batch : visible_batches(ranges, make_frustum(clip_from_pack))) {
     const Material& m = scene.pack().materials[batch.material];
-    depth_.set("u_alpha", m.alpha);
-    depth_.set("u_alpha_cutoff", cutoff_of(m));
-    scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    const bool plain = cutoff_of(m) < 0;
+    (plain ? plain_depth_ : depth_).use();
+    if (!plain) {
+      depth_.set("u_base_texture", kBaseUnit);
+      depth_.set("u_alpha", m.alpha);
+      depth_.set("u_alpha_cutoff", cutoff_of(m));
+      scene.albedo(m.base_color_texture).bind(kBaseUnit);
+    }
     draw_batch(batch, stats);
   }
 }
 
 void ShadowMaps::draw(const GpuScene& scene, const Request& request, int layer, bool of_scene, FrameStats& stats) {
   const PlacedMover& placed = *request.mover;
-  depth_.use();
-  depth_.set("u_base_texture", kBaseUnit);
   target_.bind();
   target_.attach_depth_layer(of_scene ? scene_depth_ : mover_depth_, layer);
   gpu::RasterState state;

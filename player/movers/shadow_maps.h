@@ -47,7 +47,7 @@ class ShadowMaps {
   void draw_ranges(const GpuScene& scene, const std::vector<DrawRange>& ranges, const Mat4& clip_from_pack,
                    FrameStats& stats) const;
 
-  gpu::Program depth_;
+  gpu::Program depth_, plain_depth_;  // the second for what has no cut-outs
   gpu::Framebuffer target_;
   gpu::TextureArray mover_depth_, scene_depth_;
   std::map<Key, Known> known_;
