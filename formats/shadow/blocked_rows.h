@@ -35,6 +35,22 @@ class BlockedRows {
   }
   bool blocked(int s, int x, int y) const { return word(s, x / 32, y) >> (x % 32) & 1; }
 
+  // What others do not let through either: rows of as many samples, whose first word and row come to lie there.
+  void add(const BlockedRows& other, int column, int row) {
+    for (int s = 0; s < samples_; ++s)
+      for (int w = 0; w < other.words_; ++w)
+        for (int y = 0; y < other.height_; ++y) word(s, column + w, row + y) |= other.word(s, w, y);
+  }
+  // Leaves what others of the same size let through.
+  void remove(const BlockedRows& other) {
+    for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= ~other.bits_[i];
+  }
+  void invert() {
+    for (int s = 0; s < samples_; ++s)
+      for (int w = 0; w < words_; ++w)
+        for (int y = 0; y < height_; ++y) word(s, w, y) ^= full(w);
+  }
+
   // The bits of a word that are texels.
   std::uint32_t full(int column) const {
     const int rest = width_ - 32 * column;

@@ -43,6 +43,7 @@ class View {
       light_.lower = min(light_.lower, apex), light_.upper = max(light_.upper, apex);
     }
     if (out_.apexes.empty() || in_.nodes.empty()) return std::move(out_);
+    lamp_normal_ = light.normal, lamp_point_ = light.samples.front().position;
     one_side_.resize(in_.parts.size(), -1);
     std::vector<std::uint32_t> open{0};
     while (!open.empty()) {
@@ -109,12 +110,20 @@ class View {
     return it->second;
   }
 
+  // No ray to the lamp crosses what lies in its plane, as the lamp itself does.
+  bool in_lamp_plane(const OccluderFace& face) const {
+    return std::ranges::all_of(face.points, [&](std::uint32_t p) {
+      return std::abs(glm::dot(lamp_normal_, in_.points[p] - lamp_point_)) <= touching_;
+    });
+  }
+
   void add(const OccluderFace& face) {
     std::array<std::uint32_t, 3> p{};
     std::array<DVec3, 3> at{};
     for (int k = 0; k < 3; ++k) p[k] = point(face.points[k]), at[k] = out_.points[p[k]];
     if (!may_shadow({min(min(at[0], at[1]), at[2]), max(max(at[0], at[1]), at[2])})) return;
     if (at[0].z == 0 && at[1].z == 0 && at[2].z == 0) return;
+    if (in_lamp_plane(face)) return;
     std::array<std::uint32_t, 4> corners{};
     std::size_t n = 0;
     for (int k = 0; k < 3; ++k) {
@@ -157,6 +166,7 @@ class View {
   ReceiverSpace space_;
   double touching_;
   Box light_{};
+  DVec3 lamp_normal_{0}, lamp_point_{0};
   std::vector<std::int8_t> one_side_;  // by part; -1: not yet asked
   std::unordered_map<std::uint32_t, std::uint32_t> point_of_;
   std::unordered_map<std::uint64_t, std::uint32_t> cut_of_, edge_of_;

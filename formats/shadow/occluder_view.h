@@ -32,7 +32,7 @@ struct OccluderView {
   std::size_t tested = 0;                          // boxes and faces that were looked at
 };
 
-// touching: what is not further from the plane than this lies in it and casts nothing, metres.
+// touching: what is not further from the plane, or the lamp's, than this lies in it and casts nothing, metres.
 OccluderView view_occluders(const Occluders& occluders, const ShadowReceiver& receiver, const ShadowLight& light,
                             double touching);
 

@@ -12,7 +12,7 @@ namespace oriel {
 struct SoftShadowOptions {
   CountMethod method = CountMethod::kBitRows;
   double touching =
-      0;  // occluders no further from the receiver's plane cast nothing, metres; what rounding moves is added
+      0;  // occluders no further from the receiver's plane, or the lamp's, cast nothing, metres; rounding is added
   Simd simd = best_simd();
 };
 
@@ -30,6 +30,7 @@ class SoftShadows {
  public:
   explicit SoftShadows(const SoftShadowOptions& options = {}) : options_(options) {}
 
+  void set_touching(double touching) { options_.touching = touching; }
   void run(const Occluders& occluders, const ShadowReceiver& receiver, const ShadowLight& light, SoftShadow& out);
 
   // The first half of it: which texel centres which samples do not reach.

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bake/trace/accel.h"
+#include "formats/shadow/silhouettes.h"
 #include "formats/shadow/soft_shadow.h"
 #include "tests/bake/support/scene_parts.h"
 
@@ -176,11 +177,61 @@ void print_weights() {
   }
 }
 
+// A closed body with dents, 0.4 m in radius, 1 m over the receiver.
+Floating body_over(const Setting& s, int around) {
+  Floating f(s);
+  f.points.clear(), f.triangles.clear();
+  const int down = around / 2;
+  const auto at = [&](int i, int j) {
+    const double theta = 2 * kPiD * (i % around) / around, phi = kPiD * j / down;
+    const double r = 0.4 * (1 + 0.25 * std::sin(5 * theta) * std::sin(phi) * std::sin(phi));
+    return DVec3(2, 2, 1) + r * DVec3(std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi), std::cos(phi));
+  };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < down; ++j) {
+      const auto n = static_cast<std::uint32_t>(f.points.size());
+      f.points.insert(f.points.end(), {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+      if (j + 1 < down) f.triangles.push_back({n, n + 1, n + 2});
+      if (j > 0) f.triangles.push_back({n, n + 2, n + 3});
+    }
+  return f;
+}
+
+// What blocks, by faces and by silhouettes.
+void print_silhouettes() {
+  std::printf("\nOne body, 256 x 256 texels, 64 samples: bits alone, one core\n%9s %14s %14s %16s\n", "triangles",
+              "bit rows, ms", "silhouettes, ms", "samples differ");
+  for (const int around : {18, 55, 174}) {
+    const Floating f = body_over({}, around);
+    const Occluders occluders = f.occluders();
+    const ShadowBody body(occluders);
+    SoftShadows shadows;
+    const double ms = best_ms([&] { (void)shadows.block(shadows.view(occluders, f.receiver, f.light), f.receiver); });
+    const OccluderView lamp = shadows.view({}, f.receiver, f.light);
+    std::vector<DVec3> samples;
+    for (const ShadowLightSample& sample : f.light.samples) samples.push_back(sample.position);
+    const BodyPlace place{ReceiverSpace(f.receiver), samples, lamp.apexes, 0};
+    SilhouetteShadows silhouettes;
+    BlockedRows rows;
+    const double quick = best_ms([&] {
+      rows.reset(f.receiver.width, f.receiver.height, 64);
+      silhouettes.add(body, place, {0, 0, f.receiver.width / 32, f.receiver.height}, best_simd(), rows);
+    });
+    const std::vector<std::uint16_t> by_edge = count_blocked(rows);
+    const std::vector<std::uint16_t> by_face =
+        count_blocked(shadows.block(shadows.view(occluders, f.receiver, f.light), f.receiver));
+    int differ = 0;
+    for (std::size_t i = 0; i < by_edge.size(); ++i) differ += std::abs(by_edge[i] - by_face[i]);
+    std::printf("%9zu %14.3f %14.3f %16d\n", f.triangles.size(), ms, quick, differ);
+  }
+}
+
 }  // namespace
 }  // namespace oriel
 
 int main() {
   oriel::print_methods();
+  oriel::print_silhouettes();
   oriel::print_scaling();
   oriel::print_culling();
   oriel::print_weights();

@@ -25,14 +25,16 @@ inline int volume(const Half& a, const Half& b, const Half& c, const Half& d) {
   return (v > 0) - (v < 0);
 }
 
-// From p to q, ends left out. Touched: an edge goes through the ray.
+// From p to q, ends left out. Touched: an edge goes through the ray, or p lies on a face that goes through the
+// receiver.
 inline Ray cast(const Half& p, const Half& q, const std::array<Half, 3>& t) {
   const int sp = volume(t[0], t[1], t[2], p), sq = volume(t[0], t[1], t[2], q);
-  if (sp == 0 || sq == 0 || sp == sq) return Ray::kFree;
+  const bool in_receiver = t[0][2] == p[2] && t[1][2] == p[2] && t[2][2] == p[2];
+  if ((sp == 0 && in_receiver) || sq == 0 || sp == sq) return Ray::kFree;
   const std::array<int, 3> s{volume(p, q, t[0], t[1]), volume(p, q, t[1], t[2]), volume(p, q, t[2], t[0])};
   const bool positive = s[0] >= 0 && s[1] >= 0 && s[2] >= 0, negative = s[0] <= 0 && s[1] <= 0 && s[2] <= 0;
   if (!positive && !negative) return Ray::kFree;
-  return s[0] != 0 && s[1] != 0 && s[2] != 0 ? Ray::kBlocked : Ray::kTouched;
+  return sp != 0 && s[0] != 0 && s[1] != 0 && s[2] != 0 ? Ray::kBlocked : Ray::kTouched;
 }
 
 // A scene of a receiver in the plane z = 0, one texel a unit.
