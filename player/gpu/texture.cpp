@@ -64,10 +64,13 @@ Texture2d::Texture2d(const TextureFormat& format, int width, int height, const v
 }
 
 void Texture2d::upload(int level, int row, int rows, const void* pixels) const {
+  upload(level, {0, row}, {std::max(1, width_ >> level), rows}, pixels);
+}
+
+void Texture2d::upload(int level, const IVec2& at, const IVec2& size, const void* pixels) const {
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, level, 0, row, std::max(1, width_ >> level), rows, format_.format, format_.type,
-                  pixels);
+  glTexSubImage2D(GL_TEXTURE_2D, level, at.x, at.y, size.x, size.y, format_.format, format_.type, pixels);
 }
 
 void Texture2d::bind(int unit) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "formats/core/result.h"
+#include "formats/core/vec.h"
 #include "player/gpu/handle.h"
 
 namespace oriel::gpu {
@@ -52,9 +53,10 @@ class Texture2d {
   // height in [1, limits().texture_size].
   Texture2d(const TextureFormat& format, int width, int height, const void* pixels, const TextureOptions& options = {});
 
-  // All of a level; some of its rows.
+  // All of a level; some of its rows; a rectangle of it.
   void upload(int level, const void* pixels) const { upload(level, 0, std::max(1, height_ >> level), pixels); }
   void upload(int level, int row, int rows, const void* pixels) const;
+  void upload(int level, const IVec2& at, const IVec2& size, const void* pixels) const;
   void bind(int unit) const;
   // From now on all of its levels are looked at, or the finest at one place alone.
   void use_mipmaps(bool on) const;

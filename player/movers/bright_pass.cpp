@@ -1,6 +1,7 @@
 #include "player/movers/bright_pass.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "player/scene/surface.h"
 
@@ -64,6 +65,7 @@ std::span<const Vec4> points_of(const LightSamples& light, std::size_t group) {
 Result<BrightPass> BrightPass::create(gpu::Dialect dialect) {
   BrightPass pass;
   ORIEL_TRY(pass.maps_, ShadowMaps::create(dialect));
+  ORIEL_TRY(pass.textures_, ShadowTextures::create(dialect));
   ORIEL_TRY(pass.surface_, gpu::Program::create("mover_surface", dialect));
   ORIEL_TRY(pass.shadow_, gpu::Program::create("mover_shadow", dialect));
   ORIEL_TRY(pass.light_, gpu::Program::create("mover_bright_light", dialect));
@@ -171,6 +173,7 @@ void BrightPass::set_caster(const LitMovers::Caster& caster, std::span<const Vec
   shadow_.set("u_tangents", tangents);
   shadow_.set("u_layer", layer);
   shadow_.set("u_caster", id_of(caster.index));
+  shadow_.set("u_scene_counts", caster.scene_counts ? 1 : 0);
 }
 
 void BrightPass::draw_box(std::span<const Vec3> corners, FrameStats& stats) const {
@@ -217,36 +220,62 @@ void BrightPass::add_to_movers(const View& view, const LitMovers& lit, FrameStat
 void BrightPass::take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const {
   std::vector<Vec3> shadows;
   for (const LitMovers::Caster& caster : lit.casters)
-    if (caster.on_scene) shadows.insert(shadows.end(), caster.box.begin(), caster.box.end());
+    if (caster.on_scene) shadows.insert(shadows.end(), caster.scene_box.begin(), caster.scene_box.end());
   draw_rectangle(kSceneId, rectangle_of(view.clip_from_pack, shadows), stats);
+}
+
+// Where a light's shadows are textures, the maps take nothing.
+void BrightPass::leave_to_textures(const GpuScene& scene, const View& view, std::uint32_t light,
+                                   FrameStats& stats) const {
+  gpu::apply({});
+  textures_.draw(scene, view, of_scene_.surfaces, light, stats);
+}
+
+void BrightPass::take_by_textures(const GpuScene& scene, const View& view, FrameStats& stats) const {
+  of_scene_.bind(of_scene_.change_target);
+  gpu::RasterState state;
+  state.blend = gpu::Blend::kAdd;
+  gpu::apply(state);
+  glBindVertexArray(no_vertices_.name());
+  textures_.draw(scene, view, of_scene_.surfaces, std::nullopt, stats);
 }
 
 Status BrightPass::draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats) {
   const std::size_t groups = groups_of(lit.samples);
   const float reach = 2 * scene.bounds().radius();
   std::vector<ShadowMaps::Request> requests;
+  const auto onto_scene = [](const LitMovers::Caster& caster) { return caster.on_scene; };
+  const bool any_on_scene = std::ranges::any_of(lit.casters, onto_scene);
   for (std::uint32_t g = 0; g < groups; ++g)
     for (const LitMovers::Caster& caster : lit.casters)
-      requests.push_back({caster.mover, points_of(lit.samples, g), lit.light, caster.index, g});
+      requests.push_back({caster.mover, points_of(lit.samples, g), lit.light, caster.index, g, caster.scene_counts});
   ORIEL_TRY(const std::vector<int> layers, maps_.layers(scene, requests, stats));
   glBindVertexArray(no_vertices_.name());
   for (std::size_t g = 0; g < groups; ++g) {
     const std::span<const Vec4> points = points_of(lit.samples, g);
-    const auto draw = [&](const Canvas& canvas, auto draw_boxes) {
+    const auto draw = [&](const Canvas& canvas, auto draw_boxes, auto correct) {
       start_shadows(canvas, view, points);
       for (std::size_t c = 0; c < lit.casters.size(); ++c) {
         set_caster(lit.casters[c], points, layers[g * lit.casters.size() + c], reach);
         draw_boxes(lit.casters[c]);
       }
+      correct();
       start_light(canvas, lit, points);
     };
-    draw(of_movers_, [&](const LitMovers::Caster& caster) {
-      for (const std::size_t r : caster.on_movers) draw_box(box_around(*lit.receivers[r].mover), stats);
-    });
+    draw(
+        of_movers_,
+        [&](const LitMovers::Caster& caster) {
+          for (const std::size_t r : caster.on_movers) draw_box(box_around(*lit.receivers[r].mover), stats);
+        },
+        [] {});
     add_to_movers(view, lit, stats);
-    draw(of_scene_, [&](const LitMovers::Caster& caster) {
-      if (caster.on_scene) draw_box(caster.box, stats);
-    });
+    if (!any_on_scene) continue;
+    draw(
+        of_scene_,
+        [&](const LitMovers::Caster& caster) {
+          if (caster.on_scene) draw_box(caster.scene_box, stats);
+        },
+        [&] { leave_to_textures(scene, view, lit.light, stats); });
     take_from_scene(view, lit, stats);
   }
   return {};
@@ -256,16 +285,28 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
                                                      std::span<const DrawBatch> shown,
                                                      std::span<const PlacedMover> movers, const FrameOptions& options,
                                                      FrameStats& stats) {
-  const std::vector<LitMovers> lights =
+  std::vector<LitMovers> lights =
       find_lit(scene.bright_lights(), movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   if (lights.empty()) return std::nullopt;
   const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
-  Known now{scene.serial(),       view.clip_from_pack,  view.width,           view.height,
-            options.mover_lights, options.light_points, options.visible_sets, {}};
+  const bool coarse = options.coarse && options.mover_shadows == MoverShadows::kTextures;
+  Known now{scene.serial(),
+            view.clip_from_pack,
+            view.width,
+            view.height,
+            options.mover_lights,
+            options.mover_shadows,
+            coarse,
+            options.light_points,
+            options.visible_sets,
+            {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
   if (now == known_) return change;
   if (known_.width != now.width || known_.height != now.height) ORIEL_TRY_VOID(make_targets(view.width, view.height));
   known_ = {};
+  const auto start = std::chrono::steady_clock::now();
+  textures_.prepare(scene, view, lights, options);
+  stats.shadow_texture_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   draw_surfaces(scene, view, shown, movers, stats);
   gpu::apply({});
   glClearColor(0, 0, 0, 0);
@@ -274,6 +315,7 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
     glClear(GL_COLOR_BUFFER_BIT);
   }
   for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(scene, view, lit, stats));
+  take_by_textures(scene, view, stats);
   known_ = std::move(now);
   return change;
 }

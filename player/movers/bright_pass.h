@@ -16,6 +16,7 @@
 #include "player/gpu/raster_state.h"
 #include "player/movers/lit_movers.h"
 #include "player/movers/shadow_maps.h"
+#include "player/movers/shadow_textures.h"
 
 namespace oriel {
 
@@ -55,6 +56,8 @@ class BrightPass {
   void start_light(const Canvas& canvas, const LitMovers& lit, std::span<const Vec4> points) const;
   void add_to_movers(const View& view, const LitMovers& lit, FrameStats& stats) const;
   void take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const;
+  void leave_to_textures(const GpuScene& scene, const View& view, std::uint32_t light, FrameStats& stats) const;
+  void take_by_textures(const GpuScene& scene, const View& view, FrameStats& stats) const;
   void draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats) const;
 
   // What the pictures depend on.
@@ -63,6 +66,8 @@ class BrightPass {
     Mat4 clip_from_pack{0};
     int width = 0, height = 0;
     MoverLights lights = MoverLights::kShadowed;
+    MoverShadows shadows = MoverShadows::kMaps;
+    bool coarse = false;  // textures
     int points = 0;
     bool visible_sets = true;  // which batches are shown depends on it
     std::vector<Mat4> poses;
@@ -70,6 +75,7 @@ class BrightPass {
   };
 
   ShadowMaps maps_;
+  ShadowTextures textures_;
   gpu::Program surface_, shadow_, light_;
   gpu::VertexArray no_vertices_;
   Canvas of_movers_, of_scene_;

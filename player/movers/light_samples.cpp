@@ -79,15 +79,15 @@ LightSamples sample_light(const BrightLight& light, int points) {
 }
 
 int choose_points(const BrightLight& light, std::span<const Vec4> spheres, std::size_t pairs, int most) {
-  const LightSamples all = sample_light(light, kMaxLightSamples);
+  const LightSamples all = sample_light(light, kMaxLightPoints);
   if (light.kind == BrightLightKind::kPoint || light.kind == BrightLightKind::kSpot) return 1;
   float tangent = light.kind == BrightLightKind::kDirectional ? all.radius : 0;
   if (light.kind == BrightLightKind::kPolygon)
     for (const Vec4& sphere : spheres)
       tangent = std::max(tangent, all.radius / std::max(glm::distance(Vec3(sphere), all.center), 1e-6f));
   if (tangent < kPointLike) return 1;
-  int wanted = tangent < kWide ? 4 : tangent < kVeryWide ? 8 : kMaxLightSamples;
-  while (wanted < kMaxLightSamples && 2 * wanted * static_cast<int>(pairs) <= kEasily) wanted *= 2;
+  int wanted = tangent < kWide ? 4 : tangent < kVeryWide ? 8 : kMaxLightPoints;
+  while (wanted < kMaxLightPoints && 2 * wanted * static_cast<int>(pairs) <= kEasily) wanted *= 2;
   return std::clamp(most, 1, wanted);
 }
 

@@ -7,7 +7,7 @@
 
 namespace oriel {
 
-inline constexpr int kMaxLightSamples = 16;
+inline constexpr int kMaxLightPoints = 16;
 
 // The same maths as shaders/lib/light_samples.glsl.
 struct LightSamples {
@@ -23,12 +23,12 @@ struct LightSamples {
   Vec3 center{0};       // of the points, or the direction to it where directional
   float radius = 0;     // that holds the points, metres; directional: tangent of its angular radius
 };
-// points: of lights that have a size, 1 to kMaxLightSamples.
-LightSamples sample_light(const BrightLight& light, int points = kMaxLightSamples);
+// points: of lights that have a size, 1 to kMaxLightPoints.
+LightSamples sample_light(const BrightLight& light, int points = kMaxLightPoints);
 
 // How many points a light's shadows of those movers are taken from: by how large it looks from the nearest, and more
 // where few movers are lit, as a light that is seen through a door needs them. spheres: around the movers. pairs: of
-// any mover and a light that shines on it. most: 1 to kMaxLightSamples.
+// any mover and a light that shines on it. most: 1 to kMaxLightPoints.
 int choose_points(const BrightLight& light, std::span<const Vec4> spheres, std::size_t pairs, int most);
 
 // Irradiance of a surface at p that faces sample i, unshadowed, times `count`: the sum over i is that of the light.

@@ -41,7 +41,8 @@ void find_casters(std::span<const BrightLight> lights, const Frustum& frustum, c
   const std::size_t casting = std::min<std::size_t>(lit.receivers.size(), kMaxShadowMovers);
   for (const LitMovers::Receiver& r : std::span(lit.receivers).first(casting)) {
     const ShadowCone cone = make_shadow_cone(r.mover->sphere, lit.samples.center, lit.samples.radius, parallel);
-    LitMovers::Caster caster{r.mover, r.index, make_shadow_box(cone, bounds), false, {}};
+    LitMovers::Caster caster{r.mover, r.index, make_shadow_box(cone, bounds), false, {}, true, {}};
+    caster.scene_box = caster.box;
     Bounds box;
     for (const Vec3& corner : caster.box) box.extend(corner);
     const bool faint = is_faint(*r.mover, lit.light, lights);

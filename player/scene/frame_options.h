@@ -31,6 +31,10 @@ enum class Reflectance { kTable, kSphereMap };
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
 enum class MoverLights { kShadowed, kUnshadowed, kHarmonics };
 
+// How movers' shadows on the scene are made: shadow maps everywhere, or soft-shadow textures where lamp and receiver
+// are flat and shadow maps elsewhere.
+enum class MoverShadows { kMaps, kTextures };
+
 // What the bake knows of a lamp that has moved: as much as its live lights say (fitted), all of it, what live lights
 // give now less what they gave there being added (differential), or nothing (only).
 enum class LiveMode { kFitted, kDifferential, kOnly };
@@ -65,6 +69,7 @@ struct FrameOptions {
   std::vector<MoverPose> lamps{};  // by Pack::light_groups, from where they were baked; empty: all are there
   LiveSettings live{};             // of lamps that are not
   MoverLights mover_lights = MoverLights::kShadowed;
+  MoverShadows mover_shadows = MoverShadows::kMaps;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
   float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 
@@ -106,7 +111,8 @@ struct FrameStats {
   std::uint64_t reflected_pixels = 0, holes = 0;
   // Of opaque ones without a kernel, by march: of the pixels those in which a map pixel covers no more than two.
   std::uint64_t mirror_pixels = 0, sharp = 0;
-  PassTimes ms{};  // by pass, where asked for
+  PassTimes ms{};                // by pass, where asked for
+  double shadow_texture_ms = 0;  // of the processor's soft-shadow textures, a part of the movers' pass
 };
 
 }  // namespace oriel

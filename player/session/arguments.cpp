@@ -100,8 +100,7 @@ std::vector<Option> picture_options(PlayArguments& out) {
   return {
       {"--exposure", kPicture,
        "Exposure value at ISO 100: 1.2 * 2^EV cd/m2 is shown as white (a room: 5 to 9, daylight: 15). auto: the "
-       "frame's "
-       "log-average luminance becomes middle grey",
+       "frame's log-average luminance becomes middle grey",
        exposure(out.ev100), Use::kEveryday, "exposure"},
       {"--tonemap", kPicture, "Tone curve: aces rolls highlights off like film, none clips them",
        choice(out.curve, kToneCurves), Use::kEveryday},
@@ -158,11 +157,13 @@ std::vector<Option> mover_options(PlayArguments& out) {
       {"--time", kMovers, "Seconds into the movers' animations, which repeat; the window goes on from there",
        number(out.time_s, -1e9, 1e9)},
       {"--mover-lights", kMovers,
-       "How the brightest lights shine on movers: pixel by pixel with shadows from and onto them, without shadows, or "
-       "in harmonics as all other light",
+       "How the brightest lights shine on movers: by pixel with shadows, without them, or in harmonics as other light",
        choice(out.frame.mover_lights, kMoverLights)},
+      {"--mover-shadows", kMovers,
+       "Movers' shadows on the scene: shadow maps, or soft textures where lamp and surface are flat (slower, closer)",
+       choice(out.frame.mover_shadows, kMoverShadows)},
       {"--light-points", kMovers,
-       "Points of a bright light that movers' shadows are taken from, at most: lights that look small take fewer",
+       "Points of a bright light that movers' shadow maps are taken from, at most: lights that look small take fewer",
        number(out.frame.light_points, 1, 16)},
   };
 }

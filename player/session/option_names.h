@@ -31,6 +31,8 @@ inline const std::map<std::string, Reflectance> kReflectances{{"table", Reflecta
 inline const std::map<std::string, MoverLights> kMoverLights{{"shadowed", MoverLights::kShadowed},
                                                              {"unshadowed", MoverLights::kUnshadowed},
                                                              {"harmonics", MoverLights::kHarmonics}};
+inline const std::map<std::string, MoverShadows> kMoverShadows{{"maps", MoverShadows::kMaps},
+                                                               {"textures", MoverShadows::kTextures}};
 
 inline const std::map<std::string, LiveMode> kLiveModes{
     {"fitted", LiveMode::kFitted}, {"differential", LiveMode::kDifferential}, {"only", LiveMode::kOnly}};

@@ -58,7 +58,7 @@ const Arrows kRestsOn = {
     {"player/navigation", {"formats/pack"}},
     {"player/images", {"player/gpu", "player/navigation"}},
     {"player/scene", {"player/images"}},
-    {"player/movers", {"player/scene"}},
+    {"player/movers", {"player/scene", "formats/shadow"}},
     {"player/reflections", {"player/scene"}},
     {"player/passes", {"player/movers", "player/reflections", "formats/image"}},
     {"player/session", {"player/passes", "formats/analysis", "formats/cli"}},

@@ -1,0 +1,180 @@
+// Shadows of movers on flat surfaces beside rays, by soft-shadow textures.
+#include "formats/query/mover_pose.h"
+#include "player/movers/flat_surfaces.h"
+#include "tests/player/mover_fixture.h"
+
+namespace oriel {
+namespace {
+using namespace testing;
+
+constexpr float kRadiance = 100;
+constexpr int kLampCells = 96;  // of the rays' lamp, along a side
+
+// The lamp is a square of 1 m in the plane y = 2, the floor lies at y = -2.
+Pack lamp_scene() {
+  Pack pack = shadow_scene();
+  BrightLight& lamp = pack.light_field.lights[0];
+  lamp.kind = BrightLightKind::kPolygon;
+  lamp.intensity = Vec3(kRadiance);
+  lamp.direction = {0, -1, 0};
+  lamp.corners = {{-0.5f, 2, -0.5f}, {0.5f, 2, -0.5f}, {0.5f, 2, 0.5f},
+                  {-0.5f, 2, -0.5f}, {0.5f, 2, 0.5f},  {-0.5f, 2, 0.5f}};
+  return pack;
+}
+
+bool meets(const DVec3& from, const DVec3& to, const DVec3& a, const DVec3& b, const DVec3& c) {
+  const DVec3 way = to - from, n = glm::cross(b - a, c - a);
+  const double along = glm::dot(way, n);
+  if (along == 0) return false;
+  const double t = glm::dot(a - from, n) / along;
+  if (!(t > 1e-9 && t < 1 - 1e-9)) return false;
+  const DVec3 p = from + t * way;
+  return glm::dot(glm::cross(b - a, p - a), n) >= 0 && glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
+         glm::dot(glm::cross(a - c, p - c), n) >= 0;
+}
+
+bool meets(const DVec3& from, const DVec3& to, const Mesh& mesh, const DMat4& pose) {
+  const auto at = [&](std::uint32_t i) { return DVec3(pose * DVec4(DVec3(mesh.positions[mesh.indices[i]]), 1)); };
+  for (std::uint32_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    if (meets(from, to, at(i), at(i + 1), at(i + 2))) return true;
+  return false;
+}
+
+// What the lamp gives a point of the floor that nothing shades, and what movers alone take of it.
+struct Lit {
+  double open = 0, taken = 0;
+};
+Lit by_rays(const Pack& pack, std::span<const MoverPose> poses, const DVec3& p) {
+  Lit lit;
+  for (int i = 0; i < kLampCells; ++i)
+    for (int j = 0; j < kLampCells; ++j) {
+      const DVec3 q((i + 0.5) / kLampCells - 0.5, 2, (j + 0.5) / kLampCells - 0.5), way = q - p;
+      const double r2 = glm::dot(way, way),
+                   e = double{kRadiance} * way.y * way.y / (r2 * r2) / (kLampCells * kLampCells);
+      lit.open += e;
+      if (meets(p, q, pack.mesh, DMat4(1))) continue;
+      bool blocked = false;
+      for (std::size_t m = 0; m < pack.movers.size(); ++m)
+        blocked = blocked || meets(p, q, pack.movers[m].mesh, pack_from_object(poses[m]));
+      if (blocked) lit.taken += e;
+    }
+  return lit;
+}
+
+class FlatShadows : public FrameTest {
+ protected:
+  static FrameOptions by_textures() {
+    FrameOptions options;
+    options.mover_shadows = MoverShadows::kTextures;
+    return options;
+  }
+
+  // Illuminance of the floor there, which is white.
+  float lux_at(const Pack& pack, const FrameOptions& options, float x, float z) {
+    return draw(pack, above_floor(x, z), 5, 5, options).at(2, 2).g * kPi;
+  }
+
+  // Along a line over the floor: textures take what rays say. An edge of a shadow goes through some eight of the lamp's
+  // 64 cells, each of which then has its sample on either side: three times the deviation of that is let pass.
+  void expect_as_rays(const Pack& pack, const std::vector<MoverPose>& poses, const Vec2& from, const Vec2& to,
+                      int edges = 1) {
+    const double deviation = std::sqrt(edges * 8 * 0.25) / 64;
+    FrameOptions options = by_textures();
+    options.poses = poses;
+    double squares = 0, taken = 0;
+    constexpr int kPlaces = 24;
+    for (int i = 0; i < kPlaces; ++i) {
+      const Vec2 at = glm::mix(from, to, (static_cast<float>(i) + 0.5f) / kPlaces);
+      const Lit lit = by_rays(pack, poses, DVec3(at.x, -2, at.y));
+      const double found = 100 - lux_at(pack, options, at.x, at.y);
+      EXPECT_NEAR(found, lit.taken, 3 * deviation * lit.open + 1e-3) << at.x << " " << at.y;
+      squares += (found - lit.taken) * (found - lit.taken) / (lit.open * lit.open + 1e-12) / kPlaces;
+      taken += lit.taken;
+    }
+    EXPECT_LT(std::sqrt(squares), deviation);
+    EXPECT_GT(taken, 1) << "the line has some shadow";
+  }
+};
+
+const float kHalf = std::sqrt(0.5f);
+const MoverPose kLevel{{0, 0, 0}, {-kHalf, 0, 0, kHalf}};   // the square of 2 m faces up
+const MoverPose kUpright{{0, 0, 0}, {0, kHalf, 0, kHalf}};  // it faces along x
+
+MoverPose at(MoverPose pose, const Vec3& position) {
+  pose.position = position;
+  return pose;
+}
+
+TEST_F(FlatShadows, OfASquareUnderASquareLamp) {
+  const Pack pack = lamp_scene();
+  expect_as_rays(pack, {kLevel}, {0, 0.1f}, {3.5f, 0.3f});
+  expect_as_rays(pack, {at(kLevel, {0.3f, -0.8f, 0.2f})}, {0.5f, 0}, {2.4f, 1.9f});
+}
+
+TEST_F(FlatShadows, OfOneThatIsHalfBehindTheLampsPlane) {
+  expect_as_rays(lamp_scene(), {at(kUpright, {0.9f, 2, 0})}, {0.5f, 0.2f}, {3.9f, 0.2f});
+}
+
+TEST_F(FlatShadows, OfOneThroughTheFloor) {
+  expect_as_rays(lamp_scene(), {at(kUpright, {0.8f, -2, 0.3f})}, {-0.5f, 0.2f}, {3, 0.2f});
+}
+
+TEST_F(FlatShadows, OfTwoCountOnce) {
+  Pack pack = lamp_scene();
+  pack.movers.push_back(pack.movers[0]);
+  pack.movers[1].name = "second";
+  expect_as_rays(pack, {kLevel, at(kLevel, {0.4f, -1, 0.5f})}, {-2.5f, 0.1f}, {3.5f, 0.3f}, 2);
+}
+
+// A wall that shades half of the floor already: there the mover takes nothing, beside it what the wall lets through.
+TEST_F(FlatShadows, TakeNothingFromWhatTheSceneShades) {
+  Pack pack = lamp_scene();
+  add_quad(pack, {-0.7f, 1, -3}, {0, 0, 6}, {3, 0, 0}, 1, 0);
+  add_quad(pack, {-0.7f, 1, 3}, {0, 0, -6}, {3, 0, 0}, 1, 0);
+  const MoverPose pose = at(kLevel, {-1.6f, -0.5f, 0});
+  FrameOptions options = by_textures();
+  options.poses = {pose};
+  EXPECT_NEAR(lux_at(pack, options, -1.2f, 0.2f), 100, 1e-3f);
+  expect_as_rays(pack, {pose}, {-3.9f, 0.2f}, {-1.4f, 0.2f}, 2);
+}
+
+// A surface whose normals are bent is none for textures: its shadows are those of the maps, bit for bit.
+TEST_F(FlatShadows, OnCurvedSurfacesAreShadowMaps) {
+  Pack pack = lamp_scene();
+  EXPECT_EQ(find_flat_surfaces(pack).planes.size(), 1u);
+  for (std::size_t i = 0; i < pack.mesh.normals.size(); ++i)
+    pack.mesh.normals[i] = glm::normalize(pack.mesh.normals[i] + Vec3(i % 2 == 0 ? 0.1f : -0.1f, 0, 0));
+  EXPECT_TRUE(find_flat_surfaces(pack).planes.empty());
+  EXPECT_EQ(find_flat_surfaces(pack).rest.size(), 1u);
+  FrameOptions options = by_textures();
+  const Camera camera = look_at({3, 1, 3.5f}, {0.2f, -2, 0}, 0.8f);
+  const Picture textures = draw(pack, camera, 48, 32, options);
+  options.mover_shadows = MoverShadows::kMaps;
+  EXPECT_EQ(draw(pack, camera, 48, 32, options).rgb, textures.rgb);
+}
+
+TEST_F(FlatShadows, AreNothingWithoutMovers) {
+  Pack pack = lamp_scene();
+  pack.movers.clear();
+  FrameOptions options = by_textures();
+  const Camera camera = look_at({3, 1, 3.5f}, {0.2f, -2, 0}, 0.8f);
+  const Picture textures = draw(pack, camera, 48, 32, options);
+  options.mover_shadows = MoverShadows::kMaps;
+  EXPECT_EQ(draw(pack, camera, 48, 32, options).rgb, textures.rgb);
+}
+
+TEST_F(FlatShadows, ExtremesStayFinite) {
+  const Pack pack = lamp_scene();
+  const Camera camera = look_at({0, 1, 3}, Vec3(0), 1.0f);
+  for (const Vec3& p : {Vec3(0, 2, 0), Vec3(0, -2, 0), Vec3(0, -3, 0), Vec3(1e4f, 0, 0), Vec3(-4, 0, 4)})
+    for (const float scale : {1e-4f, 1.0f, 1e4f}) {
+      Pack scaled = pack;
+      for (Vec3& v : scaled.movers[0].mesh.positions) v *= scale;
+      FrameOptions options = by_textures();
+      options.poses = {at(kLevel, p)};
+      EXPECT_TRUE(draw(scaled, camera, 8, 8, options).finite()) << scale << " " << p.y;
+    }
+}
+
+}  // namespace
+}  // namespace oriel
