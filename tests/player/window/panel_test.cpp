@@ -8,6 +8,7 @@
 #include <set>
 
 #include "player/session/option_names.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_pack.h"
 
 namespace oriel {
@@ -97,6 +98,8 @@ class Panel {
 };
 
 TEST(Panels, EveryPlaceIsClicked) {
+  const testing::TemporaryFolder folder;  // "keep" writes where the program runs
+  std::filesystem::current_path(folder.path());
   const Pack pack = testing::tiny_mapped_pack();
   ImFontAtlas fonts;
   unsigned char* pixels = nullptr;
