@@ -16,6 +16,16 @@ bool edit_light(const char* color_name, const char* power_name, Vec3& color, flo
   return changed;
 }
 
+// World metres.
+bool move_light(const Scene& scene, LightEdit& edit) {
+  constexpr float kStep_m = 0.01f;
+  Vec3 place = Vec3(scene.origin + DVec3(edit.place));
+  const Vec3 before = place;
+  if (!ImGui::DragFloat3("place, m", &place.x, kStep_m, 0, 0, "%.2f")) return false;
+  edit.place += place - before, edit.moved += place - before;
+  return true;
+}
+
 template <typename Items>
 void choose(const char* label, const Items& items, int& chosen) {
   chosen = std::clamp(chosen, 0, static_cast<int>(items.size()) - 1);
@@ -35,7 +45,10 @@ bool draw_light(const Scene& scene, SceneEdits& edits, int& chosen) {
   const Light& light = scene.lights[static_cast<std::size_t>(chosen)];
   LightEdit edit = edit_of(light);
   const char* power = light.type == LightType::kDirectional ? "lux" : "candela";
-  if (!edit_light("light's colour", power, edit.color, edit.intensity)) return false;
+  if (const auto known = edits.lights.find(light.name); known != edits.lights.end()) edit.moved = known->second.moved;
+  bool changed = edit_light("light's colour", power, edit.color, edit.intensity);
+  if (light.type != LightType::kDirectional) changed |= move_light(scene, edit);
+  if (!changed) return false;
   edits.lights[light.name] = edit;
   return true;
 }

@@ -109,6 +109,8 @@ class PreviewWindow {
     paths_.stop();
     const auto fresh = std::const_pointer_cast<PreviewScene>(news->scene);  // nobody else looks at it
     const SceneEdits originals = edits_of(fresh->scene());
+    const DVec3 shift = again ? scene_->scene().origin - fresh->scene().origin : DVec3(0);
+    follow_places(originals, Vec3(shift), edits_);
     if (!edits_.empty()) ORIEL_TRY_VOID(edit_scene(*fresh, edits_, arguments_.scene.elements, context_));
     if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
@@ -118,8 +120,7 @@ class PreviewWindow {
     status_.error.clear();
     originals_ = originals;
     if (again) {
-      const DVec3 moved = scene_->scene().origin - news->scene->scene().origin;
-      for (Camera* camera : {&camera_, &home_}) camera->eye = Vec3(DVec3(camera->eye) + moved);
+      for (Camera* camera : {&camera_, &home_}) camera->eye = Vec3(DVec3(camera->eye) + shift);
       say(edits_.empty() ? "read again" : "read again; what the panel changed stays");
     } else {
       ORIEL_TRY(camera_, choose_camera(news->scene->scene(), arguments_.camera));

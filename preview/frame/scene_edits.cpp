@@ -1,5 +1,6 @@
 #include "preview/frame/scene_edits.h"
 
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include "bake/import/container.h"
@@ -37,9 +38,55 @@ void write_material(Json& file, std::uint32_t index, const MaterialEdit& edit) {
   }
 }
 
+DMat3 linear_of(const Json& node) {
+  DMat3 out(1);
+  if (const auto matrix = node.find("matrix"); matrix != node.end()) {
+    for (int k = 0; k < 9; ++k) out[k / 3][k % 3] = matrix->at(static_cast<std::size_t>(4 * (k / 3) + k % 3));
+    return out;
+  }
+  const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
+  const auto s = node.value("scale", std::vector<double>{1, 1, 1});
+  out = glm::mat3_cast(glm::dquat(q.at(3), q.at(0), q.at(1), q.at(2)));
+  for (int axis = 0; axis < 3; ++axis) out[axis] *= s.at(static_cast<std::size_t>(axis));
+  return out;
+}
+
+// What turns and scales all below a node's parent; world from there.
+DMat3 world_from_parent(const Json& nodes, std::size_t of) {
+  DMat3 out(1);
+  for (std::size_t steps = 0; steps < nodes.size(); ++steps) {
+    const auto parent = std::find_if(nodes.begin(), nodes.end(), [&](const Json& node) {
+      const Json children = node.value("children", Json::array());
+      return std::find(children.begin(), children.end(), of) != children.end();
+    });
+    if (parent == nodes.end()) break;
+    out = linear_of(*parent) * out;
+    of = static_cast<std::size_t>(parent - nodes.begin());
+  }
+  return out;
+}
+
+// False: its parents have no size.
+bool move_node(Json& nodes, std::size_t index, const Vec3& moved) {
+  const DMat3 linear = world_from_parent(nodes, index);
+  if (!(std::abs(glm::determinant(linear)) > 0)) return false;
+  const DVec3 by = glm::inverse(linear) * DVec3(moved);
+  Json& node = nodes[index];
+  const bool has_matrix = node.contains("matrix");
+  Json& place = has_matrix ? node["matrix"] : node["translation"];
+  if (!place.is_array()) place = {0.0, 0.0, 0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    Json& value = place.at(static_cast<std::size_t>(axis + (has_matrix ? 12 : 0)));
+    value = value.get<double>() + by[axis];
+  }
+  return true;
+}
+
 bool write_light(Json& file, const std::string& name, const LightEdit& edit) {
   bool found = false;
-  for (const Json& node : file.value("nodes", Json::array())) {
+  Json& nodes = file["nodes"];
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Json& node = nodes[n];
     const Json::json_pointer place("/extensions/KHR_lights_punctual/light");
     if (!node.is_object() || !node.contains(place)) continue;
     const auto index = node.at(place).get<std::size_t>();
@@ -49,7 +96,7 @@ bool write_light(Json& file, const std::string& name, const LightEdit& edit) {
     if (own != name) continue;
     light["color"] = numbers(edit.color);
     light["intensity"] = edit.intensity;
-    found = true;
+    found = edit.moved == Vec3(0) || move_node(nodes, n, edit.moved);
   }
   return found;
 }
@@ -77,7 +124,7 @@ MaterialEdit edit_of(const SceneMaterial& m) {
 
 LightEdit edit_of(const Light& light) {
   const float most = std::max(max_component(light.color), 1e-30f);
-  return {light.color / most, max_component(light.intensity)};
+  return {light.color / most, max_component(light.intensity), light.position};
 }
 
 SceneEdits edits_of(const Scene& scene) {
@@ -104,10 +151,21 @@ Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t el
     if (const auto edit = edits.lights.find(light.name); edit != edits.lights.end()) {
       light.color = edit->second.color;
       light.intensity = edit->second.intensity * edit->second.color;
+      light.position = edit->second.place;
     }
   scene.lamps = Lamps(scene.scene());
   scene.lights.emplace(scene.scene());
   return find_elements(scene, elements, context);
+}
+
+void follow_places(const SceneEdits& originals, const Vec3& shift, SceneEdits& edits) {
+  for (auto& [name, edit] : edits.lights) {
+    const auto original = originals.lights.find(name);
+    if (original == originals.lights.end()) continue;
+    const Vec3& there = original->second.place;
+    edit.place = edit.moved == Vec3(0) ? there : edit.place + shift;
+    edit.moved = edit.place - there;
+  }
 }
 
 Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits) {

@@ -18,6 +18,8 @@ struct MaterialEdit {
 struct LightEdit {
   Vec3 color{1};        // linear
   float intensity = 0;  // cd, or lux of a directional one
+  Vec3 place{0};        // scene space; of directional ones it tells nothing
+  Vec3 moved{0};        // to there, from where the file has it: world metres
 };
 
 struct SceneEdits {
@@ -36,8 +38,13 @@ SceneEdits edits_of(const Scene& scene);
 // volumes and all geometry stay. Nobody else may read the scene meanwhile. Error kStopped.
 Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, Context& context);
 
-// A .glb or .gltf with these edits: its JSON alone differs. A light that several nodes share changes with each of them.
-// Error kInvalid where it is no such file, or has not what was edited.
+// Of a file that was saved anew: lights that were moved stay where they are, from where it has them now; others go
+// where it has them. shift: of scene space, from the scene before.
+void follow_places(const SceneEdits& originals, const Vec3& shift, SceneEdits& edits);
+
+// A .glb or .gltf with these edits: its JSON alone differs. A light that several nodes share changes with each of them,
+// but for its place, which is the node's. Error kInvalid where it is no such file, or has not what was edited, or a
+// node whose parents have no size and so cannot be moved.
 Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& name, const SceneEdits& edits);
 
 }  // namespace oriel

@@ -82,6 +82,47 @@ TEST(SceneEdits, LightsByTheirNodesName) {
   EXPECT_FALSE(edited_file(bytes_of_text("no json"), "a.gltf", edits));
 }
 
+// Below a parent that turns by a quarter about +Y and doubles: a metre along +X of the world is half a unit along its
+// +Z.
+TEST(SceneEdits, LightsAreMovedWhereverTheyHang) {
+  test::Gltf g = test::triangle();
+  g.use("KHR_lights_punctual");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10.0}}};
+  const std::size_t parent = g.doc["nodes"].size();
+  g.doc["scenes"][0]["nodes"].push_back(parent);
+  const float half = std::sqrt(0.5f);
+  g.doc["nodes"].push_back({{"rotation", {0, half, 0, half}}, {"scale", {2, 2, 2}}, {"children", {parent + 1}}});
+  g.doc["nodes"].push_back(
+      {{"name", "lamp"}, {"translation", {0, 1, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  test::TempFolder folder;
+  Context context;
+  const auto load = [&](const Bytes& bytes) {
+    EXPECT_TRUE(write_file_atomically(folder.path() / "a.gltf", bytes));
+    return *load_preview_scene({.file = folder.path() / "a.gltf", .import = {}}, context);
+  };
+  const Bytes file = bytes_of_text(g.text());
+  const auto before = load(file);
+  SceneEdits edits;
+  LightEdit& edit = edits.lights["lamp"] = edit_of(before->scene().lights[0]);
+  const Vec3 by(1, -0.5f, 0.25f);
+  edit.place += by, edit.moved += by;
+  const auto edited = edited_file(file, "a.gltf", edits);
+  ASSERT_TRUE(edited) << edited.error().text();
+  const auto after = load(*edited);
+  EXPECT_LT(glm::distance(after->scene().lights[0].position, before->scene().lights[0].position + by), 1e-5f);
+  ASSERT_TRUE(edit_scene(*std::const_pointer_cast<PreviewScene>(before), edits, 32, context));
+  EXPECT_LT(glm::distance(after->scene().lights[0].position, before->scene().lights[0].position), 1e-5f);
+  // The file is saved with the lamp elsewhere: what the panel moved stays where it is, what it coloured goes along.
+  SceneEdits originals = edits_of(after->scene()), coloured = edits;
+  originals.lights["lamp"].place += Vec3(0, 3, 0);
+  coloured.lights["lamp"].moved = Vec3(0);
+  follow_places(originals, Vec3(0), edits), follow_places(originals, Vec3(0), coloured);
+  EXPECT_LT(glm::distance(edits.lights["lamp"].moved, Vec3(0, -3, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(coloured.lights["lamp"].place, originals.lights["lamp"].place), 1e-5f);
+  g.doc["nodes"][parent]["scale"] = {0, 0, 0};
+  EXPECT_FALSE(edited_file(bytes_of_text(g.text()), "a.gltf", edits));
+}
+
 bool wait_for(BackgroundBake& bake) {
   for (int i = 0; i < 500; ++i) {
     if (bake.ended_well()) return true;
