@@ -87,14 +87,16 @@ class Groups {
   }
 
   bool is_hour(const std::string& name) const {
-    return std::ranges::any_of(scene_.day.hours,
+    if (scene_.day.hours.empty()) return false;
+    return name == "day" || name == "hour" ||  // as the player calls all of them, and the time that it shows
+           std::ranges::any_of(scene_.day.hours,
                                [&](const DayHour& hour) { return name == "day " + clock_text(hour.hour); });
   }
 
   Status by_names(const LightGroupOptions& options) {
     for (const auto& [name, patterns] : options.named) {
       if (is_hour(name))
-        return fail(ErrorCode::kUsage, options.file, "found the group \"{}\", expected another name: that is an hour's",
+        return fail(ErrorCode::kUsage, options.file, "found the group \"{}\", expected another name: that is the day's",
                     name);
       const std::uint32_t number = group(name);
       for (const std::string& pattern : patterns) {

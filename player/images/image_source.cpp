@@ -241,6 +241,14 @@ Result<LightmapPage> ImageSource::whole_page(std::uint32_t page) const {
 }
 
 Result<LightmapPage> ImageSource::lit_page(std::uint32_t page, std::uint64_t& lights) const {
+  try {
+    return make_lit_page(page, lights);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kRuntime, "images", "there is not enough memory for a page of light");
+  }
+}
+
+Result<LightmapPage> ImageSource::make_lit_page(std::uint32_t page, std::uint64_t& lights) const {
   const Otherwise of = otherwise(page, lights);
   ORIEL_TRY(LightmapPage out, whole_page(page));
   if (!of.groups && !of.change) return out;

@@ -84,6 +84,7 @@ class ImageSource {
     const PageChange* change = nullptr;  // null: nothing is added
   };
   Otherwise otherwise(std::uint32_t page, std::uint64_t& lights) const;
+  Result<LightmapPage> make_lit_page(std::uint32_t page, std::uint64_t& lights) const;
   Result<HalfPage> light_of_page(std::uint32_t page, const Otherwise& of) const;
   Result<std::shared_ptr<const HalfPage>> baked_page(std::uint32_t page) const;
   Result<PreparedImage> make_maps(std::uint32_t reflector, int coarser) const;

@@ -132,7 +132,9 @@ PlaneRect shadow_rect(const FlatPlane& plane, const BrightLight& light, std::spa
   if (within.empty() || !(top < 0.999 * low)) return within;
   PlaneRect rect{DVec2(1e300), DVec2(-1e300)};
   for (const DVec3& p : corners)
-    for (const DVec3& a : apexes) extend(rect, p.z > 0 ? seen_at(a, p) : DVec2(p));
+    for (const DVec3& a : apexes)
+      if (p.z > 0) extend(rect, seen_at(a, p));
+  if (const PlaneRect through = cut_by(plane, box); !through.empty()) rect = around(rect, through);
   return common(rect, within);
 }
 
@@ -177,7 +179,7 @@ bool PatchPainter::takes_in(const IVec2& tile) const {
 }
 
 void PatchPainter::leave(const StillTile& tile, const IVec2& at) {
-  if (tile.empty()) return;
+  if (tile.size() != static_cast<std::size_t>(taken_.samples()) * kTile) return;  // empty, or of other samples
   const std::uint32_t* bits = tile.data();
   for (int s = 0; s < taken_.samples(); ++s)
     for (int row = kTile * at.y; row < kTile * (at.y + 1); ++row) taken_.word(s, at.x, row) &= ~*bits++;
@@ -197,7 +199,8 @@ void PatchPainter::find_still(const Occluders& still, const ShadowLight& light, 
   part.corner += part.x * static_cast<double>(kTile * lower.x) + part.y * static_cast<double>(kTile * lower.y);
   part.width = kTile * (upper.x - lower.x), part.height = kTile * (upper.y - lower.y);
   const OccluderView view = shadows_.view(still, part, light);
-  const bool blocks = !view.faces.empty() || !view.beside_light.empty();
+  // A sample as high as rounding tells may be before one receiver and not before the other: that patch goes without.
+  const bool blocks = view.apex_of == lamp_.apex_of && (!view.faces.empty() || !view.beside_light.empty());
   const BlockedRows* rows = blocks ? &shadows_.block(view, part) : nullptr;
   for (const IVec2& at : missing) {
     auto tile = std::make_shared<StillTile>();

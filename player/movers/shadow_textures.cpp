@@ -8,7 +8,8 @@
 namespace oriel {
 namespace {
 
-constexpr int kAtlasSide = 1024;
+// However coarse, a patch is at most two by two tiles: so many find room.
+constexpr int kAtlasSide = 1024, kMostPatches = (kAtlasSide / (2 * kTile)) * (kAtlasSide / (2 * kTile));
 // Samples of a light for patches of more than that share of the picture; for others, and while frames are coarse.
 constexpr double kLargeShare = 0.02;
 constexpr int kSamples = 64, kFewSamples = 16;
@@ -35,7 +36,10 @@ double pixel_at(const View& view, const std::array<Vec3, 4>& corners) {
   const Mat4 rows = glm::transpose(view.clip_from_pack);
   const float scale = glm::length(Vec3(rows[1])) * static_cast<float>(view.height) / 2;
   float least = 1e30f;
-  for (const Vec3& c : corners) least = std::min(least, std::max((view.clip_from_pack * Vec4(c, 1)).w, view.near));
+  for (const Vec3& c : corners) {
+    const float w = (view.clip_from_pack * Vec4(c, 1)).w;
+    least = std::min(least, view.orthographic ? 1.0f : std::max(w, view.near));
+  }
   return static_cast<double>(least / scale);
 }
 
@@ -129,6 +133,7 @@ void ShadowTextures::plan(const GpuScene& scene, const View& view, LitMovers& li
   for (LitMovers::Caster& caster : lit.casters) {
     if (!caster.on_scene) continue;
     const std::array<Vec3, 8> box = box_around(*caster.mover);
+    std::vector<ShadowPatch> patches;
     for (std::size_t p = 0; p < flat_.planes.size(); ++p) {
       const FlatPlane& plane = flat_.planes[p];
       const PlaneRect shade = shadow_rect(plane, light, box, caster.box);
@@ -141,8 +146,10 @@ void ShadowTextures::plan(const GpuScene& scene, const View& view, LitMovers& li
         if (may_be_visible(frustum, bounds)) seen = around(seen, part);
       }
       if (seen.empty()) continue;
-      patches_.push_back({lit.light, p, {{&movers_[caster.index], DMat4(caster.mover->pack_from_object), seen}}, seen});
+      patches.push_back({lit.light, p, {{&movers_[caster.index], DMat4(caster.mover->pack_from_object), seen}}, seen});
     }
+    if (patches_.size() + patches.size() > std::size_t{kMostPatches}) continue;  // it keeps its maps
+    patches_.insert(patches_.end(), patches.begin(), patches.end());
     const Bounds below = rest_below(caster, lit, frustum);
     caster.on_scene = !below.empty();
     caster.scene_box = corners_of(below);

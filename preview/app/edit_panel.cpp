@@ -47,7 +47,7 @@ bool draw_light(const Scene& scene, SceneEdits& edits, int& chosen) {
   const char* power = light.type == LightType::kDirectional ? "lux" : "candela";
   if (const auto known = edits.lights.find(light.name); known != edits.lights.end()) edit.moved = known->second.moved;
   bool changed = edit_light("light's colour", power, edit.color, edit.intensity);
-  if (light.type != LightType::kDirectional) changed |= move_light(scene, edit);
+  if (light.type != LightType::kDirectional && is_alone(scene, light.name)) changed |= move_light(scene, edit);
   if (!changed) return false;
   edits.lights[light.name] = edit;
   return true;

@@ -110,15 +110,16 @@ class PreviewWindow {
     const auto fresh = std::const_pointer_cast<PreviewScene>(news->scene);  // nobody else looks at it
     const SceneEdits originals = edits_of(fresh->scene());
     const DVec3 shift = again ? scene_->scene().origin - fresh->scene().origin : DVec3(0);
-    follow_places(originals, Vec3(shift), edits_);
-    if (!edits_.empty()) ORIEL_TRY_VOID(edit_scene(*fresh, edits_, arguments_.scene.elements, context_));
+    SceneEdits edits = edits_;
+    follow_places(originals, Vec3(shift), edits);
+    if (!edits.empty()) ORIEL_TRY_VOID(edit_scene(*fresh, edits, arguments_.scene.elements, context_));
     if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
       return {};
     }
     status_.error.clear();
-    originals_ = originals;
+    originals_ = originals, edits_ = std::move(edits);
     if (again) {
       for (Camera* camera : {&camera_, &home_}) camera->eye = Vec3(DVec3(camera->eye) + shift);
       say(edits_.empty() ? "read again" : "read again; what the panel changed stays");
@@ -255,7 +256,7 @@ class PreviewWindow {
   }
 
   // A scene that is being read may have the processors, unless one moves or sees nothing yet.
-  bool gives_way() const { return live_.reading() && !moving_ && !fresh_; }
+  bool gives_way() const { return live_.reading() && !moving_ && !fresh_ && renderer_.passes() > 0; }
 
   // False where it was left for a scene that is being read.
   Result<bool> draw_pass() {

@@ -1,5 +1,6 @@
 #include "preview/frame/scene_edits.h"
 
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
@@ -118,6 +119,10 @@ Bytes with_json(std::span<const std::byte> glb, std::span<const std::byte> old_j
 
 }  // namespace
 
+bool is_alone(const Scene& scene, const std::string& light) {
+  return std::ranges::count(scene.lights, light, &Light::name) == 1;
+}
+
 MaterialEdit edit_of(const SceneMaterial& m) {
   return {m.base_color, m.roughness, m.emission};
 }
@@ -151,7 +156,7 @@ Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t el
     if (const auto edit = edits.lights.find(light.name); edit != edits.lights.end()) {
       light.color = edit->second.color;
       light.intensity = edit->second.intensity * edit->second.color;
-      light.position = edit->second.place;
+      if (is_alone(scene.scene(), light.name)) light.position = edit->second.place;
     }
   scene.lamps = Lamps(scene.scene());
   scene.lights.emplace(scene.scene());
@@ -181,7 +186,7 @@ Result<Bytes> edited_file(std::span<const std::byte> file, const std::string& na
     for (const auto& [light, edit] : edits.lights)
       if (!write_light(json, light, edit))
         return invalid(name, "found no node or light \"{}\", expected the one that was changed", light);
-  } catch (const Json::exception& error) {
+  } catch (const std::exception& error) {
     return invalid(name, "found JSON that is no glTF: {}", error.what());
   }
   if (!parts.binary && file.data() == parts.json.data()) return bytes_of_text(json.dump(2) + "\n");

@@ -28,6 +28,9 @@ struct SceneEdits {
   bool empty() const { return materials.empty() && lights.empty(); }
 };
 
+// Whether no other light has that name: else edits of it are edits of all, and nobody can say which is moved.
+bool is_alone(const Scene& scene, const std::string& light);
+
 // What a scene has now, to begin with.
 MaterialEdit edit_of(const SceneMaterial& material);
 LightEdit edit_of(const Light& light);

@@ -1,6 +1,7 @@
 // Shadows of movers on flat surfaces beside rays, by soft-shadow textures.
 #include "formats/query/mover_pose.h"
 #include "player/movers/flat_surfaces.h"
+#include "player/movers/shadow_patch.h"
 #include "tests/player/mover_fixture.h"
 
 namespace oriel {
@@ -174,6 +175,25 @@ TEST_F(FlatShadows, ExtremesStayFinite) {
       options.poses = {at(kLevel, p)};
       EXPECT_TRUE(draw(scaled, camera, 8, 8, options).finite()) << scale << " " << p.y;
     }
+}
+
+// A stick goes through the floor at a slant, towards a lamp at its side. Its shadow begins where it goes through.
+TEST(ShadowRects, OfAStickThatGoesThroughAtASlantBeginWhereItDoes) {
+  FlatPlane floor;
+  floor.x = {1, 0, 0}, floor.y = {0, 0, -1}, floor.normal = {0, 1, 0};
+  BrightLight lamp;
+  lamp.corners = {{-10, 2, -0.1f}, {-9.9f, 2, -0.1f}, {-9.9f, 2, 0.1f}};
+  std::array<Vec3, 8> stick, shaft;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 side(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    const Vec3 p(side.x, 0.01f * side.y, 0.1f * side.z);  // then turned from (1, 0) to (-1, 1)
+    stick[i] = std::sqrt(0.5f) * Vec3(-p.x - p.y, p.x - p.y, 0) + Vec3(0, 0, p.z);
+    shaft[i] = 20.0f * side;
+  }
+  const PlaneRect rect = shadow_rect(floor, lamp, stick, shaft);
+  ASSERT_FALSE(rect.empty());
+  EXPECT_LE(rect.lower.x, -0.01);
+  EXPECT_GE(rect.upper.x, 0.01);
 }
 
 }  // namespace

@@ -123,6 +123,33 @@ TEST(SceneEdits, LightsAreMovedWhereverTheyHang) {
   EXPECT_FALSE(edited_file(bytes_of_text(g.text()), "a.gltf", edits));
 }
 
+// Two nodes without a name share a light: a colour is of both, a place of neither.
+TEST(SceneEdits, LightsOfOneNameStayWhereTheyAre) {
+  test::Gltf g = test::triangle();
+  g.use("KHR_lights_punctual");
+  g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10.0}}};
+  for (const double x : {1.0, 2.0}) {
+    g.doc["scenes"][0]["nodes"].push_back(g.doc["nodes"].size());
+    g.doc["nodes"].push_back({{"translation", {x, 0, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  }
+  test::TempFolder folder;
+  Context context;
+  ASSERT_TRUE(write_file_atomically(folder.path() / "a.gltf", bytes_of_text(g.text())));
+  const auto scene = *load_preview_scene({.file = folder.path() / "a.gltf", .import = {}}, context);
+  const auto places = [&] { return std::array{scene->scene().lights[0].position, scene->scene().lights[1].position}; };
+  const auto before = places();
+  ASSERT_NE(before[0], before[1]);
+  EXPECT_FALSE(is_alone(scene->scene(), scene->scene().lights[0].name));
+  SceneEdits edits, originals = edits_of(scene->scene());
+  LightEdit edit = edit_of(scene->scene().lights[0]);
+  edit.color = Vec3(1, 0, 0);
+  edits.lights[scene->scene().lights[0].name] = edit;
+  for (const SceneEdits* each : {&edits, &originals}) {
+    ASSERT_TRUE(edit_scene(*std::const_pointer_cast<PreviewScene>(scene), *each, 32, context));
+    EXPECT_EQ(places(), before);
+  }
+}
+
 bool wait_for(BackgroundBake& bake) {
   for (int i = 0; i < 500; ++i) {
     if (bake.ended_well()) return true;

@@ -68,7 +68,7 @@ export function setLights(groups: LightGroup[], changes: string[], settings: Set
     const divides = change.lastIndexOf('='), name = change.slice(0, divides);
     if (day && name === 'hour' && groups.every((g) => g.name !== name)) setHour(day, Number(change.slice(divides + 1)), settings);
     groups.forEach((g, i) => {
-      const meant = name === '*' || name === g.name || (name === 'day' && settings[i]!.hour !== undefined);
+      const meant = name === '*' || (settings[i]!.hour === undefined ? name === g.name : name === 'day');
       if (divides > 0 && meant) change.slice(divides + 1).split(/\s+/).forEach((v) => takeValue(v, settings[i]!));
     });
   }

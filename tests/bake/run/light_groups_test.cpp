@@ -72,7 +72,7 @@ TEST(LightGroups, HaveNamesOfTheirOwnBesideHours) {
       assign_light_groups({LightGrouping::kNamed, "groups.json", {{"day 12:00", {"panel*"}}}}, named, context);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().text(),
-            "groups.json: found the group \"day 12:00\", expected another name: that is an hour's");
+            "groups.json: found the group \"day 12:00\", expected another name: that is the day's");
   marked.surfaces[3].group_mark = "day 12:00";
   ASSERT_TRUE(assign_light_groups({}, marked, context));
   EXPECT_EQ(names(marked), (Names{"day 12:00", "day 12:00 lamp", kOtherLamps}));

@@ -70,7 +70,7 @@ def start(program, file):
 
 def main():
     program, scene = sys.argv[1], pathlib.Path(sys.argv[2])
-    change = change_colours if sys.argv[4:] == ["colours"] else move_lamps
+    change = {"lamps": move_lamps, "colours": change_colours}[sys.argv[4] if len(sys.argv) > 4 else "lamps"]
     edits = max(20, int(sys.argv[3])) if len(sys.argv) > 3 else 100
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / scene.name
