@@ -51,7 +51,7 @@ bool draw_panel(const PreviewStatus& s, PreviewOptions& o) {
     o.samples = static_cast<std::uint32_t>(std::max(samples, 1));
     changed = true;
   }
-  changed |= ImGui::Checkbox("one bounce", &o.bounce);
+  changed |= ImGui::Checkbox("reflected light", &o.bounce);
   changed |= ImGui::Checkbox("emission", &o.emission);
   changed |= ImGui::Checkbox("traced reflections", &o.traced);
   changed |= ImGui::SliderFloat("up to roughness", &o.glossy, 0, 1);
