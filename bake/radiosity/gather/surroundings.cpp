@@ -58,7 +58,7 @@ void Surroundings::answer(std::span<const Ray> rays, std::span<const GatherRay> 
     if (kind == Kind::kMatt && !hit.front) continue;  // texels hold the light of fronts
     if (hit.front) answers.places[i] = texels_.place(hit.triangle, hit.barycentric);
     const std::uint32_t texel = answers.places[i].texel;
-    if (kind == Kind::kOther || answers.places[i].in_lit_gap || is_near(about[i], hit.distance, texel) ||
+    if (kind == Kind::kOther || answers.places[i].is_untold() || is_near(about[i], hit.distance, texel) ||
         (kind == Kind::kLayered && texel == kNoTexel)) {
       follow(rays[i], about[i], hit, i, answers);
       continue;
@@ -98,8 +98,9 @@ void Surroundings::look_through_layers(const Ray& ray, const GatherRay& about, c
 
 std::optional<float> Surroundings::link_to(const GatherRay& about, const DiffuseVertex& v, std::uint32_t number,
                                            Answers& answers) const {
-  const auto [texel, in_lit_gap, on] = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
-  if (in_lit_gap || is_near(about, v.distance, texel)) return std::nullopt;
+  const Texels::Place place = v.front ? texels_.place(v.triangle, v.barycentric) : Texels::Place();
+  const std::uint32_t texel = place.texel;
+  if (place.is_untold() || is_near(about, v.distance, texel)) return std::nullopt;
   if (texel != kNoTexel) answers.links.push_back({number, texel, v.weight});
   return survival_of(v.triangle);
 }

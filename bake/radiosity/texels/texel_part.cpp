@@ -167,6 +167,12 @@ bool TexelPart::holds(std::uint32_t triangle, const Vec2& barycentric, std::uint
   return std::any_of(anchors_.begin(), anchors_.end(), [&](const Vec3& a) { return is_free(a, point, rays); });
 }
 
+bool TexelPart::is_beside(const Vec3& site, std::uint32_t triangle, const Vec2& barycentric,
+                          std::uint64_t& rays) const {
+  const SurfacePoint on = point_on_side(accel_.scene(), triangle, barycentric);
+  return is_free(site + lift_ * on.geometric_normal, lifted(on), rays);
+}
+
 Vec3 TexelPart::lifted(const SurfacePoint& point) const {
   return point.position + lift_ * point.geometric_normal;
 }

@@ -37,13 +37,15 @@ class TexelPart {
   explicit TexelPart(const Accel& accel) : accel_(accel) {}
 
   bool whole() const { return anchors_.empty() && gap_m_ == 0; }
-  // Of a point that it does not hold: the texel beside, in texels of the page; none where a wall parts it.
+  // Of a point that it does not hold: the texel that lies under the lamp, in texels of the page.
   bool has_lamp() const { return gap_m_ > 0; }
   IVec2 towards_lamp() const { return towards_lamp_; }
   // Other bodies lie on all of the texel that is not inside them: cracks between things, the wall behind a picture.
   bool covered() const { return covered_; }
   // For points of the texel that are not buried.
   bool holds(std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const;
+  // Whether nothing stands between a site of a texel beside and such a point.
+  bool is_beside(const Vec3& site, std::uint32_t triangle, const Vec2& barycentric, std::uint64_t& rays) const;
 
  private:
   friend void fields(Archive& archive, TexelPart& part) {

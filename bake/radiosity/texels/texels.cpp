@@ -166,7 +166,8 @@ Texels::Place Texels::place(std::uint32_t triangle, const Vec2& b) const {
     if (!is_cut[texel]) return {texel, false, texel};
     const TexelPart& part = cut.at(texel);
     if (part.holds(triangle, b, rays)) return {texel, false, texel};
-    return {across(texel, part, p), part.has_lamp(), texel};
+    if (part.has_lamp()) return {under_lamp(texel), true, texel};
+    return {across_wall(texel, triangle, b, p), false, texel};
   }
   // Rounding may put a point on a border just beyond the texels that the border covers.
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
@@ -191,15 +192,23 @@ bool Texels::parts(std::uint32_t triangle, const Vec2& b) const {
   return texel != kNoTexel && is_cut[texel] && !cut.at(texel).holds(triangle, b, rays);
 }
 
-// Under the lamp, or across the border next to p, in texels of the page; the texel itself where none lies there.
-std::uint32_t Texels::across(std::uint32_t texel, const TexelPart& part, const Vec2& p) const {
+std::uint32_t Texels::beside(std::uint32_t texel, const IVec2& step) const {
+  const std::uint32_t found = at(page[texel], static_cast<int>(x[texel]) + step.x, static_cast<int>(y[texel]) + step.y);
+  return found != kNoTexel && chart[found] == chart[texel] ? found : texel;
+}
+
+// The texel across the border next to p, in texels of the page, if it speaks of this side of the wall. The end of a
+// board that reaches through a wall is one texel, which has the daylight: no ray indoors may find that.
+std::uint32_t Texels::across_wall(std::uint32_t texel, std::uint32_t triangle, const Vec2& barycentric,
+                                  const Vec2& p) const {
   const Vec2 off = p - Vec2(x[texel], y[texel]) - 0.5f;
   const bool level = std::abs(off.x) > std::abs(off.y);
-  IVec2 step(level ? (off.x > 0 ? 1 : -1) : 0, level ? 0 : (off.y > 0 ? 1 : -1));
-  if (part.has_lamp()) step = part.towards_lamp();
-  const std::uint32_t beside =
-      at(page[texel], static_cast<int>(x[texel]) + step.x, static_cast<int>(y[texel]) + step.y);
-  return beside != kNoTexel && chart[beside] == chart[texel] ? beside : texel;
+  const std::uint32_t found = beside(texel, IVec2(level ? (off.x > 0 ? 1 : -1) : 0, level ? 0 : (off.y > 0 ? 1 : -1)));
+  if (found == texel || visible[found] == 0) return kNoTexel;
+  std::uint64_t rays = 0;
+  const bool speaks = is_cut[found] ? cut.at(found).holds(triangle, barycentric, rays)
+                                    : cut.at(texel).is_beside(site[found][0].origin, triangle, barycentric, rays);
+  return speaks ? found : kNoTexel;
 }
 
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i) {

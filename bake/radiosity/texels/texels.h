@@ -78,7 +78,7 @@ struct Texels {
   std::vector<char> is_cut;                          // whether it is in `cut`
 
   // The texel under a point of a triangle, or the one beside it where a wall or a lamp parts it from the point;
-  // kNoTexel where it takes no lightmap.
+  // kNoTexel where it takes no lightmap, and where a wall parts that one from it too.
   std::uint32_t find(std::uint32_t triangle, const Vec2& barycentric) const {
     return place(triangle, barycentric).texel;
   }
@@ -88,10 +88,13 @@ struct Texels {
     std::uint32_t texel = kNoTexel;
     bool in_lit_gap = false;
     std::uint32_t lies_on = kNoTexel;  // whatever parts it
+
+    // Whether only the point itself tells its light: it has a texel, and no texel speaks of it.
+    bool is_untold() const { return in_lit_gap || (texel == kNoTexel && lies_on != kNoTexel); }
   };
   Place place(std::uint32_t triangle, const Vec2& barycentric) const;
   // The texel that tells of what lies under a lamp on a texel that has_lamp().
-  std::uint32_t under_lamp(std::uint32_t texel) const { return across(texel, cut.at(texel), Vec2(0)); }
+  std::uint32_t under_lamp(std::uint32_t texel) const { return beside(texel, cut.at(texel).towards_lamp()); }
   // How large a square metre of a triangle is on its page, in texels; 0 where it has no area or no page.
   float texels2_per_m2(const Scene& scene, std::uint32_t triangle) const;
   // Whether a wall parts that point from the texel on which it lies.
@@ -113,7 +116,8 @@ struct Texels {
   std::vector<Placement> placement;
 
  private:
-  std::uint32_t across(std::uint32_t texel, const TexelPart& part, const Vec2& p) const;
+  std::uint32_t beside(std::uint32_t texel, const IVec2& step) const;  // of its chart; itself where none lies there
+  std::uint32_t across_wall(std::uint32_t texel, std::uint32_t triangle, const Vec2& barycentric, const Vec2& p) const;
 };
 
 struct TexelUse {

@@ -180,6 +180,27 @@ TEST_P(Leaks, RoomThatIsSeenFromOutsideAlone) {
   EXPECT_LT(leaked_share(b, inside), 0.001);
 }
 
+// Boards reach through the wall of a closed room, by less than a texel; from outside, where all eyes are, their ends
+// are seen in the daylight.
+TEST_P(Leaks, BoardsThatReachThroughTheWall) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.7f));
+  parts.box("room", white, {-1, 0, -1}, {1, 2, 1}, true);
+  parts.box("shell", white, {-1.005f, -0.005f, -1.005f}, {1.005f, 2.005f, 1.005f});
+  for (int i = 0; i < 4; ++i) {
+    const float y = 0.33f + 0.4f * static_cast<float>(i);
+    parts.box("board", white, {-1.03f, y, -0.57f}, {-0.77f, y + 0.02f, 0.57f});
+  }
+  parts.scene().sky = Vec3(100);
+  RadiosityOptions options = test::cached_options(0.05);
+  if (GetParam() == Estimator::kReference) options = {.samples = 64};
+  for (int i = 0; i < 8; ++i)
+    options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
+  const Baked b = test::bake(parts.finish(), kTexel, options);
+  const auto inside = [](const Surface& surface, const SurfacePoint&) { return surface.name == "room"; };
+  EXPECT_LT(leaked_share(b, inside), 1e-4);
+}
+
 INSTANTIATE_TEST_SUITE_P(Estimators, Leaks, testing::Values(Estimator::kReference, Estimator::kCached),
                          [](const auto& test) { return test.param == Estimator::kReference ? "Reference" : "Cached"; });
 
