@@ -17,6 +17,7 @@ constexpr unsigned kTransmittingMask = 2;
 constexpr unsigned kSolidMask = 4;  // solid glass
 constexpr unsigned kAnyMask = kOpaqueMask | kTransmittingMask | kSolidMask;
 constexpr int kPacket = 16;      // rays that Embree traces together
+constexpr float kMoved = 32 * 0x1p-24f;  // of a point's largest coordinate: how far rays start off it
 constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ray: beyond it, it is taken as blocked
 
 // Triangles of one kind (opaque, letting some light through, solid glass) as one Embree geometry.
@@ -121,8 +122,13 @@ struct Accel::Impl {
       hit.barycentric = {barycentric.y, barycentric.x};  // its second and third vertex are swapped
       hit.front = true;
     }
-    return hit;
+    return hit.front || geometry != 0 ? hit : front_in_its_place(hit, direction);
   }
+
+  // Walls and roofs are often drawn as two sheets in one place, each with its front to its own side. Which of them a ray
+  // meets first is a matter of rounding: it is the one whose front it meets. Sheets are in one place where rays that
+  // leave one start beyond the other.
+  Hit front_in_its_place(const Hit& back, const Vec3& direction) const;
 
   // Lane i of Embree's packet. Rays that are not traceable get an interval that holds nothing.
   void load(RTCRay16& packet, int i, const Ray& ray, unsigned mask) const {
@@ -267,6 +273,45 @@ Vec3 Accel::transmittance_of_all(std::span<const Ray> legs, std::uint64_t& rays)
   return passed;
 }
 
+Hit Accel::Impl::front_in_its_place(const Hit& back, const Vec3& direction) const {
+  const auto is_one_sided = [&](std::uint32_t t) {
+    return !scene->materials[scene->surfaces[scene->triangle_surface[t]].material].double_sided;
+  };
+  if (!is_one_sided(back.triangle)) return back;
+  struct Search {
+    const Impl& accel;
+    DVec3 point, direction;
+    double reach;
+    Hit found;
+  };
+  const Vec3 point = point_on(*scene, back.triangle, back.barycentric);
+  Search search{*this, DVec3(point), DVec3(direction), 2.0 * kMoved * max_component(glm::abs(point)), {}};
+  RTCPointQuery query{point.x * scale, point.y * scale, point.z * scale, 0, static_cast<float>(search.reach) * scale};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto look = [](RTCPointQueryFunctionArguments* about) {
+    auto& [accel, p, d, reach, found] = *static_cast<Search*>(about->userPtr);
+    const Group& group = accel.shape->groups[about->geomID];
+    const std::uint32_t t = group.triangle.empty() ? about->primID : group.triangle[about->primID];
+    if (about->geomID != 0 || t >= found.triangle) return false;
+    const UVec3& corners = accel.scene->triangles[t];
+    const DVec3 a(accel.scene->positions[corners.x]), u = DVec3(accel.scene->positions[corners.y]) - a,
+                v = DVec3(accel.scene->positions[corners.z]) - a, normal = glm::cross(u, v);
+    const double area2 = glm::dot(normal, normal);
+    if (!(area2 > 0) || glm::dot(normal, d) >= 0) return false;
+    if (std::abs(glm::dot(p - a, normal)) > reach * std::sqrt(area2)) return false;
+    const double y = glm::dot(glm::cross(p - a, v), normal) / area2, z = glm::dot(glm::cross(u, p - a), normal) / area2;
+    if (y < 0 || z < 0 || y + z > 1) return false;
+    found.triangle = t;
+    found.barycentric = Vec2(DVec2(y, z));
+    return false;  // the reach is what it was
+  };
+  rtcPointQuery(rtc_scene, &query, &context, look, &search);
+  if (!search.found) return back;
+  search.found.distance = back.distance;
+  return search.found;
+}
+
 Vec3 Accel::Impl::through_layers(Ray ray) const {
   const unsigned mask = ray.past_solids ? kTransmittingMask | kSolidMask : kTransmittingMask;
   StraightGlass glass;
@@ -313,7 +358,7 @@ Vec3 point_on(const Scene& scene, std::uint32_t triangle, const Vec2& barycentri
 Vec3 offset_origin(const Vec3& p, const Vec3& side, float magnitude) {
   // Interpolating three vertices errs by a few units in the last place of their largest coordinate, Embree's robust
   // intersector by a few more; 32 covers both (measured: no self-intersection in tests/bake/trace).
-  return p + side * (magnitude * (32 * 0x1p-24f));
+  return p + side * (magnitude * kMoved);
 }
 
 Vec3 spawn_origin(const Scene& scene, std::uint32_t triangle, const Vec2& barycentric, const Vec3& direction) {

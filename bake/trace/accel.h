@@ -33,7 +33,8 @@ struct AccelOptions {
   int threads = 0;            // that build the hierarchy; 0: all
 };
 
-// A triangle and its twin (Scene::twin) are one to rays, which meet the front of one or of the other.
+// A triangle and its twin (Scene::twin) are one to rays, which meet the front of one or of the other. So are one-sided
+// opaque surfaces that lie in one place, back to back.
 //
 // Immutable once built; queries may run from any thread. Holds a reference to the scene, which must outlive it.
 // Rays that are not finite are answered as misses (Debian's Embree would abort on them).

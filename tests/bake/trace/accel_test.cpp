@@ -31,6 +31,38 @@ TEST(Accel, HitsAQuadWhereGeometrySays) {
   EXPECT_EQ(accel.transmittance({{0, 1, 0}, {0, -1, 0}, 1.5f}), Vec3(0));
 }
 
+// A roof and a ceiling in one plane, of other triangles, as float files bring them: rays meet the front of one of the
+// two wherever they come from, and a single sheet's back stays a back.
+TEST(Accel, MeetsTheFrontOfSheetsBackToBack) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.5f));
+  const auto at = [](float x, float z) { return Vec3(x, 3.1f + 0.137f * x, z); };
+  parts.quad("roof", white, at(-4, 4), at(5, 4) - at(-4, 4), {0, 0, -9});
+  parts.quad("ceiling", white, at(-3, -3), at(4, -3) - at(-3, -3), {0, 0, 6.5f});
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  std::vector<Ray> rays;
+  for (std::uint32_t k = 0; k < 4096; ++k) {
+    Sampler sampler(7, 0, k);
+    const Vec2 u = sampler.next2(), v = sampler.next2();
+    const float side = k % 2 == 0 ? 1.0f : -1.0f;
+    const Vec3 from(8 * u.x - 3.5f, 3.1f + side * (2 + 3 * u.y), 8 * v.x - 3.5f), to = at(6.9f * v.y - 2.95f, 0.1f);
+    rays.push_back({from, glm::normalize(to - from)});
+  }
+  std::vector<Hit> hits(rays.size());
+  accel.intersect(rays, hits);
+  for (std::uint32_t k = 0; k < rays.size(); ++k) {
+    ASSERT_TRUE(hits[k] && hits[k].front) << k;
+    EXPECT_EQ(scene.surfaces[scene.triangle_surface[hits[k].triangle]].name, k % 2 == 0 ? "roof" : "ceiling") << k;
+    const Hit alone = accel.intersect(rays[k]);
+    EXPECT_EQ(alone.triangle, hits[k].triangle);
+    const Vec3 met = rays[k].origin + hits[k].distance * rays[k].direction;
+    EXPECT_LT(glm::distance(point_on(scene, hits[k].triangle, hits[k].barycentric), met), 1e-5f);
+  }
+  const Hit roof_alone = accel.intersect({{4.5f, 0, 0}, {0, 1, 0}});
+  EXPECT_TRUE(roof_alone && !roof_alone.front);
+}
+
 TEST(Accel, AnswersImpossibleRaysAsMisses) {
   SceneParts parts;
   parts.box("box", parts.diffuse(Vec3(0.5f)), Vec3(-1), Vec3(1));
