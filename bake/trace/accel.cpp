@@ -16,7 +16,7 @@ constexpr unsigned kOpaqueMask = 1;
 constexpr unsigned kTransmittingMask = 2;
 constexpr unsigned kSolidMask = 4;  // solid glass
 constexpr unsigned kAnyMask = kOpaqueMask | kTransmittingMask | kSolidMask;
-constexpr int kPacket = 16;      // rays that Embree traces together
+constexpr int kPacket = 16;              // rays that Embree traces together
 constexpr float kMoved = 32 * 0x1p-24f;  // of a point's largest coordinate: how far rays start off it
 constexpr int kMaxLayers = 256;  // of transmitting surfaces along one shadow ray: beyond it, it is taken as blocked
 
@@ -125,9 +125,9 @@ struct Accel::Impl {
     return hit.front || geometry != 0 ? hit : front_in_its_place(hit, direction);
   }
 
-  // Walls and roofs are often drawn as two sheets in one place, each with its front to its own side. Which of them a ray
-  // meets first is a matter of rounding: it is the one whose front it meets. Sheets are in one place where rays that
-  // leave one start beyond the other.
+  // Walls and roofs are often drawn as two sheets in one place, each with its front to its own side. Which of them a
+  // ray meets first is a matter of rounding: it is the one whose front it meets. Sheets are in one place where rays
+  // that leave one start beyond the other.
   Hit front_in_its_place(const Hit& back, const Vec3& direction) const;
 
   // Lane i of Embree's packet. Rays that are not traceable get an interval that holds nothing.
@@ -296,7 +296,8 @@ Hit Accel::Impl::front_in_its_place(const Hit& back, const Vec3& direction) cons
     if (about->geomID != 0 || t >= found.triangle) return false;
     const UVec3& corners = accel.scene->triangles[t];
     const DVec3 a(accel.scene->positions[corners.x]), u = DVec3(accel.scene->positions[corners.y]) - a,
-                v = DVec3(accel.scene->positions[corners.z]) - a, normal = glm::cross(u, v);
+                                                      v = DVec3(accel.scene->positions[corners.z]) - a,
+                                                      normal = glm::cross(u, v);
     const double area2 = glm::dot(normal, normal);
     if (!(area2 > 0) || glm::dot(normal, d) >= 0) return false;
     if (std::abs(glm::dot(p - a, normal)) > reach * std::sqrt(area2)) return false;

@@ -76,7 +76,7 @@ struct WebRequest {
   std::optional<std::uint16_t> serve;  // on this port of this machine, 0: one that is free; none: only write the folder
 };
 
-// The pack as a folder of static files, a walkthrough for browsers (formats/web); serves it until the user stops it.
+// The pack as a folder of static files, a walkthrough for browsers (formats/export); serves it until the user stops it.
 int web(const std::filesystem::path& path, const WebRequest& request);
 
 // Prints "oriel-inspect: error: …" to stderr; gives the exit code.

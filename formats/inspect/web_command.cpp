@@ -6,11 +6,11 @@
 #include <csignal>
 
 #include "formats/core/file.h"
+#include "formats/export/local_server.h"
+#include "formats/export/pieces.h"
+#include "formats/export/web_folder.h"
 #include "formats/inspect/commands.h"
 #include "formats/pack/reader.h"
-#include "formats/web/local_server.h"
-#include "formats/web/pieces.h"
-#include "formats/web/web_folder.h"
 
 namespace oriel::inspect {
 namespace {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/export/pieces.h"
+#include "formats/export/sha256.h"
+#include "formats/export/web_folder.h"
 #include "formats/pack/reader.h"
-#include "formats/web/pieces.h"
-#include "formats/web/sha256.h"
-#include "formats/web/web_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_pack.h"
 

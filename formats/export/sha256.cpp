@@ -1,4 +1,4 @@
-#include "formats/web/sha256.h"
+#include "formats/export/sha256.h"
 
 #include <bit>
 

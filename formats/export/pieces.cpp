@@ -1,4 +1,4 @@
-#include "formats/web/pieces.h"
+#include "formats/export/pieces.h"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@ foreach(name IN LISTS files)
   file(READ "${VIEWER}/${name}" text)
   string(APPEND table "    {\"${name}\", R\"oriel_web(${text})oriel_web\"},\n")
 endforeach()
-file(WRITE "${OUTPUT}" "// Made from web/dist by formats/web/embed_viewer.cmake.
-#include \"formats/web/viewer_files.h\"
+file(WRITE "${OUTPUT}" "// Made from web/dist by formats/export/embed_viewer.cmake.
+#include \"formats/export/viewer_files.h\"
 
 #include <utility>
 

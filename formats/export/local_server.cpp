@@ -1,4 +1,4 @@
-#include "formats/web/local_server.h"
+#include "formats/export/local_server.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

@@ -1,5 +1,5 @@
 // The server for a look, by its answers and over sockets.
-#include "formats/web/local_server.h"
+#include "formats/export/local_server.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>

@@ -1,13 +1,13 @@
-#include "formats/web/web_folder.h"
+#include "formats/export/web_folder.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
-#include "formats/web/pieces.h"
-#include "formats/web/sha256.h"
-#include "formats/web/viewer_files.h"
+#include "formats/export/pieces.h"
+#include "formats/export/sha256.h"
+#include "formats/export/viewer_files.h"
 
 namespace oriel {
 namespace {
