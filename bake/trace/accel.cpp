@@ -282,29 +282,33 @@ Hit Accel::Impl::front_in_its_place(const Hit& back, const Vec3& direction) cons
     const Impl& accel;
     DVec3 point, direction;
     double reach;
+    std::uint32_t first;  // of those in the place: whatever the order in which they are found
     Hit found;
   };
   const Vec3 point = point_on(*scene, back.triangle, back.barycentric);
-  Search search{*this, DVec3(point), DVec3(direction), 2.0 * kMoved * max_component(glm::abs(point)), {}};
+  Search search{*this, DVec3(point), DVec3(direction), 2.0 * kMoved * max_component(glm::abs(point)), ~0u, {}};
   RTCPointQuery query{point.x * scale, point.y * scale, point.z * scale, 0, static_cast<float>(search.reach) * scale};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   const auto look = [](RTCPointQueryFunctionArguments* about) {
-    auto& [accel, p, d, reach, found] = *static_cast<Search*>(about->userPtr);
+    auto& [accel, p, d, reach, first, found] = *static_cast<Search*>(about->userPtr);
     const Group& group = accel.shape->groups[about->geomID];
     const std::uint32_t t = group.triangle.empty() ? about->primID : group.triangle[about->primID];
-    if (about->geomID != 0 || t >= found.triangle) return false;
+    if (about->geomID != 0 || t >= first) return false;
     const UVec3& corners = accel.scene->triangles[t];
     const DVec3 a(accel.scene->positions[corners.x]), u = DVec3(accel.scene->positions[corners.y]) - a,
                                                       v = DVec3(accel.scene->positions[corners.z]) - a,
                                                       normal = glm::cross(u, v);
     const double area2 = glm::dot(normal, normal);
-    if (!(area2 > 0) || glm::dot(normal, d) >= 0) return false;
+    const double side = glm::dot(normal, d);
+    const std::uint32_t twin = accel.scene->twin.empty() ? ~0u : accel.scene->twin[t];
+    if (!(area2 > 0) || side == 0 || (side > 0 && twin == ~0u)) return false;
     if (std::abs(glm::dot(p - a, normal)) > reach * std::sqrt(area2)) return false;
     const double y = glm::dot(glm::cross(p - a, v), normal) / area2, z = glm::dot(glm::cross(u, p - a), normal) / area2;
     if (y < 0 || z < 0 || y + z > 1) return false;
-    found.triangle = t;
-    found.barycentric = Vec2(DVec2(y, z));
+    first = t;
+    found.triangle = side < 0 ? t : twin;
+    found.barycentric = Vec2(side < 0 ? DVec2(y, z) : DVec2(z, y));
     return false;  // the reach is what it was
   };
   rtcPointQuery(rtc_scene, &query, &context, look, &search);

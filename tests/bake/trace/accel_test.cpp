@@ -63,6 +63,32 @@ TEST(Accel, MeetsTheFrontOfSheetsBackToBack) {
   EXPECT_TRUE(roof_alone && !roof_alone.front);
 }
 
+// The same where the other sheet is lit on both sides: its twin is met.
+TEST(Accel, MeetsTheTwinBehindASheet) {
+  SceneParts parts;
+  const auto white = parts.diffuse(Vec3(0.5f));
+  parts.quad("ceiling", white, {-3, 3.1f, -3}, {7, 0, 0}, {0, 0, 6.5f});
+  parts.quad("slab", white, {-4, 3.1f, -5}, {9, 0, 0}, {0, 0, 9});
+  parts.quad("slab's top", white, {-4, 3.1f, -5}, {0, 0, 9}, {9, 0, 0});
+  Scene scene = parts.finish();
+  for (std::uint32_t k = 0; k < 2; ++k) {  // as twins are: with the second and the third vertex swapped
+    const UVec3& t = scene.triangles[2 + k];
+    scene.triangles[4 + k] = {t.x, t.z, t.y};
+  }
+  scene.face_normals.clear();
+  scene.twin = {~0u, ~0u, 4, 5, 2, 3};
+  const Accel accel = *Accel::build(scene);
+  for (std::uint32_t k = 0; k < 256; ++k) {
+    Sampler sampler(7, 0, k);
+    const Vec2 u = sampler.next2();
+    const Vec3 to(6 * u.x - 2.5f, 3.1f, 6 * u.y - 2.9f), from(0.3f, 7, 0.2f);
+    const Hit hit = accel.intersect({from, glm::normalize(to - from)});
+    ASSERT_TRUE(hit && hit.front) << k;
+    EXPECT_EQ(scene.surfaces[scene.triangle_surface[hit.triangle]].name, "slab's top");
+    EXPECT_LT(glm::distance(point_on(scene, hit.triangle, hit.barycentric), to), 1e-5f);
+  }
+}
+
 TEST(Accel, AnswersImpossibleRaysAsMisses) {
   SceneParts parts;
   parts.box("box", parts.diffuse(Vec3(0.5f)), Vec3(-1), Vec3(1));
