@@ -7,8 +7,6 @@
 namespace oriel {
 namespace {
 
-constexpr float kFlat = 0.02f;   // of the distance between two pixels' points: off each other's plane
-constexpr float kTurned = 0.9f;  // cosine between their normals, at least
 constexpr std::size_t kNone = ~std::size_t{0};
 
 struct Shone {
@@ -75,25 +73,6 @@ class LampTracer {
     for (std::size_t p = 0; p < lamps_.size(); ++p) add_point(y, p, receivers, origins, light);
   }
 
-  // The mean of the neighbours on the pixel's surface, of all points.
-  Vec4 gathered(std::size_t x, std::size_t y, const std::vector<Vec4>& light) const {
-    const auto width = static_cast<std::size_t>(seen_.width), height = static_cast<std::size_t>(seen_.height);
-    const std::size_t i = y * width + x;
-    Vec4 sum(0);
-    float points = 0;
-    for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(height, y + 2); ++v)
-      for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(width, x + 2); ++u) {
-        const std::size_t j = v * width + u;
-        if (!on_surface_of(i, j)) continue;
-        // Of two by two those in the middle count twice, so that all points weigh the same, about the pixel's own
-        // place.
-        const float weight = shared_.side == 3 ? 1.0f : (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
-        sum += weight * light[j];
-        points += weight * static_cast<float>(points_of(u, v));
-      }
-    return points > 0 ? sum * (static_cast<float>(lamps_.size()) / points) : Vec4(0);
-  }
-
  private:
   // The first pixel of a row that takes a point; pixels `side` further take it too.
   std::size_t first_pixel(std::size_t y, std::size_t point) const {
@@ -152,15 +131,6 @@ class LampTracer {
     return offset_origin(Vec3(seen_.place[i]), Vec3(seen_.face[i]), magnitude);
   }
 
-  bool on_surface_of(std::size_t i, std::size_t j) const {
-    if (i == j) return true;
-    if (seen_.place[j].w == 0 || glm::dot(Vec3(seen_.normal[i]), Vec3(seen_.normal[j])) < kTurned) return false;
-    const Vec3 apart = Vec3(seen_.place[j]) - Vec3(seen_.place[i]);
-    const float off =
-        std::max(std::abs(glm::dot(apart, Vec3(seen_.face[i]))), std::abs(glm::dot(apart, Vec3(seen_.face[j]))));
-    return off <= kFlat * glm::length(apart) || seen_.place[i].w == seen_.place[j].w;
-  }
-
   const SeenPoints& seen_;
   const std::span<const LampPoint> lamps_;
   const Accel& accel_;
@@ -184,12 +154,10 @@ Result<std::vector<Vec4>> lamps_by_rays(const SeenPoints& seen, std::span<const 
     for (std::size_t y = block * side; y < std::min(height, (block + 1) * side); ++y) tracer.row(y, taken);
   }));
   if (shared.side == 1) return taken;
-  std::vector<Vec4> light(seen.place.size(), Vec4(0));
-  ORIEL_TRY_VOID(parallel_for(context, "", height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < width; ++x)
-      if (seen.place[y * width + x].w != 0) light[y * width + x] = tracer.gathered(x, y, taken);
-  }));
-  return light;
+  // From here on a counts what was taken: light that cannot come from a point is known to be none.
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) taken[y * width + x].w = static_cast<float>(tracer.points_of(x, y));
+  return Neighbours(seen).gathered(taken, static_cast<float>(lamps.size()), shared.side == 3, context);
 }
 
 }  // namespace oriel

@@ -5,19 +5,11 @@
 #include <atomic>
 #include <span>
 
-#include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
+#include "preview/frame/neighbours.h"
 #include "preview/frame/shadow_classes.h"
 
 namespace oriel {
-
-// By pixel, as SeenSurfaces has them, row 0 at the bottom.
-struct SeenPoints {
-  int width = 0, height = 0;
-  std::vector<Vec4> place;   // a: triangle + 1, 0 where nothing is seen
-  std::vector<Vec4> face;    // geometric normals, on the eye's side
-  std::vector<Vec4> normal;  // shading normals; a: 1 to be traced
-};
 
 // How pixels share points on lamps (Keller & Heidrich 2001, "Interleaved Sampling"). In each block of side × side
 // pixels everyone takes other points; then a pixel takes the mean of those of the 3 × 3 around it that lie on its

@@ -15,7 +15,7 @@ constexpr std::uint64_t kPixelStream = 0x706978;
 constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
 constexpr std::uint64_t kElementStream = 0x72656673, kCapStream = 0x63617073;
 constexpr std::size_t kElementsOfPixel = 4;  // finer ones
-constexpr std::size_t kElementsOfPass = 9 * kElementsOfPixel, kFewestElements = 8;
+constexpr std::size_t kElementsOfPass = 9 * kElementsOfPixel;
 constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
@@ -39,6 +39,11 @@ std::vector<LampPoint> lamps_of(std::span<const BounceElement> elements) {
   for (const BounceElement& e : elements)
     lamps.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
   return lamps;
+}
+
+// Of reflected light. Later passes are smoothed less, so that nothing is left of it in their mean.
+std::size_t smoothing_rounds(std::uint32_t pass) {
+  return pass < 8 ? 2 : pass < 64 ? 1 : 0;
 }
 
 void draw_screen(const gpu::VertexArray& no_vertices) {
@@ -142,8 +147,7 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
     stats.points = lamps.size();
     if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
   }
-  const bool among_lamps = options.shared && stats.points > 0 && stats.shadows == ShadowMethod::kRays;
-  if (options.bounce && !among_lamps) {
+  if (options.bounce) {
     const Stage stage(stats.bounce_s);
     if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
     light_.framebuffer.bind();
@@ -206,7 +210,6 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
                                           Context& context, PreviewStats& stats) {
   points_ = read_points();
   read_ = true;
-  std::vector<LampPoint> all(lamps.begin(), lamps.end());
   std::atomic<std::size_t> rays{0};
   SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_, nullptr, &rays};
   if (!options.shared && options.classes) {
@@ -214,12 +217,7 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
     classes_->begin(lamps, context.seed, passes_);
     shared.classes = &*classes_;
   }
-  if (options.shared && options.bounce) {  // pixels share elements too
-    const auto step = static_cast<std::size_t>(shared.side) * static_cast<std::size_t>(shared.side);
-    const auto elements = shadowed_elements(std::max(kFewestElements, kElementsOfPixel * step), context.seed);
-    all.insert(all.end(), elements.begin(), elements.end());
-  }
-  ORIEL_TRY(const auto light, lamps_by_rays(points_, all, *scene_->accel, shared, context));
+  ORIEL_TRY(const auto light, lamps_by_rays(points_, lamps, *scene_->accel, shared, context));
   stats.shadow_rays = rays;
   light_.light.upload(0, light.data());
   return {};
@@ -243,8 +241,12 @@ Status PreviewRenderer::add_shadowed_elements(Context& context) {
   if (!read_) points_ = read_points();
   read_ = true;
   const std::vector<LampPoint> lamps = shadowed_elements(kElementsOfPass, context.seed);
-  ORIEL_TRY(const auto reflected,
+  ORIEL_TRY(auto reflected,
             lamps_by_rays(points_, lamps, *scene_->accel, {sharing_side(lamps.size()), passes_}, context));
+  const Neighbours neighbours(points_);
+  for (std::size_t step = 3, i = 0; i < smoothing_rounds(passes_); ++i, step *= 2) {
+    ORIEL_TRY(reflected, neighbours.smoothed(reflected, step, context));
+  }
   std::vector<Vec4> light = read_texture(light_.light);
   for (std::size_t i = 0; i < light.size(); ++i) light[i] += reflected[i];
   light_.light.upload(0, light.data());
