@@ -88,10 +88,14 @@ Particle Sources::emit_punctual(const Light& light, const Vec2& v) const {
   return {{light.position, direction}, punctual_intensity(scene_, light, direction) * solid_angle, true};
 }
 
+// A little beyond the bounds, so that rounding leaves nothing out.
+float Sources::afar_radius() const {
+  return 1.001f * scene_.radius();
+}
+
 // irradiance: on a plane that faces the source.
 Particle Sources::from_afar(const Vec3& to_source, const Vec3& irradiance, const Vec2& v) const {
-  // A little beyond the bounds, so that rounding leaves nothing out.
-  const float radius = 1.001f * scene_.radius();
+  const float radius = afar_radius();
   const Vec2 disk = square_to_disk(v);
   const Vec3 centre = 0.5f * (scene_.lower + scene_.upper);
   const Vec3 origin = centre + radius * (frame_from_normal(to_source) * Vec3(disk, 1));

@@ -26,6 +26,8 @@ class Sources {
   const std::vector<SourceKind>& kinds() const { return kinds_; }  // that shine at all
   // A particle of one of kinds(): lamps by power, points and directions on them by what leaves them there.
   Particle emit(SourceKind kind, Sampler& sampler) const;
+  // Of the disk across their way that particles from afar come through, about the scene's middle, m.
+  float afar_radius() const;
 
  private:
   struct Near {

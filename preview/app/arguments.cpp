@@ -67,10 +67,10 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        "Neighbouring pixels share the points on lamps, where rays find shadows: as a window does while one moves",
        flag(a.frame.shared)},
       {"--elements", kEffects,
-       "Elements of surfaces that shine back what comes to them, after any number of bounces, and sixteen times as "
-       "many "
-       "finer ones, of which frames take some; 0: none",
-       number(a.scene.elements, 0, 1024), Use::kEveryday},
+       "At most so many elements of surfaces shine back what comes to them, after any number of bounces; each pass "
+       "finds "
+       "others, finer where the eye gets more of them, and takes 36; 0: none",
+       number(a.frame.elements, 0, 65536), Use::kEveryday},
       {"--cap-rays", kEffects,
        "Of --shadows volumes: which triangles hold the eye in their shadow, as so many rays from the view plane tell, "
        "which miss some; 0: exactly",

@@ -151,7 +151,6 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                                          {"triangles", scene->scene().triangles.size()},
                                          {"edges", scene->shadows->edges()},
                                          {"lamps", scene->lamps.count()},
-                                         {"elements", scene->elements.size()},
                                          {"passes", renderer.passes()},
                                          {"paths", a.paths},
                                          {"noise", noise},

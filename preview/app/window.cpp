@@ -112,7 +112,7 @@ class PreviewWindow {
     const DVec3 shift = again ? scene_->scene().origin - fresh->scene().origin : DVec3(0);
     SceneEdits edits = edits_;
     follow_places(originals, Vec3(shift), edits);
-    if (!edits.empty()) ORIEL_TRY_VOID(edit_scene(*fresh, edits, arguments_.scene.elements, context_));
+    if (!edits.empty()) edit_scene(*fresh, edits);
     if (const Status taken = renderer_.take(fresh); !taken) {
       status_.error = taken.error().text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
@@ -212,7 +212,7 @@ class PreviewWindow {
     if (wishes.undoes) edits_ = {};
     if (wishes.edited || wishes.undoes) {
       paths_.stop();  // who reads the scene
-      ORIEL_TRY_VOID(edit_scene(*scene_, wishes.undoes ? originals_ : edits_, arguments_.scene.elements, context_));
+      edit_scene(*scene_, wishes.undoes ? originals_ : edits_);
       renderer_.take_edits();
       restart_ = true;
     }

@@ -1,44 +1,11 @@
 #include "preview/frame/lamp_rays.h"
 
 #include "bake/jobs/parallel.h"
-#include "bake/trace/polygon_light.h"
-#include "bake/trace/punctual.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-
-struct Shone {
-  Ray ray;
-  Vec3 light;  // were nothing between
-};
-
-// A point's light on a receiver, and the ray to it from `origin`; none where it cannot shine.
-std::optional<Shone> shine(const LampPoint& lamp, const Receiver& at, const Vec3& origin, const Scene& scene) {
-  Shone out{{origin, Vec3(lamp.place)}, lamp.power};
-  float d2 = 1;
-  if (lamp.kind != LampKind::kAfar) {
-    const Vec3 to = Vec3(lamp.place) - origin;
-    d2 = std::max(length2(to), 1e-30f);
-    const float distance = std::sqrt(d2);
-    out.ray = {origin, to / distance, distance};
-  }
-  const Vec3& direction = out.ray.direction;
-  float share = incidence(at, direction) / (d2 + lamp.soft);
-  if (lamp.kind == LampKind::kFlat) share *= -glm::dot(lamp.normal, direction);
-  if (!(share > 0)) return std::nullopt;
-  if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
-  out.light *= share;
-  return out;
-}
-
-Ray ray_to(const LampPoint& lamp, const Shone& shone) {
-  if (!lamp.seen_at) return shone.ray;
-  const Vec3 to = *lamp.seen_at - shone.ray.origin;
-  const float distance = std::max(glm::length(to), 1e-15f);
-  return {shone.ray.origin, to / distance, distance};
-}
 
 class LampTracer {
  public:
@@ -62,15 +29,13 @@ class LampTracer {
   // Point after point along the row, so that rays of a packet go the same way. light: sums of what was taken.
   void row(std::size_t y, std::vector<Vec4>& light) const {
     const auto width = static_cast<std::size_t>(seen_.width);
-    std::vector<Receiver> receivers(width);
-    std::vector<Vec3> origins(width);
+    std::vector<EyePoint> points(width);
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       if (seen_.place[i].w == 0) continue;
-      receivers[x] = {Vec3(seen_.place[i]), Vec3(seen_.normal[i]), Vec3(seen_.face[i])};
-      origins[x] = origin_of(i);
+      points[x] = eye_point(seen_, i, accel_.scene());
     }
-    for (std::size_t p = 0; p < lamps_.size(); ++p) add_point(y, p, receivers, origins, light);
+    for (std::size_t p = 0; p < lamps_.size(); ++p) add_point(y, p, points, light);
   }
 
  private:
@@ -82,21 +47,20 @@ class LampTracer {
     return kNone;
   }
 
-  void add_point(std::size_t y, std::size_t p, const std::vector<Receiver>& receivers, const std::vector<Vec3>& origins,
-                 std::vector<Vec4>& light) const {
+  void add_point(std::size_t y, std::size_t p, const std::vector<EyePoint>& points, std::vector<Vec4>& light) const {
     struct Asked {
       std::size_t x;
       Vec3 light;
       ShadowClasses::Class known;
     };
-    const std::size_t width = receivers.size();
+    const std::size_t width = points.size();
     std::vector<Ray> rays;
     std::vector<Asked> asked;
     ShadowClasses* classes = shared_.classes;
     for (std::size_t x = first_pixel(y, p); x < width; x += static_cast<std::size_t>(shared_.side)) {
       const std::size_t i = y * width + x;
       if (seen_.place[i].w == 0) continue;
-      const auto lit = shine(lamps_[p], receivers[x], origins[x], accel_.scene());
+      const auto lit = shine(lamps_[p], points[x], accel_.scene());
       if (!lit) continue;
       light[i].w += 1;
       auto known = ShadowClasses::kUnknown;
@@ -107,7 +71,7 @@ class LampTracer {
       if (known == ShadowClasses::kLit) light[i] += Vec4(lit->light, 0);
       if (known == ShadowClasses::kLit || known == ShadowClasses::kUmbra)
         if (classes == nullptr || !classes->asks(p, x, y)) continue;
-      rays.push_back(ray_to(lamps_[p], *lit));
+      rays.push_back(lit->ray);
       asked.push_back({x, lit->light, known});
     }
     std::vector<Vec3> passed(rays.size());
@@ -120,15 +84,6 @@ class LampTracer {
       const Vec3 found = passed[k] - (lit ? Vec3(1) : Vec3(0));
       light[y * width + a.x] += Vec4(a.light * found * (lit || umbra ? float{ShadowClasses::kOne} : 1.0f), 0);
     }
-  }
-
-  // But for the surface's own thickness of rounding.
-  Vec3 origin_of(std::size_t i) const {
-    const Scene& scene = accel_.scene();
-    const UVec3& t = scene.triangles[static_cast<std::size_t>(seen_.place[i].w) - 1];
-    float magnitude = 0;
-    for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[k]])));
-    return offset_origin(Vec3(seen_.place[i]), Vec3(seen_.face[i]), magnitude);
   }
 
   const SeenPoints& seen_;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "bake/trace/accel.h"
-#include "preview/frame/neighbours.h"
+#include "preview/frame/eye_points.h"
 #include "preview/frame/shadow_classes.h"
 
 namespace oriel {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
-#include "bake/scene/scene.h"
+#include "bake/jobs/context.h"
+#include "bake/trace/accel.h"
 #include "bake/trace/sky_sampler.h"
+#include "preview/frame/eye_points.h"
 
 namespace oriel {
 
@@ -24,10 +27,25 @@ struct LampPoint {
   float soft = 0;                 // m²; > 0: an element, of what surfaces reflect
   float share = 1;                // of one with a light: power over the light's own colour or intensity
   std::optional<Vec3> seen_at{};  // of an element: where the shadow ray goes; none: no shadows
-  std::uint32_t lamp = ~0u;       // a number of its own: surfaces, then lights, then the sky; ~0u: of an element
+  std::uint32_t lamp = ~0u;       // a number of its own: surfaces, then lights; ~0u: of an element or the sky
 };
 
-// All that shines in a scene, by power.
+// A point's light on a receiver, lux, were nothing between, and the ray that looks for what is, from `origin`; none
+// where it cannot shine.
+struct Shone {
+  Ray ray;
+  Vec3 light;
+};
+std::optional<Shone> shine(const LampPoint& lamp, const EyePoint& at, const Scene& scene);
+
+// How points are shared among a scene's lamps: by power, or by what they give what the eye sees.
+struct LampShares {
+  std::vector<double> near_cdf;  // cumulative, of lamps that are near; any unit
+  std::vector<double> kinds;     // of all points: near lamps, if there are any, then each of those afar; sums to 1
+  std::vector<double> sky_cdf;   // cumulative, of parts of the square that directions to the sky are drawn from
+};
+
+// All that shines in a scene.
 class Lamps {
  public:
   Lamps() = default;
@@ -36,9 +54,15 @@ class Lamps {
   bool empty() const { return near_.empty() && afar_.empty(); }
   // Flat lamps that touch count as one; a sky too.
   std::size_t count() const { return count_; }
-  // At least `count` points, stratified over those of pass 0, 1, 2, …: the mean over passes is all direct light. From
-  // each kind of lamp, near or afar, at least one.
-  std::vector<LampPoint> points(std::uint64_t seed, std::uint32_t pass, std::uint32_t count) const;
+  // Kinds alike.
+  LampShares by_power() const;
+  // A tenth of points is shared by power all the same, so that what the eye's points do not tell of is found too. Error
+  // kStopped.
+  Result<LampShares> by_eye(std::span<const EyePoint> eye, const Accel& accel, Context& context) const;
+  // About `count` points, stratified over those of pass 0, 1, 2, … of the same shares: the mean over passes is all
+  // direct light. From each kind of lamp, near or afar, at least one.
+  std::vector<LampPoint> points(std::uint64_t seed, std::uint32_t pass, std::uint32_t count,
+                                const LampShares& shares) const;
 
  private:
   struct Near {
@@ -46,8 +70,15 @@ class Lamps {
     std::uint32_t index;  // of a triangle or of Scene::lights
     bool back;            // of a double-sided triangle
   };
-  LampPoint near_point(double at, const Vec2& on, float count) const;
+  LampPoint near_point(double at, const Vec2& on, float count, std::span<const double> cdf) const;
+  // On lamp i, that stands for all of it.
+  LampPoint point_of(std::size_t i, const Vec2& on) const;
+  LampPoint afar_point(std::size_t k, const Vec2& on, float count) const;
+  // What one of its points gives all of the eye's, lux.
+  template <typename Point>
+  double given(const Point& point_of_eye, std::span<const EyePoint> eye, const Accel& accel) const;
   LampPoint sky_point(const Vec2& on, float count) const;
+  std::size_t kinds() const { return afar_.size() + (near_.empty() ? 0 : 1); }
 
   const Scene* scene_ = nullptr;
   std::vector<Near> near_;

@@ -1,100 +1,50 @@
 #include "preview/frame/landings.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "bake/jobs/parallel.h"
-#include "bake/trace/emission.h"
-#include "bake/trace/shading.h"
+#include "preview/frame/particle_walk.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint64_t kStream = 0x656c656d;
 constexpr int kMostBounces = 64;
-constexpr int kRouletteFrom = 2;
-constexpr std::uint32_t kTogether = 256;  // particles of a task
-
-class Walk {
- public:
-  Walk(const Transport& t, const Particle& particle, float share, Sampler& sampler, std::vector<Landing>& landed)
-      : t_(t), ray_(particle.ray), power_(particle.power), share_(share), sampler_(sampler), landed_(landed) {}
-
-  void run() {
-    if (!(full_ > 0)) return;
-    int bounces = 0;
-    for (int passes = 0; bounces < kMostBounces && passes < kMaxPasses;) {
-      const Hit hit = t_.accel.intersect(ray_);
-      if (!hit) return;
-      const SurfacePoint s = surface_at(t_.accel.scene(), hit, ray_.direction);
-      if (s.shade.coverage < 1 && sampler_.next1() >= s.shade.coverage) {
-        ray_.origin = spawn_origin(s, ray_.direction), ++passes;
-        continue;
-      }
-      if (!s.reflects) return;
-      land(s);
-      const auto straight = scatter(s);
-      if (!straight || !is_usable(power_)) return;
-      if (*straight)
-        ++passes;
-      else if (++bounces >= kRouletteFrom && !survive())
-        return;
-    }
-  }
-
- private:
-  void land(const SurfacePoint& s) {
-    const float left = 1 - max_component(reflectance(s.shade, -glm::dot(s.normal, ray_.direction)));
-    const Vec3 power = power_ * left * s.shade.diffuse * (share_ / kPi);
-    if (max_component(power) > 0 && is_usable(power))
-      landed_.push_back({s.position, s.geometric_normal, power, s.magnitude});
-  }
-
-  // Nothing where the light ends, else whether it went straight on.
-  std::optional<bool> scatter(const SurfacePoint& s) {
-    const Shading shading(s, -ray_.direction);
-    const float u = sampler_.next1();
-    const auto sample = shading.sample(u, sampler_.next2());
-    if (!sample || !(max_component(sample->weight) > 0)) return std::nullopt;
-    power_ *= sample->weight / sample->squeeze;
-    const bool straight = sample->lobe == Lobe::kTransmission;
-    if (!straight) ray_.direction = shading.world(*sample);
-    ray_.origin = spawn_origin(s, ray_.direction);
-    return straight;
-  }
-
-  bool survive() {
-    const float q = std::min(0.95f, max_component(power_) / full_);
-    if (sampler_.next1() >= q) return false;
-    power_ /= q;
-    return true;
-  }
-
-  const Transport& t_;
-  Ray ray_;
-  Vec3 power_;
-  const float share_, full_ = max_component(power_);
-  Sampler& sampler_;
-  std::vector<Landing>& landed_;
-};
+constexpr std::uint32_t kTogether = 64;  // particles of a task
 
 }  // namespace
 
-Result<std::vector<Landing>> land_particles(const Transport& t, std::uint32_t count, Context& context) {
-  const Sources sources(t.accel.scene(), t.lights);
-  const std::size_t tasks = (count + kTogether - 1) / kTogether;  // of each kind
-  std::vector<std::vector<Landing>> landed(tasks * sources.kinds().size());
-  ORIEL_TRY_VOID(parallel_for(context, "", landed.size(), [&](std::size_t task) {
-    const std::size_t kind = task / tasks;
-    const auto first = static_cast<std::uint32_t>(task % tasks) * kTogether;
-    for (std::uint32_t i = first; i < std::min(count, first + kTogether); ++i) {
-      Sampler sampler(context.seed, kStream + kind, i);
-      const Particle particle = sources.emit(sources.kinds()[kind], sampler);
-      Walk(t, particle, 1 / static_cast<float>(count), sampler, landed[task]).run();
+Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSources& sources,
+                                            const LandingOptions& options, Context& context) {
+  struct Task {
+    SourceKind kind;
+    std::uint32_t first, last, count;  // of as many particles of that kind
+    std::vector<Landing> landed;
+  };
+  std::vector<Task> tasks;
+  for (const SourceKind kind : sources.kinds()) {
+    const bool aimed = kind == SourceKind::kNear || !sources.guides(kind).empty();
+    const std::uint32_t count = std::max(1u, aimed ? options.particles : options.particles / 8);
+    for (std::uint32_t first = 0; first < count; first += kTogether)
+      tasks.push_back({kind, first, std::min(count, first + kTogether), count, {}});
+  }
+  ORIEL_TRY_VOID(parallel_for(context, "", tasks.size(), [&](std::size_t i) {
+    Task& task = tasks[i];
+    const float share = 1 / (kPi * static_cast<float>(task.count));
+    const auto land = [&](const SurfacePoint& s, const Ray& ray, const Vec3& power) {
+      const Vec3 lobes = reflectance(s.shade, -glm::dot(s.normal, ray.direction));
+      const Vec3 shines = share * power * ((1 - max_component(lobes)) * s.shade.diffuse + lobes);
+      if (max_component(shines) > 0 && is_usable(shines))
+        task.landed.push_back({s.position, s.geometric_normal, shines, s.magnitude});
+    };
+    for (std::uint32_t k = task.first; k < task.last; ++k) {
+      Sampler sampler(context.seed, kStream + static_cast<std::uint64_t>(task.kind), options.pass * task.count + k);
+      const Particle particle = sources.emit(task.kind, sampler);
+      ParticleWalk(t, particle.ray, particle.power, sampler).run(kMostBounces, land, [](const Ray&) {});
     }
   }));
   std::vector<Landing> all;
-  for (const std::vector<Landing>& some : landed) all.insert(all.end(), some.begin(), some.end());
+  for (const Task& task : tasks) all.insert(all.end(), task.landed.begin(), task.landed.end());
   return all;
 }
 

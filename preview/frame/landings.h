@@ -1,8 +1,7 @@
 // Where light lands on its way: each place shines back what it reflects diffusely (instant radiosity, Keller 1997).
 #pragma once
 
-#include "bake/jobs/context.h"
-#include "bake/trace/path.h"
+#include "preview/frame/guided_sources.h"
 
 namespace oriel {
 
@@ -12,9 +11,15 @@ struct Landing {
   float magnitude = 0;             // of the surface's coordinates, as SurfacePoint
 };
 
-// Of `count` particles of each kind of source, on their way through all reflections and glass, each place with diffuse
-// reflection. On the mean over many all of them shine back what diffuse surfaces reflect, after any number of bounces.
+struct LandingOptions {
+  std::uint32_t particles = 2048;  // of each kind of source; an eighth of one from afar that has no guides
+  std::uint32_t pass = 0;          // each has other particles
+};
+
+// Of particles on their way through all reflections and glass each place with reflection. On the mean over many all of
+// them shine back what surfaces reflect, after any number of bounces; what lobes reflect goes in all directions, too.
 // Seed and threads: the context's. Error kStopped.
-Result<std::vector<Landing>> land_particles(const Transport& transport, std::uint32_t count, Context& context);
+Result<std::vector<Landing>> land_particles(const Transport& transport, const GuidedSources& sources,
+                                            const LandingOptions& options, Context& context);
 
 }  // namespace oriel

@@ -13,10 +13,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
 constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
-constexpr std::uint64_t kElementStream = 0x72656673, kCapStream = 0x63617073;
-constexpr std::size_t kElementsOfPixel = 4;  // finer ones
-constexpr std::size_t kElementsOfPass = 9 * kElementsOfPixel;
-constexpr std::uint32_t kBatch = 64;  // elements of a draw, as shaders/passes/screen_preview_elements.frag
+constexpr std::uint64_t kCapStream = 0x63617073;
+constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by which lamps share points
+constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels
+constexpr std::uint32_t kBatch = 64;         // elements of a draw, as shaders/passes/screen_preview_elements.frag
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
 class Stage {
@@ -33,13 +33,6 @@ class Stage {
   double& seconds_;
   Clock::time_point start_;
 };
-
-std::vector<LampPoint> lamps_of(std::span<const BounceElement> elements) {
-  std::vector<LampPoint> lamps;
-  for (const BounceElement& e : elements)
-    lamps.push_back({LampKind::kFlat, Vec4(e.place, 1), e.normal, e.power, ~0u, std::max(e.area / kPi, 1e-12f)});
-  return lamps;
-}
 
 // Of reflected light. Later passes are smoothed less, so that nothing is left of it in their mean.
 std::size_t smoothing_rounds(std::uint32_t pass) {
@@ -121,6 +114,7 @@ Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Contex
   {
     const Stage total(stats.total_s);
     read_ = false;
+    reflecting_.clear();
     view_ = view_of_pass(options.antialias);
     {
       const Stage stage(stats.surfaces_s);
@@ -143,15 +137,14 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
   gpu::apply({});
   glClear(GL_COLOR_BUFFER_BIT);
   if (options.direct) {
-    const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples);
+    ORIEL_TRY_VOID(share_lamps(context));
+    const auto lamps = scene_->lamps.points(context.seed, passes_, options.samples, lamp_shares_);
     stats.points = lamps.size();
     if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
   }
   if (options.bounce) {
     const Stage stage(stats.bounce_s);
-    if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
-    light_.framebuffer.bind();
-    add_elements();
+    ORIEL_TRY_VOID(reflect(options, context));
   }
   return {};
 }
@@ -208,8 +201,7 @@ void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, const Previ
 // All of the light so far is theirs.
 Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options,
                                           Context& context, PreviewStats& stats) {
-  points_ = read_points();
-  read_ = true;
+  read_seen();
   std::atomic<std::size_t> rays{0};
   SharedPoints shared{options.shared ? sharing_side(lamps.size()) : 1, passes_, nullptr, &rays};
   if (!options.shared && options.classes) {
@@ -223,26 +215,34 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
   return {};
 }
 
-// Some of the finer elements. Each pass takes others, and asks for shadows at other places of them.
-std::vector<LampPoint> PreviewRenderer::shadowed_elements(std::size_t count, std::uint64_t seed) const {
-  Sampler sampler(seed, kElementStream, passes_);
-  const auto elements = some_of(scene_->finer, count, sampler.next1());
-  std::vector<LampPoint> lamps = lamps_of(elements);
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    const std::vector<Vec3>& places = elements[i].places;
-    lamps[i].seen_at = places[(passes_ + i) % places.size()];
-  }
-  return lamps;
+// Once for each view, so that points of its passes are stratified.
+Status PreviewRenderer::share_lamps(Context& context) {
+  if (passes_ > 0) return {};
+  read_seen();
+  const auto eye = eye_points(points_, scene_->scene(), kLampEyes, context.seed, 0);
+  ORIEL_TRY(lamp_shares_, scene_->lamps.by_eye(eye, *scene_->accel, context));
+  return {};
+}
+
+void PreviewRenderer::read_seen() {
+  if (!std::exchange(read_, true)) points_ = read_points();
+}
+
+// What surfaces shine back; without shadows where those are switched off.
+Status PreviewRenderer::reflect(const PreviewOptions& options, Context& context) {
+  read_seen();
+  ORIEL_TRY(reflecting_, reflecting_points(*scene_, points_, {options.elements, kElementsOfPass}, passes_, context));
+  if (reflecting_.empty()) return {};
+  if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
+  light_.framebuffer.bind();
+  add_elements();
+  return {};
 }
 
 // Neighbours share them: they shine smoothly.
 Status PreviewRenderer::add_shadowed_elements(Context& context) {
-  if (scene_->finer.empty()) return {};
-  if (!read_) points_ = read_points();
-  read_ = true;
-  const std::vector<LampPoint> lamps = shadowed_elements(kElementsOfPass, context.seed);
   ORIEL_TRY(auto reflected,
-            lamps_by_rays(points_, lamps, *scene_->accel, {sharing_side(lamps.size()), passes_}, context));
+            lamps_by_rays(points_, reflecting_, *scene_->accel, {sharing_side(reflecting_.size()), passes_}, context));
   const Neighbours neighbours(points_);
   for (std::size_t step = 3, i = 0; i < smoothing_rounds(passes_); ++i, step *= 2) {
     ORIEL_TRY(reflected, neighbours.smoothed(reflected, step, context));
@@ -254,14 +254,14 @@ Status PreviewRenderer::add_shadowed_elements(Context& context) {
 }
 
 Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
-  if (!read_) points_ = read_points();
+  read_seen();
   const auto tagged = [](const Vec4& normal) { return normal.w > 0.5f; };
   if (std::none_of(points_.normal.begin(), points_.normal.end(), tagged)) {
     const std::vector<Vec4> black(has_traced_ ? points_.normal.size() : 0);
     if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
     return {};
   }
-  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_texture(light_.light)};
+  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_texture(light_.light), reflecting_};
   ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, frame, passes_, context));
   traced_.upload(0, traced.light.data());
   has_traced_ = true;
@@ -278,14 +278,13 @@ void PreviewRenderer::add_elements() const {
   elements_pass_.set("u_place", 0);
   elements_pass_.set("u_normal", 1);
   elements_pass_.set("u_face", 2);
-  const std::vector<BounceElement>& elements = scene_->elements;
-  for (std::size_t first = 0; first < elements.size(); first += kBatch) {
+  for (std::size_t first = 0; first < reflecting_.size(); first += kBatch) {
     std::vector<Vec4> places;
     std::vector<Vec3> fronts, powers;
-    for (std::size_t i = first; i < std::min<std::size_t>(elements.size(), first + kBatch); ++i) {
-      places.emplace_back(elements[i].place, elements[i].area / kPi);
-      fronts.push_back(elements[i].normal);
-      powers.push_back(elements[i].power);
+    for (std::size_t i = first; i < std::min<std::size_t>(reflecting_.size(), first + kBatch); ++i) {
+      places.emplace_back(Vec3(reflecting_[i].place), reflecting_[i].soft);
+      fronts.push_back(reflecting_[i].normal);
+      powers.push_back(reflecting_[i].power);
     }
     elements_pass_.set("u_count", static_cast<int>(places.size()));
     elements_pass_.set("u_elements", std::span<const Vec4>(places));

@@ -8,7 +8,7 @@
 #include "player/passes/targets.h"
 #include "preview/frame/lamp_pass.h"
 #include "preview/frame/lamp_rays.h"
-#include "preview/frame/preview_scene.h"
+#include "preview/frame/reflected_light.h"
 #include "preview/frame/traced.h"
 
 namespace oriel {
@@ -23,7 +23,8 @@ enum class ShadowMethod {
 // Each effect is a switch (U11).
 struct PreviewOptions {
   ShadowMethod shadows = ShadowMethod::kAuto;
-  std::uint32_t samples = 8;  // points on lamps of a pass, at least one of each kind of lamp
+  std::uint32_t samples = 8;     // points on lamps of a pass, at least one of each kind of lamp
+  std::uint32_t elements = 512;  // of what surfaces reflect, of which a pass takes some; 0: none
   bool direct = true, bounce = true, emission = true, traced = true;
   bool antialias = true;  // each pass looks through other points of the pixels
   bool shared = false;    // neighbours share points on lamps (SharedPoints), by rays: a frame that will not stay
@@ -74,13 +75,15 @@ class PreviewRenderer {
   ShadowVolumes volumes_of(const LampPoint& point, std::uint32_t cap_rays) const;
   Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
                            PreviewStats& stats);
+  void read_seen();
+  Status share_lamps(Context& context);
+  Status reflect(const PreviewOptions& options, Context& context);
   Status add_shadowed_elements(Context& context);
   Status trace(Context& context, PreviewStats& stats);
   void add_elements() const;
   void add_pass(const PreviewOptions& options) const;
   void begin_again() { passes_ = 0, classes_.reset(); }
   View view_of_pass(bool antialias) const;
-  std::vector<LampPoint> shadowed_elements(std::size_t count, std::uint64_t seed) const;
 
   gpu::Device device_;
   SurfacePass surface_pass_;
@@ -96,8 +99,10 @@ class PreviewRenderer {
   PassLight light_, sum_;
   gpu::Texture2d traced_, paths_;
   std::optional<FrameTarget> frame_;
-  SeenPoints points_;  // of the pass under way, where rays need them
-  bool read_ = false;  // they are there
+  SeenPoints points_;                  // of the pass under way, where rays need them
+  bool read_ = false;                  // they are there
+  LampShares lamp_shares_;             // of this view
+  std::vector<LampPoint> reflecting_;  // of that pass
   // Seconds by point on a lamp, of this scene and size.
   struct Costs {
     double rays[2] = {0, 0};  // shared: [1]; 0: not known yet

@@ -15,30 +15,27 @@ double seconds_since(Clock::time_point start) {
 }
 
 // same: a scene of the same shape, or null.
-Status make_rays(PreviewScene& scene, const PreviewScene* same, std::uint32_t elements, Context& context) {
+Status make_rays(PreviewScene& scene, const PreviewScene* same, Context& context) {
   if (same != nullptr) {
     scene.accel = same->accel->of(scene.scene());
   } else {
     ORIEL_TRY(scene.accel, Accel::build(scene.scene(), {false, thread_count(context)}));
   }
   scene.lights.emplace(scene.scene());
-  return find_elements(scene, elements, context);
+  scene.sources.emplace(scene.scene(), *scene.lights);
+  return {};
 }
 
 }  // namespace
 
-Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& context) {
-  constexpr std::uint32_t kFiner = 16;                               // times as many
-  constexpr std::uint32_t kParticles = 1024, kMostParticles = 8192;  // by element; of all
-  ORIEL_TRY(const std::vector<Landing> landings,
-            land_particles(scene.transport(), std::min(kParticles * elements, kMostParticles), context));
-  scene.elements = bounce_elements(landings, scene.scene(), elements);
-  scene.finer = bounce_elements(landings, scene.scene(), kFiner * elements);
-  return {};
+void find_lamps(PreviewScene& scene) {
+  scene.lamps = Lamps(scene.scene());
+  scene.lights.emplace(scene.scene());
+  scene.sources.emplace(scene.scene(), *scene.lights);
 }
 
-Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
-                                                                  Context& context, const PreviewScene* last) {
+Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, Context& context,
+                                                                  const PreviewScene* last) {
   auto out = std::make_shared<PreviewScene>();
   out->imported = std::move(imported);
   const Scene& scene = out->scene();
@@ -52,7 +49,7 @@ Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene 
     out->passes_s = seconds_since(begun);
   });
   const Clock::time_point begun = Clock::now();
-  const Status rays = make_rays(*out, same, elements, context);
+  const Status rays = make_rays(*out, same, context);
   out->rays_s = seconds_since(begun);
   passes.join();
   if (!rays) return tl::unexpected<Error>(rays.error());
@@ -66,7 +63,7 @@ Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewScen
   ORIEL_TRY(ImportedScene imported,
             import_gltf(options.file, options.import, context, last != nullptr ? &last->imported : nullptr));
   const double import_s = seconds_since(start);
-  ORIEL_TRY(const auto scene, prepare_preview_scene(std::move(imported), options.elements, context, last));
+  ORIEL_TRY(const auto scene, prepare_preview_scene(std::move(imported), context, last));
   auto out = std::const_pointer_cast<PreviewScene>(scene);  // nobody else has it yet
   out->import_s = import_s;
   return scene;

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "bake/import/import.h"
+#include "bake/trace/emission.h"
 #include "bake/trace/path.h"
-#include "preview/frame/elements.h"
 #include "preview/frame/lamps.h"
 #include "preview/frame/scene_parts.h"
 #include "preview/frame/shadow_mesh.h"
@@ -20,10 +20,9 @@ struct PreviewScene {
   SceneParts parts;  // as it was read, whatever is edited since
   std::optional<Accel> accel;
   std::optional<LightSet> lights;
+  std::optional<Sources> sources;
   Lamps lamps;
   std::shared_ptr<const ShadowMesh> shadows;
-  std::vector<BounceElement> elements;
-  std::vector<BounceElement> finer;               // of the same light: frames take some
   double import_s = 0, rays_s = 0, passes_s = 0;  // that each part of loading took
 
   const Scene& scene() const { return imported.scene; }
@@ -33,16 +32,15 @@ struct PreviewScene {
 struct PreviewSceneOptions {
   std::filesystem::path file;
   ImportOptions import;
-  std::uint32_t elements = 32;  // of what surfaces reflect; 0: none
 };
 
-// Of a scene whose lamps or materials are new: its elements. Error kStopped.
-Status find_elements(PreviewScene& scene, std::uint32_t elements, Context& context);
+// Of a scene whose lamps or materials are new: what shines.
+void find_lamps(PreviewScene& scene);
 
 // The rest of a scene that is read. last: the one before, whose rays and shadow volumes are taken where its shape is
 // the same; null: none. Errors: as Accel::build(), kStopped.
-Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, std::uint32_t elements,
-                                                                  Context& context, const PreviewScene* last = nullptr);
+Result<std::shared_ptr<const PreviewScene>> prepare_preview_scene(ImportedScene imported, Context& context,
+                                                                  const PreviewScene* last = nullptr);
 
 // Errors also: as import_gltf().
 Result<std::shared_ptr<const PreviewScene>> load_preview_scene(const PreviewSceneOptions& options, Context& context,

@@ -139,7 +139,7 @@ SceneEdits edits_of(const Scene& scene) {
   return all;
 }
 
-Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, Context& context) {
+void edit_scene(PreviewScene& scene, const SceneEdits& edits) {
   std::vector<SceneMaterial>& materials = scene.imported.scene.materials;
   for (const auto& [index, edit] : edits.materials) {
     if (index >= materials.size()) continue;
@@ -158,9 +158,7 @@ Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t el
       light.intensity = edit->second.intensity * edit->second.color;
       if (is_alone(scene.scene(), light.name)) light.position = edit->second.place;
     }
-  scene.lamps = Lamps(scene.scene());
-  scene.lights.emplace(scene.scene());
-  return find_elements(scene, elements, context);
+  find_lamps(scene);
 }
 
 void follow_places(const SceneEdits& originals, const Vec3& shift, SceneEdits& edits) {

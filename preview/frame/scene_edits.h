@@ -37,9 +37,9 @@ LightEdit edit_of(const Light& light);
 // All of it: what undoes edits.
 SceneEdits edits_of(const Scene& scene);
 
-// Sets them, and what follows from them: lamps and the elements of reflected light (at most so many). Rays, shadow
-// volumes and all geometry stay. Nobody else may read the scene meanwhile. Error kStopped.
-Status edit_scene(PreviewScene& scene, const SceneEdits& edits, std::uint32_t elements, Context& context);
+// Sets them, and the lamps that follow from them. Rays, shadow volumes and all geometry stay. Nobody else may read the
+// scene meanwhile.
+void edit_scene(PreviewScene& scene, const SceneEdits& edits);
 
 // Of a file that was saved anew: lights that were moved stay where they are, from where it has them now; others go
 // where it has them. shift: of scene space, from the scene before.

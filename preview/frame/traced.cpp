@@ -10,7 +10,7 @@ namespace oriel {
 namespace {
 
 constexpr int kMostBounces = 6;  // of lobes after each other
-constexpr int kLampPoints = 4;   // that light what rays meet
+constexpr int kLampPoints = 4;   // of lamps, and of what reflects, that light what rays meet
 constexpr float kSame = 0.02f;   // of the distance: a point that the frame shows is the one that the ray meets
 
 // The weights of the second and third corner at a point of a triangle.
@@ -64,7 +64,7 @@ class SpecularTracer {
   Vec3 irradiance(const DiffuseVertex& v, Sampler& sampler) const {
     const SurfacePoint surface = point_on_side(scene_.scene(), v.triangle, v.barycentric, v.front);
     if (const auto seen = seen_again(surface)) return *seen;
-    return from_elements(surface) + from_lamps(surface, sampler) + from_even_sky(surface, sampler);
+    return from_elements(surface, sampler) + from_lamps(surface, sampler) + from_even_sky(surface, sampler);
   }
 
   // Which is none of the sampled lights.
@@ -91,17 +91,17 @@ class SpecularTracer {
     return Vec3(frame_.light[i]);
   }
 
-  Vec3 from_elements(const SurfacePoint& surface) const {
-    const Receiver receiver{surface.position, surface.normal, surface.geometric_normal};
+  Vec3 from_elements(const SurfacePoint& surface, Sampler& sampler) const {
+    const EyePoint at{{surface.position, surface.normal, surface.geometric_normal},
+                      spawn_origin(surface, surface.geometric_normal)};
+    const std::size_t count = frame_.reflecting.size();
     Vec3 sum(0);
-    for (const BounceElement& e : scene_.elements) {
-      const Vec3 to = e.place - surface.position;
-      const float d2 = std::max(length2(to), 1e-30f);
-      const Vec3 direction = to / std::sqrt(d2);
-      const float cosine = -glm::dot(e.normal, direction);
-      if (cosine > 0) sum += cosine * incidence(receiver, direction) / (d2 + e.area / kPi) * e.power;
+    for (int i = 0; i < kLampPoints && count > 0; ++i) {
+      const auto chosen = static_cast<std::size_t>(sampler.next1() * static_cast<float>(count));
+      const auto shone = shine(frame_.reflecting[std::min(chosen, count - 1)], at, scene_.scene());
+      if (shone) sum += shone->light * transport_.accel.transmittance(shone->ray);
     }
-    return sum;
+    return sum * (static_cast<float>(count) / static_cast<float>(kLampPoints));
   }
 
   Vec3 from_lamps(const SurfacePoint& surface, Sampler& sampler) const {

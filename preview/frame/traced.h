@@ -13,7 +13,8 @@ struct TracedFrame {
   const SeenPoints& seen;
   Mat4 clip_from_pack{1};
   Vec4 eye{0, 0, 0, 1};
-  std::vector<Vec4> light;  // irradiance, lux: what rays find again where they meet what the frame shows
+  std::vector<Vec4> light;                // irradiance, lux: what rays find again where they meet what the frame shows
+  std::span<const LampPoint> reflecting;  // of the pass: light of surfaces on what the frame does not show
 };
 
 struct TracedLight {
@@ -22,8 +23,8 @@ struct TracedLight {
 };
 
 // One ray into the lobe of each tagged pixel, and one through it where it lets light pass; rows are farmed to threads.
-// Diffuse surfaces that rays meet show what the frame has of them, where it sees them; else one lamp with its shadow
-// and the elements of one bounce. pass: picks the rays. Error kStopped.
+// Diffuse surfaces that rays meet show what the frame has of them, where it sees them; else a few points on
+// lamps and a few that reflect light, with their shadows. pass: picks the rays. Error kStopped.
 Result<TracedLight> trace_specular(const PreviewScene& scene, const TracedFrame& frame, std::uint32_t pass,
                                    Context& context);
 

@@ -71,7 +71,10 @@ void main() {
   o_place = vec4(v_position, float(triangle + 1));
   o_normal = vec4(normal, traced ? 1.0 : 0.0);
   o_face = vec4(face, 0.0);
-  o_diffuse = vec4(reflects ? coverage * left / 3.14159265 * diffuse : vec3(0.0), 1.0);
+  // Lobes too wide to be traced: as much light, in all directions.
+  vec3 tint = mix(vec3(1.0), base.rgb / max(max(base.r, base.g), max(base.b, 1e-6)), metallic);
+  vec3 wide = roughness < u_glossy ? vec3(0.0) : (1.0 - left) * tint;
+  o_diffuse = vec4(reflects ? coverage / 3.14159265 * (left * diffuse + wide) : vec3(0.0), 1.0);
   vec3 emission = u_emission * texture(u_emission_texture, uv_of(u_emission_set, u_emission_u, u_emission_v)).rgb;
   o_emission = vec4(reflects ? coverage * emission : vec3(0.0), 1.0);
 }

@@ -68,7 +68,7 @@ class Live : public ::testing::Test {
 
 TEST_F(Live, AHundredEditsOfWhichTwentyAreBroken) {
   const auto file = folder_.write("scene.gltf", lamp_at(1));
-  LiveScene live({.file = file, .import = {}, .elements = 8}, 1, 1);
+  LiveScene live({.file = file, .import = {}}, 1, 1);
   auto news = live.wait_for_news(30);
   ASSERT_TRUE(news && news->scene);
   double last = light_of(news->scene), slowest_s = 0;
@@ -171,7 +171,7 @@ TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
     EXPECT_TRUE(renderer.pass({.samples = 1, .antialias = false}, context_));
     return renderer.read_mean().pixels;
   };
-  PreviewSceneOptions options{.file = folder_.write("a.gltf", edited_scene().text()), .import = {}, .elements = 4};
+  PreviewSceneOptions options{.file = folder_.write("a.gltf", edited_scene().text()), .import = {}};
   const auto first = *load_preview_scene(options, context_);
   for (const Edit& e : kEdits) {
     test::Gltf changed = edited_scene();
@@ -193,7 +193,7 @@ TEST_F(Live, AnEditedFileIsSeenWithWhatStaysOfTheLast) {
 
 TEST_F(Live, AFileThatGoesAndComesBack) {
   const auto file = folder_.write("scene.gltf", lamp_at(1));
-  LiveScene live({.file = file, .import = {}, .elements = 0}, 1, 1);
+  LiveScene live({.file = file, .import = {}}, 1, 1);
   auto news = live.wait_for_news(30);
   ASSERT_TRUE(news && news->scene);
   std::filesystem::remove(file);

@@ -49,7 +49,7 @@ TEST(RandomScenes, AreDrawnInEveryWay) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const auto file = folder.path() / "random.glb";
     ASSERT_TRUE(write_file_atomically(file, fuzz::random_scene(seed).glb));
-    const auto loaded = load_preview_scene({.file = file, .import = sky, .elements = 16}, context);
+    const auto loaded = load_preview_scene({.file = file, .import = sky}, context);
     ASSERT_TRUE(loaded) << "seed " << seed << ": " << loaded.error().text();
     const Scene& scene = (*loaded)->scene();
     ASSERT_TRUE(renderer.take(*loaded)) << seed;

@@ -1,0 +1,37 @@
+#include "preview/frame/eye_points.h"
+
+#include <algorithm>
+
+#include "bake/trace/accel.h"
+#include "bake/trace/sampler.h"
+
+namespace oriel {
+namespace {
+
+constexpr std::uint64_t kStream = 0x657965;
+
+}  // namespace
+
+EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Scene& scene) {
+  const Vec3 place(seen.place[pixel]), face(seen.face[pixel]);
+  const UVec3& t = scene.triangles[static_cast<std::size_t>(seen.place[pixel].w) - 1];
+  float magnitude = 0;
+  for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, max_component(glm::abs(scene.positions[t[k]])));
+  // But for the surface's own thickness of rounding.
+  return {{place, Vec3(seen.normal[pixel]), face}, offset_origin(place, face, magnitude)};
+}
+
+std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std::uint32_t count, std::uint64_t seed,
+                                 std::uint32_t pass) {
+  std::vector<EyePoint> points;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(seed, kStream, pass * count + i);
+    const Vec2 at = sampler.next2() * Vec2(IVec2(seen.width, seen.height));
+    const std::size_t pixel =
+        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(at.x);
+    if (pixel < seen.place.size() && seen.place[pixel].w != 0) points.push_back(eye_point(seen, pixel, scene));
+  }
+  return points;
+}
+
+}  // namespace oriel

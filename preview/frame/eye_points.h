@@ -1,0 +1,22 @@
+// Some of what the eye sees, which tells what reflected light matters.
+#pragma once
+
+#include "bake/scene/scene.h"
+#include "bake/trace/polygon_light.h"
+#include "preview/frame/neighbours.h"
+
+namespace oriel {
+
+struct EyePoint {
+  Receiver at;
+  Vec3 origin{0};  // of rays that leave it
+};
+
+// Of a pixel that sees something.
+EyePoint eye_point(const SeenPoints& seen, std::size_t pixel, const Scene& scene);
+
+// Of so many pixels, spread over the frame; fewer where pixels see nothing. seed and pass choose which.
+std::vector<EyePoint> eye_points(const SeenPoints& seen, const Scene& scene, std::uint32_t count, std::uint64_t seed,
+                                 std::uint32_t pass);
+
+}  // namespace oriel
