@@ -9,7 +9,7 @@
 #include "formats/image/png.h"
 #include "formats/query/camera_notes.h"
 #include "player/gpu/headless.h"
-#include "preview/frame/paths.h"
+#include "preview/frame/blend_paths.h"
 
 namespace oriel {
 namespace {
@@ -135,7 +135,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   if (a.paths > 0) {
     ORIEL_TRY(const PathMean mean, trace_paths(a, scene, camera, context));
     noise = mean.relative_noise;
-    paths = blend_paths(mean, renderer.read_mean(), true);
+    ORIEL_TRY(paths, blend_paths(mean, renderer.read_mean(), context));
   }
   ORIEL_TRY(const FrameTarget* frame, renderer.frame(paths ? &*paths : nullptr));
   if (a.stats) {

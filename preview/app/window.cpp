@@ -7,8 +7,8 @@
 #include "preview/app/baking.h"
 #include "preview/app/edit_panel.h"
 #include "preview/app/overlay.h"
+#include "preview/frame/blend_paths.h"
 #include "preview/frame/live_scene.h"
-#include "preview/frame/paths.h"
 
 namespace oriel {
 namespace {
@@ -247,7 +247,7 @@ class PreviewWindow {
     } else if (auto mean = paths_.newer(status_.paths)) {
       status_.paths = mean->samples;
       status_.noise = mean->relative_noise;
-      blended_ = blend_paths(*mean, passes_mean_, mean->samples >= status_.most_paths);
+      ORIEL_TRY(blended_, blend_paths(*mean, passes_mean_, context_));
       worked_ = true;
     }
     ORIEL_TRY(const FrameTarget* frame, renderer_.frame(blended_ ? &*blended_ : nullptr));

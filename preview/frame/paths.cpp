@@ -2,32 +2,30 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "bake/jobs/parallel.h"
-#include "formats/core/color.h"
 #include "formats/metrics/relative_error.h"
 
 namespace oriel {
 namespace {
 
-constexpr std::uint32_t kTile = 16;  // pixels a side
-constexpr float kTrusted = 64;       // samples that are believed half without any reason
-
 // Sums over the samples of each pixel.
 struct PathSums {
-  std::vector<DVec3> sum, squares;
+  std::vector<DVec3> sum, squares, even;  // even: of every other sample
   std::uint32_t samples = 0;
 
   PathMean mean(const ReferenceOptions& frame) const {
     const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
-    PathMean out{samples, {width, height, 3, {}}, {width, height, 3, {}}, 1};
-    const double n = samples;
+    PathMean out{samples, {width, height, 3, {}}, {width, height, 3, {}}, {width, height, 3, {}}, 1};
+    const double n = samples, evens = std::ceil(n / 2), odds = std::max(1.0, n - evens);
     for (std::size_t i = 0; i < sum.size(); ++i) {
       const DVec3 mean = sum[i] / n;
       const DVec3 error = glm::sqrt(glm::max(DVec3(0), squares[i] / n - mean * mean) / std::max(1.0, n - 1));
       for (int c = 0; c < 3; ++c) {
         out.mean.pixels.push_back(static_cast<float>(mean[c]));
         out.noise.pixels.push_back(static_cast<float>(error[c]));
+        out.halves.pixels.push_back(static_cast<float>(0.5 * (even[i][c] / evens - (sum[i][c] - even[i][c]) / odds)));
       }
     }
     if (samples > 1) out.relative_noise = relative_error(out.mean, out.mean, out.noise)->noise;
@@ -133,6 +131,7 @@ void PathFrame::trace(const PathView& view) {
   PathSums sums;
   sums.sum.resize(width * height);
   sums.squares.resize(width * height);
+  sums.even.resize(width * height);
   while (sums.samples < view.frame.samples) {
     const std::uint32_t from = sums.samples;
     const std::uint32_t to = std::min(view.frame.samples, from + std::clamp(from, 1u, 16u));
@@ -141,6 +140,7 @@ void PathFrame::trace(const PathView& view) {
         const DVec3 light(trace_sample(transport, view.camera, view.frame, {view.seed, x, y, i}));
         sums.sum[y * width + x] += light;
         sums.squares[y * width + x] += light * light;
+        if (i % 2 == 0) sums.even[y * width + x] += light;
       }
     };
     if (!trace_pixels(view.frame, pixel)) return;
@@ -151,38 +151,6 @@ void PathFrame::trace(const PathView& view) {
     mean_ = std::move(mean);
     changed_.notify_all();
   }
-}
-
-FloatImage blend_paths(const PathMean& paths, const FloatImage& passes, bool whole) {
-  const std::uint32_t width = paths.mean.width, height = paths.mean.height;
-  FloatImage out{width, height, 4, std::vector<float>(std::size_t{4} * width * height)};
-  const float least = static_cast<float>(paths.samples) / (static_cast<float>(paths.samples) + kTrusted);
-  const auto at = [width](const FloatImage& image, std::uint32_t x, std::uint32_t y) {
-    const float* p = image.pixels.data() + std::size_t{3} * (std::size_t{y} * width + x);
-    return DVec3(p[0], p[1], p[2]);
-  };
-  for (std::uint32_t top = 0; top < height; top += kTile)
-    for (std::uint32_t left = 0; left < width; left += kTile) {
-      const std::uint32_t bottom = std::min(top + kTile, height), right = std::min(left + kTile, width);
-      double noise = 0, distance = 0;
-      for (std::uint32_t y = top; y < bottom; ++y)
-        for (std::uint32_t x = left; x < right; ++x) {
-          const DVec3 error = at(paths.noise, x, y), apart = at(paths.mean, x, y) - at(passes, x, y);
-          noise += glm::dot(error, error);
-          distance += glm::dot(apart, apart);
-        }
-      const double bias = std::max(0.0, distance - noise);
-      const auto best = static_cast<float>(bias + noise > 0 ? bias / (bias + noise) : 1);
-      const float weight = whole ? 1 : paths.samples < 2 ? 0 : std::max(least, best);
-      for (std::uint32_t y = top; y < bottom; ++y)
-        for (std::uint32_t x = left; x < right; ++x) {
-          const DVec3 mean = at(paths.mean, x, y);
-          float* p = out.pixels.data() + std::size_t{4} * (std::size_t{y} * width + x);
-          for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(mean[c]);
-          p[3] = weight;
-        }
-    }
-  return out;
 }
 
 }  // namespace oriel

@@ -14,6 +14,7 @@ namespace oriel {
 struct PathMean {
   std::uint32_t samples = 0;
   FloatImage mean, noise;     // noise: standard errors; none of one sample
+  FloatImage halves;          // half the difference of the means of even and of odd samples: noise as large as mean's
   double relative_noise = 1;  // as ReferenceFrame's
 };
 
@@ -56,11 +57,5 @@ class PathFrame {
   std::atomic<bool> held_{false};
   std::thread thread_;
 };
-
-// RGBA: that mean, and how far it is trusted beside the passes' (RGB, the same size), by tile: passes err by what they
-// leave out, which their distance from the paths tells beyond the paths' own noise; paths err by their noise. The
-// weights are those of the least squared error, and at least samples / (samples + 64): in the end the frame is that of
-// the paths alone. whole: it is now.
-FloatImage blend_paths(const PathMean& paths, const FloatImage& passes, bool whole);
 
 }  // namespace oriel
