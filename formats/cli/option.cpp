@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -18,8 +19,12 @@ Result<T> parse_number(const std::string& typed, double low, double high) {
   const auto [end, error] = std::from_chars(typed.data(), typed.data() + typed.size(), value);
   const bool whole = error == std::errc() && end == typed.data() + typed.size();
   if (whole && static_cast<double>(value) >= low && static_cast<double>(value) <= high) return value;
-  return fail(ErrorCode::kUsage, "", "found '{}', expected a {}number from {:g} to {:g}", typed,
-              std::is_integral_v<T> ? "whole " : "", low, high);
+  const char* kind = std::is_integral_v<T> ? "whole " : "";
+  if (std::is_integral_v<T> &&
+      high >= static_cast<double>(std::numeric_limits<T>::max()))  // what memory holds: no limit
+    return fail(ErrorCode::kUsage, "", "found '{}', expected a {}number of at least {:g} that has at most {} digits",
+                typed, kind, low, std::numeric_limits<T>::digits10);
+  return fail(ErrorCode::kUsage, "", "found '{}', expected a {}number from {:g} to {:g}", typed, kind, low, high);
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between) {
@@ -93,6 +98,7 @@ template OptionValue number(std::uint32_t&, double, double);
 template OptionValue number(std::uint64_t&, double, double);
 template OptionValue number(float&, double, double);
 template OptionValue number(double&, double, double);
+template OptionValue number(std::optional<std::uint32_t>&, double, double);
 template OptionValue number(std::optional<float>&, double, double);
 template OptionValue number(std::optional<double>&, double, double);
 template std::function<Json()> json_of(const int&);

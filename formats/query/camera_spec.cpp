@@ -11,6 +11,7 @@ namespace oriel {
 namespace {
 
 constexpr float kDefaultFovRad = 1.0471976f;  // 60°
+constexpr double kRounded = 0.005;            // of a path's duration, as messages round it
 
 // The whole text as a finite number, whatever the locale.
 std::optional<double> number(std::string_view text) {
@@ -80,9 +81,12 @@ Result<Camera> parse_camera(std::string_view text, const CameraChoices& choices)
   if (const std::size_t split = text.rfind('@'); split != std::string_view::npos) {
     const auto time = number(text.substr(split + 1));
     for (const CameraPath& path : choices.paths) {
-      if (time && path.name == text.substr(0, split)) {
-        return camera_on_path(path, static_cast<float>(std::clamp(*time, -1e9, 1e9)));
-      }
+      if (!time || path.name != text.substr(0, split)) continue;
+      const double most = double{path_duration_s(path)};
+      if (*time < 0 || *time > most + kRounded * most)
+        return fail(ErrorCode::kUsage, "camera", "found {:g} s on path \"{}\", expected 0 to {:.4g}", *time, path.name,
+                    most);
+      return camera_on_path(path, static_cast<float>(*time));
     }
     return unknown(text, choices);
   }

@@ -37,8 +37,7 @@ std::vector<Option> output_options(PreviewArguments& a) {
        number(a.passes, 1, kMostPasses), Use::kEveryday},
       {"--paths", kFrameGroup,
        "Whole paths a pixel after the passes, by the estimator of oriel-bake render. A window goes on with them as "
-       "long "
-       "as nothing moves",
+       "long as nothing moves. Default: 4096 there, 0 of --offscreen",
        number(a.paths, 0, kMostPasses), Use::kEveryday},
       {"--ev", kFrameGroup, "Exposure value at ISO 100. Default: by the frame", number(a.ev100, -100, 100)},
       {"--tonemap", kFrameGroup, "Tone curve of what is shown", choice(a.curve, kToneCurves)},
@@ -105,6 +104,9 @@ CommandLine preview_command_line(PreviewArguments& a, std::function<Status()> ru
   command.settle = [&a, baked](const Given& given) -> Status {
     a.bake_options = given.words(baked);
     if (a.pack.empty()) a.pack = std::filesystem::path(a.scene.file).replace_extension(".oriel");
+    if (a.frame.shared && (a.frame.shadows == ShadowMethod::kVolumes || a.frame.shadows == ShadowMethod::kNone))
+      return fail(ErrorCode::kUsage, "--shared",
+                  "found it with --shadows volumes or none, expected rays or auto: rays alone share points");
     if (!a.offscreen) return {};
     const auto ending = a.output.extension();
     if (!a.output.empty() && ending != ".png" && ending != ".exr")

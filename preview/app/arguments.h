@@ -20,8 +20,8 @@ struct PreviewArguments {
   bool offscreen = false, stats = false, reproducible = false;
   std::filesystem::path output;  // .png as shown, .exr linear
   std::uint32_t passes = 16;
-  std::uint32_t paths = 0;     // a pixel, after the passes
-  std::optional<float> ev100;  // nothing: automatic
+  std::optional<std::uint32_t> paths;  // a pixel, after the passes; nothing: 4096 in a window, 0 offscreen
+  std::optional<float> ev100;          // nothing: automatic
   ToneCurve curve = ToneCurve::kAces;
   int frames = -1;  // the window closes after so many; -1: never
   int threads = 0;

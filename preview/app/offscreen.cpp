@@ -92,7 +92,7 @@ Result<PathMean> trace_paths(const PreviewArguments& a, const std::shared_ptr<co
                              const Camera& camera, const Context& context) {
   PathFrame paths(a.threads);
   const ReferenceOptions frame{
-      .width = a.width, .height = a.height, .samples = a.paths, .antialias = a.frame.antialias};
+      .width = a.width, .height = a.height, .samples = a.paths.value_or(0), .antialias = a.frame.antialias};
   paths.start({scene, camera, frame, a.seed});
   std::uint32_t told = 0;
   Clock::time_point last = Clock::now();
@@ -102,7 +102,7 @@ Result<PathMean> trace_paths(const PreviewArguments& a, const std::shared_ptr<co
     last = Clock::now();
     if (const auto mean = paths.newer(told)) {
       told = mean->samples;
-      fmt::print(stderr, "oriel-preview: {} of {} paths a pixel, noise {:.1f} %\n", told, a.paths,
+      fmt::print(stderr, "oriel-preview: {} of {} paths a pixel, noise {:.1f} %\n", told, *a.paths,
                  100 * mean->relative_noise);
     }
   }
@@ -132,7 +132,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
   const double drawn_s = seconds_since(started);
   std::optional<FloatImage> paths;
   double noise = 0;
-  if (a.paths > 0) {
+  if (a.paths.value_or(0) > 0) {
     ORIEL_TRY(const PathMean mean, trace_paths(a, scene, camera, context));
     noise = mean.relative_noise;
     ORIEL_TRY(paths, blend_paths(mean, renderer.read_mean(), context));
@@ -152,7 +152,7 @@ Status preview_offscreen(const PreviewArguments& a, Context& context, Clock::tim
                                          {"edges", scene->shadows->edges()},
                                          {"lamps", scene->lamps.count()},
                                          {"passes", renderer.passes()},
-                                         {"paths", a.paths},
+                                         {"paths", a.paths.value_or(0)},
                                          {"noise", noise},
                                          {"passes_frame", json_of_frame(renderer.read_mean())},
                                          {"last_pass", json_of_pass(stats)}};

@@ -39,7 +39,7 @@ class PreviewWindow {
         paths_(arguments.threads),
         ev100_(arguments.ev100) {
     status_.most_passes = arguments.passes;
-    status_.most_paths = arguments.paths > 0 ? arguments.paths : kPaths;
+    status_.most_paths = arguments.paths.value_or(kPaths);
   }
 
   // Once a bake has ended: where the eye is, world.
@@ -100,9 +100,9 @@ class PreviewWindow {
     if (!news) return {};
     for (const std::string& warning : live_.warnings()) fmt::print(stderr, "oriel-preview: {}\n", warning);
     if (!news->scene) {
+      if (!scene_ && arguments_.frames > 0) return tl::unexpected<Error>(news->error);  // main tells of it
       status_.error = news->error.text();
       fmt::print(stderr, "oriel-preview: {}\n", status_.error);
-      if (!scene_ && arguments_.frames > 0) return tl::unexpected<Error>(news->error);
       return {};
     }
     const bool again = scene_ != nullptr;
@@ -279,6 +279,7 @@ class PreviewWindow {
   }
 
   void begin_paths() {
+    if (status_.most_paths == 0) return;
     passes_mean_ = renderer_.read_mean();
     ReferenceOptions frame{
         .width = size_.x, .height = size_.y, .samples = status_.most_paths, .antialias = options_.antialias};

@@ -12,7 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kPixelStream = 0x706978;
-constexpr int kTrials = 2;  // of volumes: the first one has shaders to compile
+constexpr int kTrials = 2;              // of volumes: the first one has shaders to compile
+constexpr std::uint32_t kAskAgain = 4;  // of so many passes one asks again what rays cost
 constexpr std::uint64_t kCapStream = 0x63617073;
 constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by which lamps share points
 constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels
@@ -152,7 +153,10 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
 ShadowMethod PreviewRenderer::method(const PreviewOptions& options) const {
   if (options.shadows != ShadowMethod::kAuto) return options.shadows;
   const double rays = costs_.rays[options.shared ? 1 : 0];
-  return rays > 0 && costs_.trials == kTrials && costs_.volumes < rays ? ShadowMethod::kVolumes : ShadowMethod::kRays;
+  const bool asks =
+      !options.shared && passes_ % kAskAgain == kAskAgain - 1;  // rays get cheaper with each pass (classes)
+  const bool cheaper = rays > 0 && costs_.trials == kTrials && costs_.volumes < rays;
+  return cheaper && !asks ? ShadowMethod::kVolumes : ShadowMethod::kRays;
 }
 
 Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
@@ -165,6 +169,7 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
   double& rays = costs_.rays[options.shared ? 1 : 0];
   const bool tries = options.shadows == ShadowMethod::kAuto && rays > 0 && costs_.trials < kTrials && lamps.size() > 1;
   const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
+  read_seen();  // reflected light needs it too: no cost of these rays
   {
     const Stage stage(stats.shadows_s);
     ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context, stats));

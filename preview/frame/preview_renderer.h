@@ -1,5 +1,5 @@
-// The preview's frame: passes of direct light with its shadows, one bounce, specular pixels by rays, all added up while
-// nothing moves (Udeshi & Hansen 1999).
+// The preview's frame: passes of direct light with its shadows, reflected light, specular pixels by rays, all added up
+// while nothing moves (Udeshi & Hansen 1999).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// One bounce: the light of elements, disks that reflect what lamps throw on them, without shadows (Udeshi & Hansen 1999, section 3).
+// Reflected light: that of elements, which reflect what comes to them, without shadows (Udeshi & Hansen 1999, section 3).
 #include "lib/incidence.glsl"
 uniform sampler2D u_place, u_normal, u_face;
 uniform int u_count;

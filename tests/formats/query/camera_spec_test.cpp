@@ -35,8 +35,12 @@ TEST(CameraSpec, NamesAndNumbers) {
 TEST(CameraSpec, PointsOfPaths) {
   const Choices c = some();
   EXPECT_EQ(parse_camera("walk@2.5", c.all())->eye.x, 2.5f);
-  EXPECT_EQ(parse_camera("walk@1e9", c.all())->eye.x, 10);
-  EXPECT_EQ(parse_camera("walk@-1", c.all())->eye.x, 0);
+  EXPECT_EQ(parse_camera("walk@10.01", c.all())->eye.x, 10);  // as a message may round it
+  for (const char* text : {"walk@11", "walk@1e9", "walk@-1"}) {
+    const auto camera = parse_camera(text, c.all());
+    ASSERT_FALSE(camera) << text;
+    EXPECT_NE(camera.error().message.find("expected 0 to 10"), std::string::npos) << camera.error().message;
+  }
 }
 
 TEST(CameraSpec, EyeAndTargetAreInTheWorld) {
