@@ -94,8 +94,11 @@ Status BrightPass::make_targets(int width, int height) {
   return of_scene_.make((width + 1) / 2, (height + 1) / 2);
 }
 
-void BrightPass::draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
-                              const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const {
+void BrightPass::draw_batches(const FrameContext& context, std::span<const DrawBatch> batches,
+                              const Mat4& clip_from_object, const Mat4& pack_from_object, int id) const {
+  const auto& [scene, view, options, stats] = context;
+  gpu::RasterState state;
+  state.depth_test = state.depth_write = true;
   surface_.set("u_clip_from_pack", clip_from_object);
   surface_.set("u_pack_from_object", pack_from_object);
   for (const DrawBatch& batch : batches) {
@@ -112,8 +115,9 @@ void BrightPass::draw_batches(const GpuScene& scene, std::span<const DrawBatch> 
 
 // Movers as if there were no scene, the scene as if there were no movers: at the middle of pixels, while the frame's
 // depth is that of its samples.
-void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                               std::span<const PlacedMover> movers, FrameStats& stats) const {
+void BrightPass::draw_surfaces(const FrameContext& context, std::span<const DrawBatch> shown,
+                               std::span<const PlacedMover> movers) const {
+  const auto& [scene, view, options, stats] = context;
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
   gpu::apply(state);
@@ -125,14 +129,14 @@ void BrightPass::draw_surfaces(const GpuScene& scene, const View& view, std::spa
   for (std::size_t i = 0; i < movers.size(); ++i) {
     glBindVertexArray(movers[i].mover->vertex_array.name());
     const Mat4 clip = clip_from_object(view, movers[i]);
-    draw_batches(scene, visible_batches(movers[i].mover->ranges, make_frustum(clip)), clip, movers[i].pack_from_object,
-                 id_of(i), state, stats);
+    draw_batches(context, visible_batches(movers[i].mover->ranges, make_frustum(clip)), clip,
+                 movers[i].pack_from_object, id_of(i));
   }
   of_scene_.bind(of_scene_.surfaces_target);
   glClearBufferuiv(GL_COLOR, 0, kNothing);
   glClear(GL_DEPTH_BUFFER_BIT);
   scene.bind_shown();
-  draw_batches(scene, shown, view.clip_from_pack, Mat4(1), kSceneId, state, stats);
+  draw_batches(context, shown, view.clip_from_pack, Mat4(1), kSceneId);
 }
 
 void BrightPass::start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const {
@@ -208,39 +212,39 @@ void BrightPass::draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats
   ++stats.draws;
 }
 
-void BrightPass::add_to_movers(const View& view, const LitMovers& lit, FrameStats& stats) const {
+void BrightPass::add_to_movers(const FrameContext& context, const LitMovers& lit) const {
   for (const LitMovers::Receiver& r : lit.receivers) {
     if (!r.visible) continue;
     light_.set("u_box_from_pack", box_from_pack(*r.mover));
     light_.set("u_share", r.share);
-    draw_rectangle(id_of(r.index), rectangle_of(view.clip_from_pack, box_around(*r.mover)), stats);
+    draw_rectangle(id_of(r.index), rectangle_of(context.view.clip_from_pack, box_around(*r.mover)), context.stats);
   }
 }
 
-void BrightPass::take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const {
+void BrightPass::take_from_scene(const FrameContext& context, const LitMovers& lit) const {
   std::vector<Vec3> shadows;
   for (const LitMovers::Caster& caster : lit.casters)
     if (caster.on_scene) shadows.insert(shadows.end(), caster.scene_box.begin(), caster.scene_box.end());
-  draw_rectangle(kSceneId, rectangle_of(view.clip_from_pack, shadows), stats);
+  draw_rectangle(kSceneId, rectangle_of(context.view.clip_from_pack, shadows), context.stats);
 }
 
 // Where a light's shadows are textures, the maps take nothing.
-void BrightPass::leave_to_textures(const GpuScene& scene, const View& view, std::uint32_t light,
-                                   FrameStats& stats) const {
+void BrightPass::leave_to_textures(const FrameContext& context, std::uint32_t light) const {
   gpu::apply({});
-  textures_.draw(scene, view, of_scene_.surfaces, light, stats);
+  textures_.draw(context.scene, context.view, of_scene_.surfaces, light, context.stats);
 }
 
-void BrightPass::take_by_textures(const GpuScene& scene, const View& view, FrameStats& stats) const {
+void BrightPass::take_by_textures(const FrameContext& context) const {
   of_scene_.bind(of_scene_.change_target);
   gpu::RasterState state;
   state.blend = gpu::Blend::kAdd;
   gpu::apply(state);
   glBindVertexArray(no_vertices_.name());
-  textures_.draw(scene, view, of_scene_.surfaces, std::nullopt, stats);
+  textures_.draw(context.scene, context.view, of_scene_.surfaces, std::nullopt, context.stats);
 }
 
-Status BrightPass::draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats) {
+Status BrightPass::draw_light(const FrameContext& context, const LitMovers& lit) {
+  const auto& [scene, view, options, stats] = context;
   const std::size_t groups = groups_of(lit.samples);
   const float reach = 2 * scene.bounds().radius();
   std::vector<ShadowMaps::Request> requests;
@@ -268,23 +272,22 @@ Status BrightPass::draw_light(const GpuScene& scene, const View& view, const Lit
           for (const std::size_t r : caster.on_movers) draw_box(box_around(*lit.receivers[r].mover), stats);
         },
         [] {});
-    add_to_movers(view, lit, stats);
+    add_to_movers(context, lit);
     if (!any_on_scene) continue;
     draw(
         of_scene_,
         [&](const LitMovers::Caster& caster) {
           if (caster.on_scene) draw_box(caster.scene_box, stats);
         },
-        [&] { leave_to_textures(scene, view, lit.light, stats); });
-    take_from_scene(view, lit, stats);
+        [&] { leave_to_textures(context, lit.light); });
+    take_from_scene(context, lit);
   }
   return {};
 }
 
-Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, const View& view,
-                                                     std::span<const DrawBatch> shown,
-                                                     std::span<const PlacedMover> movers, const FrameOptions& options,
-                                                     FrameStats& stats) {
+Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context, std::span<const DrawBatch> shown,
+                                                     std::span<const PlacedMover> movers) {
+  const auto& [scene, view, options, stats] = context;
   std::vector<LitMovers> lights =
       find_lit(scene.bright_lights(), movers, make_frustum(view.clip_from_pack), scene.bounds(), options);
   if (lights.empty()) return std::nullopt;
@@ -307,15 +310,15 @@ Result<std::optional<BrightChange>> BrightPass::draw(const GpuScene& scene, cons
   const auto start = std::chrono::steady_clock::now();
   textures_.prepare(scene, view, lights, options);
   stats.shadow_texture_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  draw_surfaces(scene, view, shown, movers, stats);
+  draw_surfaces(context, shown, movers);
   gpu::apply({});
   glClearColor(0, 0, 0, 0);
   for (const Canvas* canvas : {&of_movers_, &of_scene_}) {
     canvas->bind(canvas->change_target);
     glClear(GL_COLOR_BUFFER_BIT);
   }
-  for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(scene, view, lit, stats));
-  take_by_textures(scene, view, stats);
+  for (const LitMovers& lit : lights) ORIEL_TRY_VOID(draw_light(context, lit));
+  take_by_textures(context);
   known_ = std::move(now);
   return change;
 }

@@ -33,9 +33,8 @@ class BrightPass {
 
   // shown: of the opaque scene. Nothing where bright lights change nothing;
   // what is given holds until the next call. Own framebuffers stay bound. Error kRuntime.
-  Result<std::optional<BrightChange>> draw(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                                           std::span<const PlacedMover> movers, const FrameOptions& options,
-                                           FrameStats& stats);
+  Result<std::optional<BrightChange>> draw(const FrameContext& context, std::span<const DrawBatch> shown,
+                                           std::span<const PlacedMover> movers);
 
  private:
   struct Canvas {
@@ -45,19 +44,19 @@ class BrightPass {
     void bind(const gpu::Framebuffer& target) const;
   };
   Status make_targets(int width, int height);
-  void draw_surfaces(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                     std::span<const PlacedMover> movers, FrameStats& stats) const;
-  void draw_batches(const GpuScene& scene, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
-                    const Mat4& pack_from_object, int id, gpu::RasterState state, FrameStats& stats) const;
-  Status draw_light(const GpuScene& scene, const View& view, const LitMovers& lit, FrameStats& stats);
+  void draw_surfaces(const FrameContext& context, std::span<const DrawBatch> shown,
+                     std::span<const PlacedMover> movers) const;
+  void draw_batches(const FrameContext& context, std::span<const DrawBatch> batches, const Mat4& clip_from_object,
+                    const Mat4& pack_from_object, int id) const;
+  Status draw_light(const FrameContext& context, const LitMovers& lit);
   void start_shadows(const Canvas& canvas, const View& view, std::span<const Vec4> points) const;
   void set_caster(const LitMovers::Caster& caster, std::span<const Vec4> points, int layer, float reach) const;
   void draw_box(std::span<const Vec3> corners, FrameStats& stats) const;
   void start_light(const Canvas& canvas, const LitMovers& lit, std::span<const Vec4> points) const;
-  void add_to_movers(const View& view, const LitMovers& lit, FrameStats& stats) const;
-  void take_from_scene(const View& view, const LitMovers& lit, FrameStats& stats) const;
-  void leave_to_textures(const GpuScene& scene, const View& view, std::uint32_t light, FrameStats& stats) const;
-  void take_by_textures(const GpuScene& scene, const View& view, FrameStats& stats) const;
+  void add_to_movers(const FrameContext& context, const LitMovers& lit) const;
+  void take_from_scene(const FrameContext& context, const LitMovers& lit) const;
+  void leave_to_textures(const FrameContext& context, std::uint32_t light) const;
+  void take_by_textures(const FrameContext& context) const;
   void draw_rectangle(int id, const Vec4& rectangle, FrameStats& stats) const;
 
   // What the pictures depend on.

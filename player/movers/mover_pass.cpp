@@ -56,8 +56,8 @@ Result<MoverPass> MoverPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                           FrameStats& stats) const {
+void MoverPass::draw_depth(const FrameContext& context, std::span<const PlacedMover> movers) const {
+  const auto& [scene, view, options, stats] = context;
   depth_.use();
   depth_.set("u_base_texture", kBaseUnit);
   gpu::RasterState state;
@@ -79,24 +79,24 @@ void MoverPass::draw_depth(const GpuScene& scene, const View& view, std::span<co
   }
 }
 
-void MoverPass::draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
-                     const MoverChange* change, FrameStats& stats) const {
+void MoverPass::draw(const FrameContext& context, std::span<const PlacedMover> movers, const Vec3& weights,
+                     const MoverChange* change) const {
   light_.use();
   light_.set("u_alpha_kind", 0);
   light_.set("u_changed", change != nullptr ? 1 : 0);
   if (change != nullptr) change->light->bind(kChangeUnit), change->surfaces->bind(kPlaceUnit);
-  draw_light(scene, view, movers, weights, stats);
+  draw_light(context, movers, weights);
 }
 
-void MoverPass::draw_reflected(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                               FrameStats& stats) const {
-  set_distance_alpha(light_, view);
+void MoverPass::draw_reflected(const FrameContext& context, std::span<const PlacedMover> movers) const {
+  set_distance_alpha(light_, context.view);
   light_.set("u_changed", 0);
-  draw_light(scene, view, movers, Vec3(1), stats);
+  draw_light(context, movers, Vec3(1));
 }
 
-void MoverPass::draw_light(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                           const Vec3& weights, FrameStats& stats) const {
+void MoverPass::draw_light(const FrameContext& context, std::span<const PlacedMover> movers,
+                           const Vec3& weights) const {
+  const auto& [scene, view, options, stats] = context;
   light_.set("u_eye", view.eye);
   light_.set("u_base_texture", kBaseUnit);
   light_.set("u_reflectance", kReflectanceUnit);

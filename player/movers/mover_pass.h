@@ -3,9 +3,7 @@
 
 #include "player/gpu/program.h"
 #include "player/movers/mover_light.h"
-#include "player/navigation/view.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -46,19 +44,16 @@ class MoverPass {
   static Result<MoverPass> create(gpu::Dialect dialect);
 
   // Depth into the bound framebuffer.
-  void draw_depth(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                  FrameStats& stats) const;
+  void draw_depth(const FrameContext& context, std::span<const PlacedMover> movers) const;
   // Light, over that depth. weights: of the diffuse part, the undirected reflection, the emission. change: may be
   // null.
-  void draw(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
-            const MoverChange* change, FrameStats& stats) const;
+  void draw(const FrameContext& context, std::span<const PlacedMover> movers, const Vec3& weights,
+            const MoverChange* change) const;
   // The same into the image of a mirror, without change; alpha tells the distance.
-  void draw_reflected(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers,
-                      FrameStats& stats) const;
+  void draw_reflected(const FrameContext& context, std::span<const PlacedMover> movers) const;
 
  private:
-  void draw_light(const GpuScene& scene, const View& view, std::span<const PlacedMover> movers, const Vec3& weights,
-                  FrameStats& stats) const;
+  void draw_light(const FrameContext& context, std::span<const PlacedMover> movers, const Vec3& weights) const;
   gpu::Program depth_, light_;
 };
 

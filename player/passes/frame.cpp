@@ -16,7 +16,8 @@ SceneWeights weights_of(Show show) {
 }
 
 // The opaque scene as the eye may see it.
-std::vector<DrawBatch> choose_shown(GpuScene& scene, const View& view, const FrameOptions& options, FrameStats& stats) {
+std::vector<DrawBatch> choose_shown(const FrameContext& context) {
+  const auto& [scene, view, options, stats] = context;
   SeenMask seen;
   if (options.visible_sets && !view.orthographic) seen = scene.seen_from(Vec3(view.eye));
   if (seen) {
@@ -102,19 +103,16 @@ Status Renderer::ensure_frame(int width, int height, int samples, bool halves) {
   return {};
 }
 
-Result<std::optional<BrightChange>> Renderer::draw_change(const GpuScene& scene, const View& view,
-                                                          std::span<const DrawBatch> shown,
-                                                          std::span<const PlacedMover> movers,
-                                                          const FrameOptions& options, FrameStats& stats) {
-  ORIEL_TRY(const auto change,
-            clock_.time(Pass::kMovers, [&] { return bright_pass_.draw(scene, view, shown, movers, options, stats); }));
+Result<std::optional<BrightChange>> Renderer::draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
+                                                          std::span<const PlacedMover> movers) {
+  ORIEL_TRY(const auto change, clock_.time(Pass::kMovers, [&] { return bright_pass_.draw(context, shown, movers); }));
   frame_->drawn().bind();
-  glViewport(0, 0, view.width, view.height);
+  glViewport(0, 0, context.view.width, context.view.height);
   return change;
 }
 
-Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& options) {
-  if (options.white > 0 || !needs_white(scene)) return options.white;
+Result<float> Renderer::white_for(const FrameContext& context) {
+  if (context.options.white > 0 || !needs_white(context.scene)) return context.options.white;
   frame_->resolve_light();
   ORIEL_TRY(const std::optional<float> ev100, meter());
   frame_->drawn().bind();
@@ -122,14 +120,13 @@ Result<float> Renderer::white_for(const GpuScene& scene, const FrameOptions& opt
   return white_of_exposure(ev100.value_or(0.0f));
 }
 
-Status Renderer::draw_see_through(GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                                  const FrameOptions& options, FrameStats& stats) {
-  if (scene.glass().empty()) return scene_pass_.draw_transparent(scene, view, weights, white, stats);
-  ORIEL_TRY_VOID(glass_pass_.prepare(scene, view, scene_pass_, options, stats));
+Status Renderer::draw_see_through(const FrameContext& context, const SceneWeights& weights, float white) {
+  if (context.scene.glass().empty()) return scene_pass_.draw_transparent(context, weights, white);
+  ORIEL_TRY_VOID(glass_pass_.prepare(context, scene_pass_));
   frame_->drawn().bind();
-  glViewport(0, 0, view.width, view.height);
-  return scene_pass_.draw_transparent(scene, view, weights, white, stats, [&](const GlassBody&, std::size_t body) {
-    return glass_pass_.draw(scene, view, *frame_, body, options, stats);
+  glViewport(0, 0, context.view.width, context.view.height);
+  return scene_pass_.draw_transparent(context, weights, white, [&](const GlassBody&, std::size_t body) {
+    return glass_pass_.draw(context, *frame_, body);
   });
 }
 
@@ -146,58 +143,59 @@ Result<FrameStats> Renderer::render(GpuScene& scene, const View& view, const Fra
   ORIEL_TRY_VOID(ensure_frame(view.width, view.height, options.samples, halves));
   reflections_.use_halves(halves);
   FrameStats stats;
+  const FrameContext context{scene, view, options, stats};
   clock_.start(options.timed);
   frame_->shows_samples = frame_->samples() > 1;
   frame_->drawn().bind();
   clear_bound(view, options.show == Show::kAll ? scene.pack().sky : Vec3(0));
 
-  const std::vector<DrawBatch> shown = choose_shown(scene, view, options, stats);
-  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(scene, view, shown, stats); });
+  const std::vector<DrawBatch> shown = choose_shown(context);
+  clock_.time(Pass::kDepth, [&] { scene_pass_.draw_depth(context, shown); });
   if (is_survey(options.show)) {
-    ORIEL_TRY_VOID(
-        clock_.time(Pass::kScene, [&] { return survey_pass_.draw(scene, view, shown, options.show, stats); }));
-    frame_->resolve_light();
-    stats.ms = clock_.read();
-    ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
-    return stats;
+    ORIEL_TRY_VOID(clock_.time(Pass::kScene, [&] { return survey_pass_.draw(context, shown); }));
+  } else {
+    ORIEL_TRY_VOID(draw_light(context, shown));
+    count_images(scene, stats);
   }
+  frame_->resolve_light();
+  stats.ms = clock_.read();
+  ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
+  return stats;
+}
+
+Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBatch> shown) {
+  const auto& [scene, view, options, stats] = context;
   const std::vector<PlacedMover> movers = clock_.time(Pass::kMovers, [&] { return place_movers(scene, options); });
-  if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(scene, view, movers, stats); });
+  if (!movers.empty()) clock_.time(Pass::kMovers, [&] { mover_pass_.draw_depth(context, movers); });
   const std::vector<PlacedMover> mirrored = in_mirrors(scene, options);
-  ReflectionWork work{scene, options, stats, scene_pass_, mover_pass_, mirrored};
-  const ReflectionTarget target{view, &*frame_};
+  const ReflectionWork work{context, scene_pass_, mover_pass_, mirrored};
+  const ReflectionTarget target{&*frame_};
   ReflectionMarks marks;
   ORIEL_TRY(const std::vector<MarkedReflector> marked,
-            clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(work, target, marks); }));
+            clock_.time(Pass::kMask, [&] { return reflections_.draw_masks(context, target, marks); }));
   if (!marked.empty()) frame_->resolve_depth_stencil();
   for (const MarkedReflector& m : marked)
     if (m.value > 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));
   ORIEL_TRY(const auto see_through,
-            clock_.time(Pass::kCurved, [&] { return reflections_.draw_curved(work, target, marks); }));
+            clock_.time(Pass::kCurved, [&] { return reflections_.draw_curved(context, target, marks); }));
   marked_ = std::move(marks.materials);
   if (shows_scene(options.show)) {
     const SceneWeights weights = weights_of(options.show);
-    ORIEL_TRY(const auto change, draw_change(scene, view, shown, movers, options, stats));
-    clock_.time(Pass::kScene,
-                [&] { scene_pass_.draw_opaque(scene, view, shown, weights, marks.reflective, change, stats); });
+    ORIEL_TRY(const auto change, draw_change(context, shown, movers));
+    clock_.time(Pass::kScene, [&] { scene_pass_.draw_opaque(context, shown, weights, marks.reflective, change); });
     if (!movers.empty()) {
       clock_.time(Pass::kMovers, [&] {
-        mover_pass_.draw(scene, view, movers, {weights.diffuse, weights.undirected, weights.emission},
-                         change ? &change->on_movers : nullptr, stats);
+        mover_pass_.draw(context, movers, {weights.diffuse, weights.undirected, weights.emission},
+                         change ? &change->on_movers : nullptr);
       });
     }
-    ORIEL_TRY(const float white, white_for(scene, options));
-    ORIEL_TRY_VOID(
-        clock_.time(Pass::kTransparent, [&] { return draw_see_through(scene, view, weights, white, options, stats); }));
+    ORIEL_TRY(const float white, white_for(context));
+    ORIEL_TRY_VOID(clock_.time(Pass::kTransparent, [&] { return draw_see_through(context, weights, white); }));
   }
   for (const MarkedReflector& m : marked)
     if (m.value == 0) ORIEL_TRY_VOID(reflections_.draw(work, target, m, &clock_));
-  clock_.time(Pass::kCurved, [&] { reflections_.add_curved(work, target, see_through); });
-  frame_->resolve_light();
-  count_images(scene, stats);
-  stats.ms = clock_.read();
-  ORIEL_TRY_VOID(gpu::check_gl("drawing the frame"));
-  return stats;
+  clock_.time(Pass::kCurved, [&] { reflections_.add_curved(context, see_through); });
+  return {};
 }
 
 std::vector<float> Renderer::read_light() const {

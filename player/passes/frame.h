@@ -46,14 +46,14 @@ class Renderer {
  private:
   Renderer() = default;
   Status ensure_frame(int width, int height, int samples, bool halves);
+  // Over the depth of the opaque scene, of which that is shown: movers, reflections and the scene's own light.
+  Status draw_light(const FrameContext& context, std::span<const DrawBatch> shown);
   // What movers change of the light on what is seen, if anything.
-  Result<std::optional<BrightChange>> draw_change(const GpuScene& scene, const View& view,
-                                                  std::span<const DrawBatch> shown, std::span<const PlacedMover> movers,
-                                                  const FrameOptions& options, FrameStats& stats);
+  Result<std::optional<BrightChange>> draw_change(const FrameContext& context, std::span<const DrawBatch> shown,
+                                                  std::span<const PlacedMover> movers);
   // See-through surfaces and bodies of glass.
-  Status draw_see_through(GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                          const FrameOptions& options, FrameStats& stats);
-  Result<float> white_for(const GpuScene& scene, const FrameOptions& options);
+  Status draw_see_through(const FrameContext& context, const SceneWeights& weights, float white);
+  Result<float> white_for(const FrameContext& context);
 
   gpu::Device device_;
   ScenePass scene_pass_;

@@ -97,8 +97,8 @@ Status GlassPass::start(const GpuScene& scene) {
   return {};
 }
 
-Status GlassPass::prepare(const GpuScene& scene, const View& view, const ScenePass& scene_pass,
-                          const FrameOptions& options, FrameStats& stats) {
+Status GlassPass::prepare(const FrameContext& context, const ScenePass& scene_pass) {
+  const auto& [scene, view, options, stats] = context;
   const Frustum frustum = make_frustum(view.clip_from_pack);
   std::vector<std::pair<float, std::size_t>> seen;  // minus the share of the picture
   for (std::size_t i = 0; i < scene.glass().size(); ++i) {
@@ -112,17 +112,18 @@ Status GlassPass::prepare(const GpuScene& scene, const View& view, const ScenePa
   const bool whole = !scene.images().state().busy;
   for (const auto& [share, i] : seen) {
     Body& body = bodies_[i];
-    if (scene.glass()[i].planes.empty() && !body.shape) ORIEL_TRY_VOID(draw_shape(scene, i, stats));
+    if (scene.glass()[i].planes.empty() && !body.shape) ORIEL_TRY_VOID(draw_shape(context, i));
     if (-share < kLeastOfPicture || (body.around_of == scene.serial() && (body.whole || !whole))) continue;
     const auto others = std::ranges::count_if(bodies_, [](const Body& b) { return static_cast<bool>(b.around); });
     if (!body.around && others >= kMostAround) continue;
-    ORIEL_TRY_VOID(draw_around(scene, i, scene_pass, options, stats));
+    ORIEL_TRY_VOID(draw_around(context, i, scene_pass));
     body.around_of = scene.serial(), body.whole = whole;
   }
   return gpu::check_gl("drawing around glass");
 }
 
-Status GlassPass::draw_shape(const GpuScene& scene, std::size_t body, FrameStats& stats) {
+Status GlassPass::draw_shape(const FrameContext& context, std::size_t body) {
+  const GpuScene& scene = context.scene;
   const GlassBody& glass = scene.glass()[body];
   bodies_[body].shape = gpu::CubeTexture(gpu::kRgba32f, kShapeSize, 1);
   ORIEL_TRY_VOID(gpu::check_gl("making the shape of glass"));
@@ -139,13 +140,13 @@ Status GlassPass::draw_shape(const GpuScene& scene, std::size_t body, FrameStats
     gpu::apply(state);
     shape_.set("u_clip_from_pack",
                make_view(face_camera(glass.centre, face), kShapeSize, kShapeSize, glass.bounds).clip_from_pack);
-    for (const DrawRange& range : glass.ranges) draw_indices(range.first_index, range.index_count, stats);
+    for (const DrawRange& range : glass.ranges) draw_indices(range.first_index, range.index_count, context.stats);
   }
   return {};
 }
 
-Status GlassPass::draw_around(const GpuScene& scene, std::size_t body, const ScenePass& scene_pass,
-                              const FrameOptions& options, FrameStats& stats) {
+Status GlassPass::draw_around(const FrameContext& context, std::size_t body, const ScenePass& scene_pass) {
+  GpuScene& scene = context.scene;
   gpu::CubeTexture& around = bodies_[body].around;
   if (!around) around = gpu::CubeTexture(gpu::kRgba32f, kAroundSize, gpu::mip_levels(kAroundSize, kAroundSize));
   ORIEL_TRY_VOID(gpu::check_gl("making the surroundings of glass"));
@@ -156,9 +157,10 @@ Status GlassPass::draw_around(const GpuScene& scene, std::size_t body, const Sce
     face_.attach_color_face(around, face);
     glViewport(0, 0, kAroundSize, kAroundSize);
     clear_face(Vec4(scene.pack().sky, kClosest));
-    const MirroredScene seen{view, visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)), {}, {}};
-    scene_pass.draw_reflected(scene, seen, stats);
-    ORIEL_TRY_VOID(scene_pass.draw_transparent(scene, view, {}, options.white, stats,
+    const FrameContext outside{scene, view, context.options, context.stats};
+    const MirroredScene seen{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack)), {}, {}};
+    scene_pass.draw_reflected(outside, seen);
+    ORIEL_TRY_VOID(scene_pass.draw_transparent(outside, {}, context.options.white,
                                                [](const GlassBody&, std::size_t) { return Status(); }));
   }
   around.make_mipmaps();
@@ -220,8 +222,8 @@ std::size_t GlassPass::nearest_around(const GpuScene& scene, std::size_t body) c
   return best;
 }
 
-void GlassPass::draw_surface(const GpuScene& scene, const View& view, const GlassBody& body, gpu::Cull cull,
-                             FrameStats& stats) const {
+void GlassPass::draw_surface(const FrameContext& context, const GlassBody& body, gpu::Cull cull) const {
+  const auto& [scene, view, options, stats] = context;
   surfaces_framebuffer_.bind();
   glViewport(0, 0, view.width, view.height);
   clear_face(Vec4(0));
@@ -258,8 +260,8 @@ void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const Fra
   light_.set("u_reflectance_count", static_cast<int>(table.size()));
 }
 
-void GlassPass::shade(const GpuScene& scene, const View& view, std::size_t index, bool inside,
-                      const FrameOptions& options, FrameStats& stats) const {
+void GlassPass::shade(const FrameContext& context, std::size_t index, bool inside) const {
+  const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
   shaded_framebuffer_.bind();
   light_.use();
@@ -293,8 +295,8 @@ void GlassPass::shade(const GpuScene& scene, const View& view, std::size_t index
   ++stats.draws;
 }
 
-Status GlassPass::draw(const GpuScene& scene, const View& view, const FrameTarget& frame, std::size_t index,
-                       const FrameOptions& options, FrameStats& stats) {
+Status GlassPass::draw(const FrameContext& context, const FrameTarget& frame, std::size_t index) {
+  const auto& [scene, view, options, stats] = context;
   const GlassBody& body = scene.glass()[index];
   const NdcRect screen = project_box(view.clip_from_pack, body.bounds);
   const bool levels = body.planes.empty() || blurs(scene.pack().materials[body.material], options);
@@ -308,8 +310,8 @@ Status GlassPass::draw(const GpuScene& scene, const View& view, const FrameTarge
   state.cull = inside ? gpu::Cull::kFront : gpu::Cull::kBack;
   glEnable(GL_SCISSOR_TEST);
   scissor_to(screen, view);
-  draw_surface(scene, view, body, state.cull, stats);
-  shade(scene, view, index, inside, options, stats);
+  draw_surface(context, body, state.cull);
+  shade(context, index, inside);
   glDisable(GL_SCISSOR_TEST);
   frame.drawn().bind();
   state.depth_test = true;

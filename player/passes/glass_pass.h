@@ -18,12 +18,10 @@ class GlassPass {
 
   // Before a frame's see-through surfaces are drawn: makes what bodies in view need and do not have yet; nothing where
   // none is. May leave a framebuffer of its own bound. Errors of the driver.
-  Status prepare(const GpuScene& scene, const View& view, const ScenePass& scene_pass, const FrameOptions& options,
-                 FrameStats& stats);
+  Status prepare(const FrameContext& context, const ScenePass& scene_pass);
   // One of GpuScene::glass() that prepare() has seen, over the frame, in place of what lies behind it. Leaves the frame
   // bound. Errors of the driver.
-  Status draw(const GpuScene& scene, const View& view, const FrameTarget& frame, std::size_t body,
-              const FrameOptions& options, FrameStats& stats);
+  Status draw(const FrameContext& context, const FrameTarget& frame, std::size_t body);
   std::uint64_t bytes() const;
 
  private:
@@ -35,17 +33,14 @@ class GlassPass {
   };
   Status compile();
   Status start(const GpuScene& scene);
-  Status draw_shape(const GpuScene& scene, std::size_t body, FrameStats& stats);
-  Status draw_around(const GpuScene& scene, std::size_t body, const ScenePass& scene_pass, const FrameOptions& options,
-                     FrameStats& stats);
+  Status draw_shape(const FrameContext& context, std::size_t body);
+  Status draw_around(const FrameContext& context, std::size_t body, const ScenePass& scene_pass);
   // levels: coarser ones too.
   Status make_canvas(const IVec2& size);
   Status take_behind(const FrameTarget& frame, bool levels, FrameStats& stats);
   // Where it is, by pixel; then its light; then that over the frame. cull: as its faces are seen.
-  void draw_surface(const GpuScene& scene, const View& view, const GlassBody& body, gpu::Cull cull,
-                    FrameStats& stats) const;
-  void shade(const GpuScene& scene, const View& view, std::size_t body, bool inside, const FrameOptions& options,
-             FrameStats& stats) const;
+  void draw_surface(const FrameContext& context, const GlassBody& body, gpu::Cull cull) const;
+  void shade(const FrameContext& context, std::size_t body, bool inside) const;
   void set_body(const GpuScene& scene, const GlassBody& body, const FrameOptions& options) const;
   std::size_t nearest_around(const GpuScene& scene, std::size_t body) const;
 

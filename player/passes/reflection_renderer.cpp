@@ -10,15 +10,6 @@
 
 namespace oriel {
 
-// M of a reflector, and how it is shown.
-struct ReflectionRenderer::Image {
-  const ImageTarget& target;
-  ImageRect rect;
-  const GpuKernel& kernel;
-  bool blurs = false;
-  bool has_holes = true;
-};
-
 namespace {
 
 // Nearer to the plane than this share of the reflector's size, an eye sees nothing in it but its edge.
@@ -62,7 +53,7 @@ decltype(auto) timed(PassClock* clock, Pass pass, const Draw& draw) {
 
 }  // namespace
 
-void ReflectionTarget::bind() const {
+void ReflectionTarget::bind(const View& view) const {
   (frame != nullptr ? frame->drawn() : image->sharp_framebuffer).bind();
   if (image != nullptr) image->sharp_framebuffer.attach_color_level(image->sharp, 0);
   glViewport(0, 0, view.width, view.height);
@@ -81,19 +72,18 @@ Result<ReflectionRenderer> ReflectionRenderer::create(const gpu::Device& device)
   return out;
 }
 
-Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWork& work,
+Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(const FrameContext& context,
                                                                     const ReflectionTarget& target,
                                                                     ReflectionMarks& marks) {
   std::vector<MarkedReflector> out;
-  const FrameOptions& options = work.options;
+  const auto& [scene, view, options, stats] = context;
   if (!shows_reflectors(options)) return out;
-  GpuScene& scene = work.scene;
   for (const GpuReflector& reflector : scene.reflectors()) {
     const bool maps = shows_maps(reflector, options);
     if (reflector.index_count == 0 || (maps && options.maps_per_element <= 0)) continue;
-    const Vec4 eye = eye_in_reflector(reflector, target.view);
-    if (eye.z <= (target.view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
-    MarkedReflector marked{&reflector, project_polygon(target.view.clip_from_pack, reflector.corners), 0,
+    const Vec4 eye = eye_in_reflector(reflector, view);
+    if (eye.z <= (view.orthographic ? kEdgeOn : kEdgeOn * reflector.size)) continue;
+    MarkedReflector marked{&reflector, project_polygon(view.clip_from_pack, reflector.corners), 0,
                            kMaskQueries * out.size(), false};
     if (marked.screen.empty ||
         (options.few_reflections && target.share * share_of_picture(marked.screen) < kLargeShare))
@@ -113,16 +103,13 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWo
       marked.value = static_cast<GLint>(marks.materials.size());
     }
     while (queries_.size() < marked.query + kMaskQueries) queries_.push_back(gpu::make_query());
-    reflector_pass_.draw_mask(scene, reflector, target.view, marked.screen,
-                              see_through ? static_cast<GLint>(kSeeThroughBit) : marked.value,
-                              marked.waits  ? 0
-                              : see_through ? kSeeThroughBit
-                                            : kReflectorBits,
-                              std::span(queries_).subspan(marked.query, kMaskQueries), work.stats);
+    const GLuint mark = marked.waits ? 0 : see_through ? kSeeThroughBit : static_cast<GLuint>(marked.value);
+    reflector_pass_.draw_mask(context, reflector, marked.screen, mark,
+                              std::span(queries_).subspan(marked.query, kMaskQueries));
     out.push_back(marked);
   }
   for (MarkedReflector& m : out) {
-    m.screen = ReflectorPass::visible_part(m.screen, target.view, std::span(queries_).subspan(m.query, kMaskQueries));
+    m.screen = ReflectorPass::visible_part(m.screen, view, std::span(queries_).subspan(m.query, kMaskQueries));
     if (m.waits && !m.screen.empty) scene.want_maps(*m.reflector);
   }
   std::erase_if(out, [](const MarkedReflector& m) { return m.screen.empty || m.waits; });
@@ -131,9 +118,9 @@ Result<std::vector<MarkedReflector>> ReflectionRenderer::draw_masks(ReflectionWo
   return out;
 }
 
-Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
-                                PassClock* clock) {
-  auto& [scene, options, stats, scene_pass, mover_pass, movers] = work;
+Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarget& target,
+                                const MarkedReflector& marked, PassClock* clock) {
+  const auto& [scene, view, options, stats] = work.context;
   const GpuReflector& reflector = *marked.reflector;
   const bool maps = shows_maps(reflector, options);
   if (maps) {
@@ -143,16 +130,16 @@ Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& ta
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
   const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
   const ImageRect rect =
-      choose_image(marked.screen, blurs ? kernel.median : 0.0f, target.view, device_.texture_size, options.coarse);
+      choose_image(marked.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
   const auto level = static_cast<std::size_t>(target.mirrors);
   if (images_.size() <= level) images_.resize(level + 1);
   const bool halves = halves_ && (!maps || scene.fit_halves(reflector));
   ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves));
-  const Image image{*images_[level], rect, kernel, blurs, maps};
+  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;
   if (counted && !kernel.blurs() && maps && marches(options.reflections)) {
-    march_pass_.measure(scene, reflector, target.view, rect, image.target, options);
+    march_pass_.measure(work.context, image);
     const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_sharp);
     stats.mirror_pixels += count.pixels;
     stats.sharp += count.counted;
@@ -164,131 +151,114 @@ Status ReflectionRenderer::draw(ReflectionWork& work, const ReflectionTarget& ta
     stats.holes += count.counted;
   }
   if (blurs || maps) timed(clock, Pass::kFill, [&] { fill_pass_.draw(rect, image.target, blurs, stats); });
-  if (rect.coarse > 1) {
-    timed(clock, Pass::kConvolve, [&] {
-      convolve_pass_.draw(reflector, kernel, target.view, rect, image.target, scene.bounds().radius(), options.blur,
-                          stats);
-    });
-  }
-  target.bind();
-  timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work, target, marked, image); });
+  if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
+  target.bind(view);
+  timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });
   const GLint value = target.frame != nullptr ? marked.value : kAdded;
-  timed(clock, Pass::kEmitters,
-        [&] { reflector_pass_.draw_emitters(scene, reflector, target.view, value, options, stats); });
+  timed(clock, Pass::kEmitters, [&] { reflector_pass_.draw_emitters(work.context, reflector, value); });
   ++stats.reflectors;
   return {};
 }
 
-void ReflectionRenderer::compose(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
-                                 const Image& image) const {
+void ReflectionRenderer::compose(const FrameContext& context, const ReflectionTarget& target,
+                                 const MarkedReflector& marked, const ReflectedImage& image) const {
   // Of what mostly mirrors, the image's depth counts, as in radiance maps: it is what blurs it in another reflector.
-  const bool mirrors = reflectance_of(work.scene.pack(), marked.reflector->material) > kMirroring;
+  const bool mirrors = reflectance_of(context.scene.pack(), marked.reflector->material) > kMirroring;
   const GLint value = target.frame != nullptr ? marked.value : mirrors ? kAddedWithDistance : kAdded;
   if (image.blurs) {
-    reflector_pass_.draw_convolved(work.scene, *marked.reflector, image.kernel, target.view, image.rect, image.target,
-                                   value, work.options, work.stats);
+    reflector_pass_.draw_convolved(context, image, value);
   } else {
-    reflector_pass_.draw_light(work.scene, *marked.reflector, target.view, image.rect,
-                               image.has_holes ? image.target.filled : image.target.sharp, value, work.options,
-                               work.stats);
+    reflector_pass_.draw_light(context, image, value);
   }
 }
 
-Status ReflectionRenderer::draw_image(ReflectionWork& work, const ReflectionTarget& target,
-                                      const MarkedReflector& marked, const Image& image) {
-  const GpuReflector& reflector = *marked.reflector;
-  if (!image.has_holes) {
-    FrameOptions whole = work.options;  // what is in it is shown with all stages
-    whole.show = Show::kAll;
-    ReflectionWork within{work.scene, whole, work.stats, work.scene_pass, work.mover_pass, work.movers};
-    return draw_mirrored(within, target, reflector, image);
-  }
-  if (work.options.reflections == Reflections::kPoints)
-    return reproject_pass_.draw(work.scene, reflector, target.view, image.rect, image.target, work.options, work.stats);
+Status ReflectionRenderer::draw_image(const ReflectionWork& work, const ReflectionTarget& target,
+                                      const MarkedReflector& marked, const ReflectedImage& image) {
+  if (!image.has_holes) return draw_mirrored(work, target, image);
+  const FrameContext& context = work.context;
+  if (context.options.reflections == Reflections::kPoints) return reproject_pass_.draw(context, image);
   const ShownPixels shown{target.frame != nullptr ? &target.frame->framebuffer : nullptr,
                           target.frame != nullptr ? marked.value : 0, kReflectorBits};
-  if (work.options.reflections == Reflections::kMesh && work.scene.has_map_meshes()) {
-    mesh_pass_.draw(work.scene, reflector, target.view, image.rect, image.target,
-                    !image.blurs && shown.value != 0 ? &shown : nullptr, work.options, work.stats);
-    return {};
+  if (context.options.reflections == Reflections::kMesh && context.scene.has_map_meshes()) {
+    mesh_pass_.draw(context, image, !image.blurs && shown.value != 0 ? &shown : nullptr);
+  } else {
+    march_pass_.draw(context, image, shown);
   }
-  march_pass_.draw(work.scene, reflector, image.blurs ? &image.kernel : nullptr, target.view, image.rect, image.target,
-                   shown, work.options, work.stats);
   return {};
 }
 
-bool ReflectionRenderer::sets_hold(const ReflectionWork& work, const ReflectionTarget& target) {
-  if (!work.options.visible_sets || target.mirrors > 0 || target.view.orthographic) return false;
-  if (zone_of_ != work.scene.serial()) {
-    zone_ = planned_zone(work.scene.pack());
-    zone_of_ = work.scene.serial();
+bool ReflectionRenderer::sets_hold(const FrameContext& context, const ReflectionTarget& target) {
+  const auto& [scene, view, options, stats] = context;
+  if (!options.visible_sets || target.mirrors > 0 || view.orthographic) return false;
+  if (zone_of_ != scene.serial()) {
+    zone_ = planned_zone(scene.pack());
+    zone_of_ = scene.serial();
   }
-  return zone_.holds(Vec3(target.view.eye));
+  return zone_.holds(Vec3(view.eye));
 }
 
 // M by drawing the mirrored scene: what radiance maps stand for, at the cost of the scene's triangles.
-Status ReflectionRenderer::draw_mirrored(ReflectionWork& work, const ReflectionTarget& target,
-                                         const GpuReflector& reflector, const Image& image) {
-  auto& [scene, options, stats, scene_pass, mover_pass, movers] = work;
+Status ReflectionRenderer::draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target,
+                                         const ReflectedImage& image) {
+  const auto& [scene, eyes, options, stats] = work.context;
+  const GpuReflector& reflector = image.reflector;
   const Pack& pack = scene.pack();
   clear_image(image.target, image.rect, Vec4(pack.sky, kClosest));
-  const View view = mirrored_view(scene, reflector, target.view, image.rect);
-  const ReflectionTarget inside{view,
-                                nullptr,
-                                &image.target,
-                                target.mirrors + 1,
+  const View view = mirrored_view(scene, reflector, eyes, image.rect);
+  FrameOptions whole = options;  // what is in it is shown with all stages
+  whole.show = Show::kAll;
+  const ReflectionWork within{{scene, view, whole, stats}, work.scene_pass, work.mover_pass, work.movers};
+  const ReflectionTarget inside{nullptr, &image.target, target.mirrors + 1,
                                 target.reflectance * reflectance_of(pack, reflector.material),
                                 target.share * static_cast<float>(view.width) * static_cast<float>(view.height) /
-                                    (static_cast<float>(target.view.width) * static_cast<float>(target.view.height))};
-  MirroredScene mirrored{view,
-                         visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
-                                         sets_hold(work, target) ? reflector.seen : std::nullopt),
+                                    (static_cast<float>(eyes.width) * static_cast<float>(eyes.height))};
+  MirroredScene mirrored{visible_batches(scene.opaque(), make_frustum(view.clip_from_pack),
+                                         sets_hold(work.context, target) ? reflector.seen : std::nullopt),
                          pack.reflectors[reflector.index].emitters,
                          {}};
   if (inside.mirrors < (options.coarse ? 1 : options.orders)) {
-    ORIEL_TRY_VOID(draw_mirrors_in(work, inside, mirrored));
+    ORIEL_TRY_VOID(draw_mirrors_in(within, inside, mirrored));
   } else {
-    scene_pass.draw_reflected(scene, mirrored, stats);
+    work.scene_pass.draw_reflected(within.context, mirrored);
   }
-  if (!movers.empty()) {
-    mover_pass.draw_depth(scene, view, movers, stats);
-    mover_pass.draw_reflected(scene, view, movers, stats);
+  if (!work.movers.empty()) {
+    work.mover_pass.draw_depth(within.context, work.movers);
+    work.mover_pass.draw_reflected(within.context, work.movers);
   }
-  return scene_pass.draw_transparent(scene, view, {}, options.white, stats);
+  return work.scene_pass.draw_transparent(within.context, {}, options.white);
 }
 
 // The opaque scene in a mirror, with what its own reflectors show.
-Status ReflectionRenderer::draw_mirrors_in(ReflectionWork& work, const ReflectionTarget& target,
+Status ReflectionRenderer::draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target,
                                            MirroredScene& mirrored) {
-  auto& [scene, options, stats, scene_pass, mover_pass, movers] = work;
-  const auto in_view = [&](const GpuReflector& r) {
-    return !project_polygon(target.view.clip_from_pack, r.corners).empty;
-  };
-  const auto& planar = scene.reflectors();
-  if (std::none_of(planar.begin(), planar.end(), in_view) && scene.curved_reflectors().empty()) {
-    scene_pass.draw_reflected(scene, mirrored, stats);
+  const auto& [context, scene_pass, mover_pass, movers] = work;
+  const View& view = context.view;
+  const auto in_view = [&](const GpuReflector& r) { return !project_polygon(view.clip_from_pack, r.corners).empty; };
+  const auto& planar = context.scene.reflectors();
+  if (std::none_of(planar.begin(), planar.end(), in_view) && context.scene.curved_reflectors().empty()) {
+    scene_pass.draw_reflected(context, mirrored);
     return {};
   }
-  scene_pass.draw_reflected_depth(scene, mirrored, stats);
+  scene_pass.draw_reflected_depth(context, mirrored);
   ReflectionMarks marks;
-  ORIEL_TRY(const std::vector<MarkedReflector> inside, draw_masks(work, target, marks));
-  ORIEL_TRY(const auto curved, draw_curved(work, target, marks));
+  ORIEL_TRY(const std::vector<MarkedReflector> inside, draw_masks(context, target, marks));
+  ORIEL_TRY(const auto curved, draw_curved(context, target, marks));
   mirrored.reflective = marks.reflective;
-  scene_pass.draw_reflected(scene, mirrored, stats);
+  scene_pass.draw_reflected(context, mirrored);
   for (const MarkedReflector& marked : inside) ORIEL_TRY_VOID(draw(work, target, marked, nullptr));
-  target.bind();
-  add_curved(work, target, curved);
+  target.bind(view);
+  add_curved(context, curved);
   return {};
 }
 
-Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(ReflectionWork& work,
+Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(const FrameContext& context,
                                                                                const ReflectionTarget& target,
                                                                                ReflectionMarks& marks) {
-  auto& [scene, options, stats, scene_pass, mover_pass, movers] = work;
+  const auto& [scene, view, options, stats] = context;
   std::vector<const GpuCurvedReflector*> later;
   std::vector<CurvedPass::Shown> opaque;
   if (!shows_reflectors(options) || options.few_reflections) return later;
-  const Frustum frustum = make_frustum(target.view.clip_from_pack);
+  const Frustum frustum = make_frustum(view.clip_from_pack);
   const bool in_frame = target.frame != nullptr;
   for (const GpuCurvedReflector& reflector : scene.curved_reflectors()) {
     if (!may_be_visible(frustum, reflector.triangles.bounds)) continue;
@@ -297,7 +267,7 @@ Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(R
     ORIEL_TRY(const bool there, scene.bring_surround_map(reflector.map));
     if (!there) continue;
     if (see_through) {
-      curved_pass_.draw_mask(scene, reflector, target.view, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit, stats);
+      curved_pass_.draw_mask(context, reflector, static_cast<GLint>(kSeeThroughBit), kSeeThroughBit);
       later.push_back(&reflector);
       continue;
     }
@@ -308,22 +278,20 @@ Result<std::vector<const GpuCurvedReflector*>> ReflectionRenderer::draw_curved(R
     if (in_frame) {
       opaque.push_back({&reflector, value});
     } else {
-      curved_pass_.draw_mask(scene, reflector, target.view, value, kReflectorBits, stats);
+      curved_pass_.draw_mask(context, reflector, value, kReflectorBits);
       later.push_back(&reflector);
     }
   }
-  ORIEL_TRY_VOID(curved_pass_.shade(scene, opaque, target.view, options, stats));
-  target.bind();
-  for (const CurvedPass::Shown& shown : opaque)
-    curved_pass_.draw_shaded(scene, shown, target.view, kReflectorBits, options, stats);
+  ORIEL_TRY_VOID(curved_pass_.shade(context, opaque));
+  target.bind(view);
+  for (const CurvedPass::Shown& shown : opaque) curved_pass_.draw_shaded(context, shown, kReflectorBits);
   return later;
 }
 
-void ReflectionRenderer::add_curved(ReflectionWork& work, const ReflectionTarget& target,
+void ReflectionRenderer::add_curved(const FrameContext& context,
                                     const std::vector<const GpuCurvedReflector*>& curved) const {
   for (const GpuCurvedReflector* reflector : curved)
-    if (work.scene.images().has({ImageKind::kSurround, reflector->map}))
-      curved_pass_.add_light(work.scene, *reflector, target.view, work.options, work.stats);
+    if (context.scene.images().has({ImageKind::kSurround, reflector->map})) curved_pass_.add_light(context, *reflector);
 }
 
 }  // namespace oriel

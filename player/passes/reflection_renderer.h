@@ -27,9 +27,7 @@ namespace oriel {
 
 // What all reflections of a frame are drawn with.
 struct ReflectionWork {
-  GpuScene& scene;
-  const FrameOptions& options;
-  FrameStats& stats;
+  FrameContext context;
   const ScenePass& scene_pass;
   const MoverPass& mover_pass;
   std::span<const PlacedMover> movers;  // as mirrors show them: in light without shadows of their own
@@ -37,13 +35,12 @@ struct ReflectionWork {
 
 // Where reflectors are drawn: the frame, or the image of another one.
 struct ReflectionTarget {
-  const View& view;
   const FrameTarget* frame = nullptr;  // null: an image
   const ImageTarget* image = nullptr;
   int mirrors = 0;        // on the way to it
   float reflectance = 1;  // of those, at 60 degrees
   float share = 1;        // of the frame's pixels
-  void bind() const;
+  void bind(const View& view) const;
 };
 
 // Of a target's stencil.
@@ -68,30 +65,28 @@ class ReflectionRenderer {
   void use_halves(bool halves) { halves_ = halves; }
 
   // Marks the reflectors that are seen in the target, whose depth is there. Errors of images.
-  Result<std::vector<MarkedReflector>> draw_masks(ReflectionWork& work, const ReflectionTarget& target,
+  Result<std::vector<MarkedReflector>> draw_masks(const FrameContext& context, const ReflectionTarget& target,
                                                   ReflectionMarks& marks);
   // S of one of them into the target: into the frame in place of what is there, or, of see-through ones and in images,
   // added to it.
-  Status draw(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked, PassClock* clock);
+  Status draw(const ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
+              PassClock* clock);
   // Curved reflectors: into a frame S of opaque ones, in an image their marks only. Gives those whose S is to be added
   // once the scene is drawn.
-  Result<std::vector<const GpuCurvedReflector*>> draw_curved(ReflectionWork& work, const ReflectionTarget& target,
-                                                             ReflectionMarks& marks);
-  void add_curved(ReflectionWork& work, const ReflectionTarget& target,
-                  const std::vector<const GpuCurvedReflector*>& curved) const;
+  Result<std::vector<const GpuCurvedReflector*>> draw_curved(const FrameContext& context,
+                                                             const ReflectionTarget& target, ReflectionMarks& marks);
+  void add_curved(const FrameContext& context, const std::vector<const GpuCurvedReflector*>& curved) const;
 
  private:
-  struct Image;
-  Status draw_image(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
-                    const Image& image);
-  Status draw_mirrored(ReflectionWork& work, const ReflectionTarget& target, const GpuReflector& reflector,
-                       const Image& image);
-  Status draw_mirrors_in(ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
-  void compose(ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
-               const Image& image) const;
+  Status draw_image(const ReflectionWork& work, const ReflectionTarget& target, const MarkedReflector& marked,
+                    const ReflectedImage& image);
+  Status draw_mirrored(const ReflectionWork& work, const ReflectionTarget& target, const ReflectedImage& image);
+  Status draw_mirrors_in(const ReflectionWork& work, const ReflectionTarget& target, MirroredScene& mirrored);
+  void compose(const FrameContext& context, const ReflectionTarget& target, const MarkedReflector& marked,
+               const ReflectedImage& image) const;
 
   // Whether sets of what reflectors show hold for the view.
-  bool sets_hold(const ReflectionWork& work, const ReflectionTarget& target);
+  bool sets_hold(const FrameContext& context, const ReflectionTarget& target);
 
   gpu::Device device_;
   bool halves_ = false;

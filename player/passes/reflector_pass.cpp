@@ -53,15 +53,16 @@ Result<ReflectorPass> ReflectorPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ReflectorPass::draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view,
-                              const NdcRect& screen, GLint value, GLuint bits, std::span<const gpu::Query> queries,
-                              FrameStats& stats) const {
+void ReflectorPass::draw_mask(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen,
+                              GLuint mark, std::span<const gpu::Query> queries) const {
+  const auto& [scene, view, options, stats] = context;
   gpu::RasterState state;
   state.depth_test = true;
   state.color_write = false;
   state.cull = gpu::Cull::kBack;
   state.mirrored = view.mirrored;
-  state.stencil_ref = value;
+  state.stencil_ref = static_cast<GLint>(mark);
+  const GLuint bits = mark == kSeeThroughBit ? kSeeThroughBit : mark != 0 ? kReflectorBits : 0;
   mask_.use();
   mask_.set("u_clip_from_pack", view.clip_from_pack);
   scene.bind_geometry();
@@ -103,51 +104,49 @@ NdcRect ReflectorPass::visible_part(const NdcRect& screen, const View& view, std
   return out;
 }
 
-void ReflectorPass::draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                               const gpu::Texture2d& image, GLint value, const FrameOptions& options,
-                               FrameStats& stats) const {
-  gpu::apply(where_marked(view, value));
+void ReflectorPass::draw_light(const FrameContext& context, const ReflectedImage& image, GLint value) const {
+  const gpu::Texture2d& light = image.has_holes ? image.target.filled : image.target.sharp;
+  const ImageRect& rect = image.rect;
+  gpu::apply(where_marked(context.view, value));
   compose_.use();
   compose_.set("u_image", 0);
   compose_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
-  compose_.set("u_texture_size", Vec2(static_cast<float>(image.width()), static_cast<float>(image.height())));
+  compose_.set("u_texture_size", Vec2(static_cast<float>(light.width()), static_cast<float>(light.height())));
   compose_.set("u_image_size", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
   compose_.set("u_origin", rect.origin);
-  compose_.set("u_missing", reflector.mean_radiance);
-  set_surface(compose_, scene, reflector, view, options);
-  image.bind(0);  // last: what is uploaded on first use is bound meanwhile
-  draw_reflector(reflector, stats);
+  compose_.set("u_missing", image.reflector.mean_radiance);
+  set_surface(compose_, context, image.reflector);
+  light.bind(0);  // last: what is uploaded on first use is bound meanwhile
+  draw_reflector(image.reflector, context.stats);
 }
 
-void ReflectorPass::draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel,
-                                   const View& view, const ImageRect& rect, const ImageTarget& target, GLint value,
-                                   const FrameOptions& options, FrameStats& stats) const {
-  gpu::apply(where_marked(view, value));
+void ReflectorPass::draw_convolved(const FrameContext& context, const ReflectedImage& image, GLint value) const {
+  gpu::apply(where_marked(context.view, value));
   convolve_.use();
-  convolve_.set("u_origin", rect.origin);
+  convolve_.set("u_origin", image.rect.origin);
   convolve_.set("u_with_distance", value == kAddedWithDistance ? 1 : 0);
-  convolve_.set("u_missing", reflector.mean_radiance);
-  set_surface(convolve_, scene, reflector, view, options);
+  convolve_.set("u_missing", image.reflector.mean_radiance);
+  set_surface(convolve_, context, image.reflector);
   convolve_.set("u_blurred", 6);
-  target.blurred.bind(6);
-  set_convolution(convolve_, reflector, kernel, view, rect, target, scene.bounds().radius(), options.blur);
-  draw_reflector(reflector, stats);
+  image.target.blurred.bind(6);
+  set_convolution(convolve_, context, image);
+  draw_reflector(image.reflector, context.stats);
 }
 
-void ReflectorPass::draw_emitters(GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
-                                  const FrameOptions& options, FrameStats& stats) const {
-  const gpu::Program* const emitters = set_emitters(scene, reflector, options);
+void ReflectorPass::draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const {
+  const gpu::Program* const emitters = set_emitters(context, reflector);
   if (emitters == nullptr) return;
-  gpu::RasterState state = where_marked(view, value);
+  gpu::RasterState state = where_marked(context.view, value);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);
-  set_surface(*emitters, scene, reflector, view, options);
-  draw_reflector(reflector, stats);
+  set_surface(*emitters, context, reflector);
+  draw_reflector(reflector, context.stats);
 }
 
-void ReflectorPass::set_surface(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector,
-                                const View& view, const FrameOptions& options) const {
+void ReflectorPass::set_surface(const gpu::Program& program, const FrameContext& context,
+                                const GpuReflector& reflector) const {
+  const auto& [scene, view, options, stats] = context;
   const Material& material = scene.pack().materials[reflector.material];
   const auto row = material.fresnel_map;
   const FresnelMap* fresnel = row < 0 ? nullptr : &scene.pack().fresnel_maps[static_cast<std::size_t>(row)];
@@ -168,8 +167,8 @@ void ReflectorPass::set_surface(const gpu::Program& program, GpuScene& scene, co
   program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);
 }
 
-const gpu::Program* ReflectorPass::set_emitters(GpuScene& scene, const GpuReflector& reflector,
-                                                const FrameOptions& options) const {
+const gpu::Program* ReflectorPass::set_emitters(const FrameContext& context, const GpuReflector& reflector) const {
+  const auto& [scene, view, options, stats] = context;
   const Pack& pack = scene.pack();
   const GpuEmitters& emitters = reflector.emitters;
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);

@@ -5,8 +5,7 @@
 
 #include "player/gpu/program.h"
 #include "player/reflections/image_target.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -21,33 +20,29 @@ class ReflectorPass {
  public:
   static Result<ReflectorPass> create(gpu::Dialect dialect);
 
-  // Marks the pixels of the reflector that the frame's depth leaves visible: `value` in the bits `bits` of the stencil.
-  // screen: what the reflector covers. Drawn in strips along each axis; kMaskQueries queries count which have pixels.
-  void draw_mask(const GpuScene& scene, const GpuReflector& reflector, const View& view, const NdcRect& screen,
-                 GLint value, GLuint bits, std::span<const gpu::Query> queries, FrameStats& stats) const;
+  // Marks the pixels of the reflector that the frame's depth leaves visible in the stencil: by kSeeThroughBit, or by a
+  // number in kReflectorBits; 0: not at all. screen: what the reflector covers. Drawn in strips along each axis;
+  // kMaskQueries queries count which have pixels.
+  void draw_mask(const FrameContext& context, const GpuReflector& reflector, const NdcRect& screen, GLuint mark,
+                 std::span<const gpu::Query> queries) const;
   // The strips of a mask that have pixels, as a rectangle around what is visible; empty where nothing is. Waits for the
   // queries.
   static NdcRect visible_part(const NdcRect& screen, const View& view, std::span<const gpu::Query> queries);
   // An image, times R unless options show a stage before it. value: as marked, where it replaces what the frame holds;
   // kAdded: adds to it wherever the depth leaves the reflector visible.
-  void draw_light(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                  const gpu::Texture2d& image, GLint value, const FrameOptions& options, FrameStats& stats) const;
+  void draw_light(const FrameContext& context, const ReflectedImage& image, GLint value) const;
   // The same of an image that is as fine as the frame (rect.scale 1) and is convolved on the way: target.filled, all
   // levels.
-  void draw_convolved(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
-                      const ImageRect& rect, const ImageTarget& target, GLint value, const FrameOptions& options,
-                      FrameStats& stats) const;
+  void draw_convolved(const FrameContext& context, const ReflectedImage& image, GLint value) const;
   // Adds the emitters that the image leaves out.
-  void draw_emitters(GpuScene& scene, const GpuReflector& reflector, const View& view, GLint value,
-                     const FrameOptions& options, FrameStats& stats) const;
+  void draw_emitters(const FrameContext& context, const GpuReflector& reflector, GLint value) const;
 
  private:
   // What every program needs to know about the reflector and its R.
-  void set_surface(const gpu::Program& program, GpuScene& scene, const GpuReflector& reflector, const View& view,
-                   const FrameOptions& options) const;
+  void set_surface(const gpu::Program& program, const FrameContext& context, const GpuReflector& reflector) const;
   // The program for those that the reflector's maps leave out, in use from then on; null where there is nothing to
   // show.
-  const gpu::Program* set_emitters(GpuScene& scene, const GpuReflector& reflector, const FrameOptions& options) const;
+  const gpu::Program* set_emitters(const FrameContext& context, const GpuReflector& reflector) const;
   gpu::Program mask_, compose_, convolve_, emitters_, emitters_sharp_;
 };
 

@@ -7,7 +7,8 @@
 namespace oriel {
 namespace {
 
-void set_frame(const gpu::Program& program, const GpuScene& scene, const View& view) {
+void set_frame(const gpu::Program& program, const FrameContext& context) {
+  const auto& [scene, view, options, stats] = context;
   program.use();
   program.set("u_clip_from_pack", view.clip_from_pack);
   program.set("u_eye", view.eye);
@@ -84,14 +85,13 @@ Result<ScenePass> ScenePass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void ScenePass::draw_depth(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                           FrameStats& stats) const {
-  scene.bind_shown();
-  draw_depths(scene, view, shown, stats);
+void ScenePass::draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const {
+  context.scene.bind_shown();
+  draw_depths(context, shown);
 }
 
-void ScenePass::draw_depths(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                            FrameStats& stats) const {
+void ScenePass::draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const {
+  const auto& [scene, view, options, stats] = context;
   for (const gpu::Program* program : {&plain_depth_, &depth_}) {
     program->use();
     program->set("u_clip_from_pack", view.clip_from_pack);
@@ -114,11 +114,12 @@ void ScenePass::draw_depths(const GpuScene& scene, const View& view, std::span<c
   }
 }
 
-void ScenePass::draw_opaque(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                            const SceneWeights& weights, const std::set<std::uint32_t>& reflective,
-                            const std::optional<BrightChange>& change, FrameStats& stats) const {
-  set_frame(plain_opaque_, scene, view);
-  set_frame(opaque_, scene, view);
+void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBatch> shown, const SceneWeights& weights,
+                            const std::set<std::uint32_t>& reflective,
+                            const std::optional<BrightChange>& change) const {
+  const auto& [scene, view, options, stats] = context;
+  set_frame(plain_opaque_, context);
+  set_frame(opaque_, context);
   scene.bind_shown();
   if (change) {
     change->on_scene->bind(kChangeUnit);
@@ -152,19 +153,20 @@ void ScenePass::draw_opaque(const GpuScene& scene, const View& view, std::span<c
   }
 }
 
-void ScenePass::draw_reflected_depth(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const {
-  scene.bind_geometry();
-  draw_depths(scene, mirrored.view, mirrored.shown, stats);
+void ScenePass::draw_reflected_depth(const FrameContext& context, const MirroredScene& mirrored) const {
+  context.scene.bind_geometry();
+  draw_depths(context, mirrored.shown);
 }
 
-void ScenePass::draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const {
+void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const {
+  const auto& [scene, view, options, stats] = context;
   for (const gpu::Program* program : {&reflected_opaque_, &opaque_}) {
-    set_frame(*program, scene, mirrored.view);
-    set_distance_alpha(*program, mirrored.view);
+    set_frame(*program, context);
+    set_distance_alpha(*program, view);
   }
   gpu::RasterState state;
   state.depth_test = state.depth_write = true;
-  state.mirrored = mirrored.view.mirrored;
+  state.mirrored = view.mirrored;
   state.stencil_read = kReflectorBits;
   const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
     const Material& m = scene.pack().materials[batch.material];
@@ -185,17 +187,18 @@ void ScenePass::draw_reflected(const GpuScene& scene, const MirroredScene& mirro
     draw(batch, 0, 1);
   }
   state.stencil_func = GL_ALWAYS;
-  const Frustum frustum = make_frustum(mirrored.view.clip_from_pack);
+  const Frustum frustum = make_frustum(view.clip_from_pack);
   for (const std::uint32_t emitter : mirrored.dark)  // the same depths again
     for (const DrawBatch& batch : visible_batches(scene.emitter(emitter), frustum)) draw(batch, 1, 0);
 }
 
-Status ScenePass::draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                                   FrameStats& stats, const DrawGlass& glass) const {
+Status ScenePass::draw_transparent(const FrameContext& context, const SceneWeights& weights, float white,
+                                   const DrawGlass& glass) const {
+  const auto& [scene, view, options, stats] = context;
   std::vector<SeeThrough> sorted = see_through(scene, view);
   if (sorted.empty()) return {};
   const auto start = [&] {
-    set_frame(transparent_, scene, view);
+    set_frame(transparent_, context);
     transparent_.set("u_unlit_scale", white);
   };
   start();

@@ -7,9 +7,7 @@
 
 #include "player/gpu/program.h"
 #include "player/movers/bright_pass.h"
-#include "player/navigation/view.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -27,7 +25,6 @@ inline constexpr GLuint kSeeThroughBit = 0x80;
 
 // What a mirror shows of the opaque scene.
 struct MirroredScene {
-  const View& view;
   std::vector<DrawBatch> shown;
   std::span<const std::uint32_t> dark;  // of Pack::emitters, those that do not shine
   // Materials of reflectors that are marked in the stencil: there the undirected part is left out.
@@ -42,26 +39,25 @@ class ScenePass {
   static Result<ScenePass> create(gpu::Dialect dialect);
 
   // Depth of the opaque scene into the bound framebuffer. shown: what of it.
-  void draw_depth(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, FrameStats& stats) const;
+  void draw_depth(const FrameContext& context, std::span<const DrawBatch> shown) const;
   // Light of the opaque scene, over that depth. Pixels whose reflector bits are set hold S already: it is kept and
   // added to, without the undirected part. reflective: materials with such pixels. change: what
   // movers take, if anything.
-  void draw_opaque(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown,
-                   const SceneWeights& weights, const std::set<std::uint32_t>& reflective,
-                   const std::optional<BrightChange>& change, FrameStats& stats) const;
+  void draw_opaque(const FrameContext& context, std::span<const DrawBatch> shown, const SceneWeights& weights,
+                   const std::set<std::uint32_t>& reflective, const std::optional<BrightChange>& change) const;
   // Depth of that part of the scene, of all of the scene's indices.
-  void draw_reflected_depth(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
+  void draw_reflected_depth(const FrameContext& context, const MirroredScene& mirrored) const;
   // Its light as the mirror shows it, and its depth where it is not there yet; a: 1 / distance from the view's eye, or
   // for an orthographic view 1 / its depth, at least kClosest.
-  void draw_reflected(const GpuScene& scene, const MirroredScene& mirrored, FrameStats& stats) const;
+  void draw_reflected(const FrameContext& context, const MirroredScene& mirrored) const;
   // See-through surfaces, blended; the undirected part only where the see-through bit is clear, in a mirrored view,
   // which has no stencil, everywhere. white: as FrameOptions. glass: of bodies; none: they are drawn thin. Errors of
   // it.
-  Status draw_transparent(const GpuScene& scene, const View& view, const SceneWeights& weights, float white,
-                          FrameStats& stats, const DrawGlass& glass = {}) const;
+  Status draw_transparent(const FrameContext& context, const SceneWeights& weights, float white,
+                          const DrawGlass& glass = {}) const;
 
  private:
-  void draw_depths(const GpuScene& scene, const View& view, std::span<const DrawBatch> shown, FrameStats& stats) const;
+  void draw_depths(const FrameContext& context, std::span<const DrawBatch> shown) const;
   // plain: of surfaces without normal map, cut-outs or change by movers, that are lit; reflected: those in the image of
   // a mirror.
   gpu::Program depth_, plain_depth_, opaque_, plain_opaque_, reflected_opaque_, transparent_;

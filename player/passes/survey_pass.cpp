@@ -64,8 +64,9 @@ void SurveyPass::draw_zone(const View& view, FrameStats& stats) {
   stats.triangles += static_cast<std::uint64_t>(zone_corners_ / 3);
 }
 
-Status SurveyPass::draw(GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show,
-                        FrameStats& stats) {
+Status SurveyPass::draw(const FrameContext& context, std::span<const DrawBatch> shown) {
+  const auto& [scene, view, options, stats] = context;
+  const Show show = options.show;
   ORIEL_TRY_VOID(prepare(scene, show));
   program_.use();
   program_.set("u_clip_from_pack", view.clip_from_pack);

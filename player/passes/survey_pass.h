@@ -2,10 +2,8 @@
 #pragma once
 
 #include "player/gpu/program.h"
-#include "player/navigation/view.h"
 #include "player/navigation/zone.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -13,11 +11,11 @@ class SurveyPass {
  public:
   static Result<SurveyPass> create(gpu::Dialect dialect);
 
-  // Opaque surfaces, what of them is shown, over their depth, in the colours of `show`; those without a lightmap are
-  // grey, and those whose page has not come yet. kOverdraw: all of them, whatever lies before them, added to what is
-  // black. kZones: plain, with the zone's tiles over them. Colours are kept until another `show` or scene is asked for.
-  // Errors of pages.
-  Status draw(GpuScene& scene, const View& view, std::span<const DrawBatch> shown, Show show, FrameStats& stats);
+  // Opaque surfaces, what of them is shown, over their depth, in the colours that the options show; those without a
+  // lightmap are grey, and those whose page has not come yet. kOverdraw: all of them, whatever lies before them, added
+  // to what is black. kZones: plain, with the zone's tiles over them. Colours are kept until others or another scene
+  // are asked for. Errors of pages.
+  Status draw(const FrameContext& context, std::span<const DrawBatch> shown);
 
  private:
   // What is kept of a scene for a `show`.

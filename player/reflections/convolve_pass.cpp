@@ -63,49 +63,47 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
-                    const View& view, const ImageRect& rect, float scene_radius, Blur blur) {
-  const Mat4 view_from_reflector = view.view_from_pack * reflector.pack_from_reflector;
+void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {
+  const View& view = context.view;
+  const bool constant = context.options.blur == Blur::kConstant;
+  const Mat4 view_from_reflector = view.view_from_pack * image.reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
   const Vec2 aside = view.centre / view.tangents;
-  program.set("u_ndc_from_image", ndc_from_image(rect, view) + Vec4(0, 0, aside.x, aside.y));
+  program.set("u_ndc_from_image", ndc_from_image(image.rect, view) + Vec4(0, 0, aside.x, aside.y));
   program.set("u_tangents", view.tangents);
   program.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
   program.set("u_plane_normal", normal);
   program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
-  program.set("u_farthest", 1e4f * std::max(scene_radius, 1e-12f));
-  program.set("u_constant_footprint", blur == Blur::kConstant ? constant_footprint(reflector, view) : -1.0f);
-  program.set("u_median", kernel.median);
-  program.set("u_coarse", rect.coarse);
+  program.set("u_farthest", 1e4f * std::max(context.scene.bounds().radius(), 1e-12f));
+  program.set("u_constant_footprint", constant ? constant_footprint(image.reflector, view) : -1.0f);
+  program.set("u_median", image.kernel.median);
+  program.set("u_coarse", image.rect.coarse);
   program.set("u_pixels_per_tangent", pixels_per_tangent(view));
 }
 
-void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
-                     const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius,
-                     Blur blur) {
-  set_blur_width(program, reflector, kernel, view, rect, scene_radius, blur);
-  target.filled.bind(0);
-  kernel.taps.bind(2);
+void set_convolution(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {
+  set_blur_width(program, context, image);
+  const gpu::Texture2d& filled = image.target.filled;
+  filled.bind(0);
+  image.kernel.taps.bind(2);
   program.set("u_image", 0);
-  program.set("u_image_size", IVec2(rect.width, rect.height));
-  program.set("u_texture_size",
-              Vec2(static_cast<float>(target.filled.width()), static_cast<float>(target.filled.height())));
+  program.set("u_image_size", IVec2(image.rect.width, image.rect.height));
+  program.set("u_texture_size", Vec2(static_cast<float>(filled.width()), static_cast<float>(filled.height())));
   program.set("u_taps", 2);
-  program.set("u_tap_count", kernel.count);
-  program.set("u_tap_rows", kernel.rows);
+  program.set("u_tap_count", image.kernel.count);
+  program.set("u_tap_rows", image.kernel.rows);
 }
 
-void ConvolvePass::draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
-                        const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const {
-  target.level_framebuffer.bind();
-  target.level_framebuffer.attach_color_level(target.blurred, 0);
-  glViewport(0, 0, rect.width / rect.coarse, rect.height / rect.coarse);
+void ConvolvePass::draw(const FrameContext& context, const ReflectedImage& image) const {
+  image.target.level_framebuffer.bind();
+  image.target.level_framebuffer.attach_color_level(image.target.blurred, 0);
+  glViewport(0, 0, image.rect.width / image.rect.coarse, image.rect.height / image.rect.coarse);
   gpu::apply({});
   glBindVertexArray(no_vertices_.name());
   program_.use();
-  set_convolution(program_, reflector, kernel, view, rect, target, scene_radius, blur);
+  set_convolution(program_, context, image);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  ++stats.draws;
+  ++context.stats.draws;
 }
 
 }  // namespace oriel

@@ -3,8 +3,7 @@
 
 #include "player/gpu/program.h"
 #include "player/reflections/image_target.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -13,20 +12,17 @@ namespace oriel {
 ImageRect choose_image(const NdcRect& screen, float median, const View& view, int texture_limit, bool coarse = false);
 
 // What shaders/passes/screen_blur_width.glsl asks for, to the program in use.
-void set_blur_width(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
-                    const View& view, const ImageRect& rect, float scene_radius, Blur blur);
+void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image);
 
 // What shaders/passes/screen_convolve.glsl asks for, to the program in use: target.filled, all levels, and K in texture
 // units 0 and 2.
-void set_convolution(const gpu::Program& program, const GpuReflector& reflector, const GpuKernel& kernel,
-                     const View& view, const ImageRect& rect, const ImageTarget& target, float scene_radius, Blur blur);
+void set_convolution(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image);
 
 class ConvolvePass {
  public:
   static Result<ConvolvePass> create(gpu::Dialect dialect);
   // target.filled, all levels, to target.blurred.
-  void draw(const GpuReflector& reflector, const GpuKernel& kernel, const View& view, const ImageRect& rect,
-            const ImageTarget& target, float scene_radius, Blur blur, FrameStats& stats) const;
+  void draw(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
   gpu::Program program_;

@@ -22,8 +22,9 @@ enum CurvedUnit {
 // 0.3.
 constexpr float kWideLobe = 0.1f;
 
-void draw_reflector(const GpuScene& scene, const GpuCurvedReflector& reflector, FrameStats& stats) {
-  for (const DrawRange& range : scene.bind_curved(reflector)) draw_indices(range.first_index, range.index_count, stats);
+void draw_reflector(const FrameContext& context, const GpuCurvedReflector& reflector) {
+  for (const DrawRange& range : context.scene.bind_curved(reflector))
+    draw_indices(range.first_index, range.index_count, context.stats);
 }
 
 gpu::RasterState state_for(const View& view, GLint value, GLuint bits) {
@@ -45,12 +46,12 @@ void scissor_to(const Bounds& box, const View& view) {
   glScissor(lower.x, lower.y, all.empty ? 0 : upper.x - lower.x, all.empty ? 0 : upper.y - lower.y);
 }
 
-void set_normals(const gpu::Program& program, const GpuScene& scene, const GpuCurvedReflector& reflector,
-                 const View& view) {
+void set_normals(const gpu::Program& program, const FrameContext& context, const GpuCurvedReflector& reflector) {
+  const GpuScene& scene = context.scene;
   const Material& material = scene.pack().materials[reflector.material];
   scene.normal_map(material.normal_texture).bind(kCurvedNormal);
-  program.set("u_clip_from_pack", view.clip_from_pack);
-  program.set("u_eye", view.eye);
+  program.set("u_clip_from_pack", context.view.clip_from_pack);
+  program.set("u_eye", context.view.eye);
   program.set("u_normal_texture", kCurvedNormal);
   program.set("u_normal_mapped", material.normal_texture >= 0 && !scene.pack().mesh.normal_uvs.empty() ? 1 : 0);
   program.set("u_normal_scale", material.normal_scale);
@@ -81,27 +82,27 @@ Status CurvedPass::Canvas::make(int width, int height) {
   return gpu::check_gl("making the images of curved reflectors");
 }
 
-void CurvedPass::draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value,
-                           GLuint bits, FrameStats& stats) const {
-  gpu::RasterState state = state_for(view, value, bits);
+void CurvedPass::draw_mask(const FrameContext& context, const GpuCurvedReflector& reflector, GLint value,
+                           GLuint bits) const {
+  gpu::RasterState state = state_for(context.view, value, bits);
   state.color_write = false;
   gpu::apply(state);
   mask_.use();
-  mask_.set("u_clip_from_pack", view.clip_from_pack);
-  draw_reflector(scene, reflector, stats);
+  mask_.set("u_clip_from_pack", context.view.clip_from_pack);
+  draw_reflector(context, reflector);
 }
 
-void CurvedPass::draw_surface(const GpuScene& scene, const Shown& shown, const View& view, FrameStats& stats) const {
-  gpu::RasterState state = state_for(view, shown.value, 0xff);
+void CurvedPass::draw_surface(const FrameContext& context, const Shown& shown) const {
+  gpu::RasterState state = state_for(context.view, shown.value, 0xff);
   state.depth_write = true;
   gpu::apply(state);
-  set_normals(surface_, scene, *shown.reflector, view);
-  draw_reflector(scene, *shown.reflector, stats);
+  set_normals(surface_, context, *shown.reflector);
+  draw_reflector(context, *shown.reflector);
 }
 
-Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const View& view, const FrameOptions& options,
-                         FrameStats& stats) {
+Status CurvedPass::shade(const FrameContext& context, std::span<const Shown> shown) {
   if (shown.empty()) return {};
+  const View& view = context.view;
   ORIEL_TRY_VOID(canvas_.make(view.width, view.height));
   const auto begin = [&](const gpu::Framebuffer& target, GLbitfield what) {
     target.bind();
@@ -118,7 +119,7 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
   glEnable(GL_SCISSOR_TEST);
   begin(canvas_.surfaces, GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   surface_.use();
-  for (const Shown& one : shown) draw_surface(scene, one, view, stats);
+  for (const Shown& one : shown) draw_surface(context, one);
   begin(canvas_.shaded, GL_COLOR_BUFFER_BIT);
   shade_.use();
   for (const Shown& one : shown) {
@@ -126,7 +127,7 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
     state.stencil_func = GL_EQUAL;
     state.stencil_ref = one.value;
     gpu::apply(state);
-    set_lobe(shade_, scene, *one.reflector, view, options);
+    set_lobe(shade_, context, *one.reflector);
     canvas_.places.bind(kCurvedPlaces);  // after set_lobe(), which may make textures at the unit bound last
     canvas_.normals.bind(kCurvedNormals);
     shade_.set("u_places", kCurvedPlaces);
@@ -135,42 +136,41 @@ Status CurvedPass::shade(GpuScene& scene, std::span<const Shown> shown, const Vi
     scissor_to(one.reflector->triangles.bounds, view);
     glBindVertexArray(no_vertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    ++stats.draws;
+    ++context.stats.draws;
   }
   glDisable(GL_SCISSOR_TEST);
   return {};
 }
 
-void CurvedPass::draw_shaded(GpuScene& scene, const Shown& shown, const View& view, GLuint bits,
-                             const FrameOptions& options, FrameStats& stats) const {
-  gpu::apply(state_for(view, shown.value, bits));
+void CurvedPass::draw_shaded(const FrameContext& context, const Shown& shown, GLuint bits) const {
+  gpu::apply(state_for(context.view, shown.value, bits));
   shaded_light_.use();
-  set_lobe(shaded_light_, scene, *shown.reflector, view, options);
-  set_reflectance(shaded_light_, scene, *shown.reflector, view, options);
+  set_lobe(shaded_light_, context, *shown.reflector);
+  set_reflectance(shaded_light_, context, *shown.reflector);
   canvas_.light.bind(kCurvedShaded);
   shaded_light_.set("u_shaded", kCurvedShaded);
   shaded_light_.set("u_id", static_cast<float>(shown.value));
-  draw_reflector(scene, *shown.reflector, stats);
-  ++stats.reflectors;
-  ++stats.maps;
+  draw_reflector(context, *shown.reflector);
+  ++context.stats.reflectors;
+  ++context.stats.maps;
 }
 
-void CurvedPass::add_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view,
-                           const FrameOptions& options, FrameStats& stats) const {
-  gpu::RasterState state = state_for(view, 0, 0);
+void CurvedPass::add_light(const FrameContext& context, const GpuCurvedReflector& reflector) const {
+  gpu::RasterState state = state_for(context.view, 0, 0);
   state.blend = gpu::Blend::kAdd;
   state.alpha_write = false;
   gpu::apply(state);
   light_.use();
-  set_lobe(light_, scene, reflector, view, options);
-  set_reflectance(light_, scene, reflector, view, options);
-  draw_reflector(scene, reflector, stats);
-  ++stats.reflectors;
-  ++stats.maps;
+  set_lobe(light_, context, reflector);
+  set_reflectance(light_, context, reflector);
+  draw_reflector(context, reflector);
+  ++context.stats.reflectors;
+  ++context.stats.maps;
 }
 
-void CurvedPass::set_lobe(const gpu::Program& program, GpuScene& scene, const GpuCurvedReflector& reflector,
-                          const View& view, const FrameOptions& options) const {
+void CurvedPass::set_lobe(const gpu::Program& program, const FrameContext& context,
+                          const GpuCurvedReflector& reflector) const {
+  const auto& [scene, view, options, stats] = context;
   const SurroundTextures& map = scene.surround_map(reflector.map);
   const bool sharp = options.show == Show::kM || options.blur == Blur::kOff;
   const GpuKernel& kernel =
@@ -191,10 +191,10 @@ void CurvedPass::set_lobe(const gpu::Program& program, GpuScene& scene, const Gp
   program.set("u_wide", kernel.median >= kWideLobe);
 }
 
-void CurvedPass::set_reflectance(const gpu::Program& program, const GpuScene& scene,
-                                 const GpuCurvedReflector& reflector, const View& view,
-                                 const FrameOptions& options) const {
-  set_normals(program, scene, reflector, view);
+void CurvedPass::set_reflectance(const gpu::Program& program, const FrameContext& context,
+                                 const GpuCurvedReflector& reflector) const {
+  const auto& [scene, view, options, stats] = context;
+  set_normals(program, context, reflector);
   const auto row = scene.pack().materials[reflector.material].fresnel_map;
   scene.reflectance_tables().bind(kCurvedReflectance);
   program.set("u_modulate", options.show == Show::kM || options.show == Show::kMK ? 0 : 1);

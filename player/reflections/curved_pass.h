@@ -7,9 +7,7 @@
 #include "player/gpu/framebuffer.h"
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
-#include "player/navigation/view.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -24,18 +22,14 @@ class CurvedPass {
   };
 
   // Where the frame's depth leaves the reflector visible, its pixels get `value` in the bits `bits` of the stencil.
-  void draw_mask(const GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, GLint value, GLuint bits,
-                 FrameStats& stats) const;
+  void draw_mask(const FrameContext& context, const GpuCurvedReflector& reflector, GLint value, GLuint bits) const;
   // M * K of opaque ones at the middle of each pixel, into images of its own. Leaves its own framebuffer bound.
-  Status shade(GpuScene& scene, std::span<const Shown> shown, const View& view, const FrameOptions& options,
-               FrameStats& stats);
+  Status shade(const FrameContext& context, std::span<const Shown> shown);
   // (M * K) R, or the stage that options ask for, into the frame: of one that shade() has shaded, with its value in
   // those bits of the stencil;
-  void draw_shaded(GpuScene& scene, const Shown& shown, const View& view, GLuint bits, const FrameOptions& options,
-                   FrameStats& stats) const;
+  void draw_shaded(const FrameContext& context, const Shown& shown, GLuint bits) const;
   // of a see-through one, added to the frame.
-  void add_light(GpuScene& scene, const GpuCurvedReflector& reflector, const View& view, const FrameOptions& options,
-                 FrameStats& stats) const;
+  void add_light(const FrameContext& context, const GpuCurvedReflector& reflector) const;
 
  private:
   // As large as the largest frame so far.
@@ -44,11 +38,10 @@ class CurvedPass {
     gpu::Framebuffer surfaces, shaded;
     Status make(int width, int height);
   };
-  void draw_surface(const GpuScene& scene, const Shown& shown, const View& view, FrameStats& stats) const;
-  void set_lobe(const gpu::Program& program, GpuScene& scene, const GpuCurvedReflector& reflector, const View& view,
-                const FrameOptions& options) const;
-  void set_reflectance(const gpu::Program& program, const GpuScene& scene, const GpuCurvedReflector& reflector,
-                       const View& view, const FrameOptions& options) const;
+  void draw_surface(const FrameContext& context, const Shown& shown) const;
+  void set_lobe(const gpu::Program& program, const FrameContext& context, const GpuCurvedReflector& reflector) const;
+  void set_reflectance(const gpu::Program& program, const FrameContext& context,
+                       const GpuCurvedReflector& reflector) const;
 
   gpu::Program mask_, surface_, shade_, light_, shaded_light_;
   gpu::VertexArray no_vertices_;

@@ -5,6 +5,7 @@
 
 #include "player/gpu/framebuffer.h"
 #include "player/navigation/view.h"
+#include "player/scene/gpu_scene.h"
 
 namespace oriel {
 
@@ -35,6 +36,17 @@ struct ImageTarget {
   gpu::Framebuffer sharp_framebuffer;  // with depth and stencil
   gpu::Framebuffer level_framebuffer;  // no depth; passes attach what they draw into
 };
+
+// A reflector's image: where it lies, and what it is made of and for.
+struct ReflectedImage {
+  const GpuReflector& reflector;
+  const GpuKernel& kernel;
+  ImageRect rect;
+  const ImageTarget& target;
+  bool blurs = false;     // M becomes M * K; else M is shown, as by a mirror
+  bool has_holes = true;  // M is made of maps, which may know nothing of a pixel
+};
+
 // At least that large, of half floats or of floats; keeps `current` where it suffices.
 Status ensure_image_target(std::optional<ImageTarget>& current, int width, int height, int limit, bool halves);
 // Binds the image to be drawn into, with depth and stencil, and fills its rectangle: with a hole, or with light all

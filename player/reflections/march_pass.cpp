@@ -52,38 +52,37 @@ Result<MarchPass> MarchPass::create(gpu::Dialect dialect) {
   return pass;
 }
 
-void MarchPass::draw(GpuScene& scene, const GpuReflector& reflector, const GpuKernel* kernel, const View& view,
-                     const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
-                     const FrameOptions& options, FrameStats& stats) const {
-  const bool coarse = kernel != nullptr && rect.marched > 1;
+void MarchPass::draw(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const {
+  const auto& [scene, view, options, stats] = context;
+  const bool coarse = image.blurs && image.rect.marched > 1;
   gpu::RasterState state;
   if (coarse) {
-    draw_coarse(scene, reflector, *kernel, view, rect, target, shown, options, stats);
+    draw_coarse(context, image, shown);
     state = where(shown, GL_EQUAL);
   } else {
-    clear_image(target, rect);
-    if (kernel == nullptr && shown.value != 0) {
-      copy_stencil(target, rect, *shown.frame, view);
+    clear_image(image.target, image.rect);
+    if (!image.blurs && shown.value != 0) {
+      copy_stencil(image.target, image.rect, *shown.frame, view);
       state = where(shown, GL_EQUAL);
     }
   }
   gpu::apply(state);
   FrameStats again;
-  march(scene, reflector, view, rect, 1, false, options, coarse ? again : stats);
+  march({scene, view, options, coarse ? again : stats}, image, 1, false);
   stats.draws += again.draws;
 }
 
-void MarchPass::measure(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                        const ImageTarget& target, const FrameOptions& options) const {
+void MarchPass::measure(const FrameContext& context, const ReflectedImage& image) const {
   FrameStats unused;
-  clear_image(target, rect);
+  clear_image(image.target, image.rect);
   gpu::apply({});
-  march(scene, reflector, view, rect, 1, true, options, unused);
+  march({context.scene, context.view, context.options, unused}, image, 1, true);
 }
 
-void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
-                            const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
-                            const FrameOptions& options, FrameStats& stats) const {
+void MarchPass::draw_coarse(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const {
+  const auto& [scene, view, options, stats] = context;
+  const ImageRect& rect = image.rect;
+  const ImageTarget& target = image.target;
   const gpu::Texture2d& marched = target.blurred;  // M * K comes later
   const float least_radius = (options.coarse ? kLeastCoarseRadius : kLeastRadius) * static_cast<float>(rect.marched);
   target.level_framebuffer.bind();
@@ -96,7 +95,7 @@ void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, cons
   glClearColor(0, 0, 0, kCoarseHole);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
-  march(scene, reflector, view, rect, rect.marched, false, options, stats);
+  march(context, image, rect.marched, false);
 
   clear_image(target, rect, Vec4(0), shown.value == 0 ? 1 : 0);
   if (shown.value != 0) copy_stencil(target, rect, *shown.frame, view);
@@ -109,7 +108,7 @@ void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, cons
     program.set("u_marched", 0);
     program.set("u_marched_scale", 1.0f / (static_cast<float>(rect.marched) * texels));
     program.set("u_marched_last", (Vec2(static_cast<float>(width), static_cast<float>(height)) - 0.5f) / texels);
-    set_blur_width(program, reflector, kernel, view, rect, scene.bounds().radius(), options.blur);
+    set_blur_width(program, context, image);
     program.set("u_least_radius", least_radius);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     ++stats.draws;
@@ -121,9 +120,10 @@ void MarchPass::draw_coarse(GpuScene& scene, const GpuReflector& reflector, cons
   spread(spread_, done);
 }
 
-void MarchPass::march(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                      int coarse, bool measure, const FrameOptions& options, FrameStats& stats) const {
-  const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
+void MarchPass::march(const FrameContext& context, const ReflectedImage& image, int coarse, bool measure) const {
+  const auto& [scene, view, options, stats] = context;
+  const GpuReflector& reflector = image.reflector;
+  const ReflectedView reflected = reflect_view(reflector, view, image.rect, scene.bounds());
   program_.use();
   const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
   program_.set("u_clip_from_reflector", image_from_reflector);
@@ -150,14 +150,15 @@ void MarchPass::march(GpuScene& scene, const GpuReflector& reflector, const View
     program_.set("u_to", served.to);
     program_.set("u_lower", element.lower);
     program_.set("u_upper", element.upper);
-    choose_maps(scene, element, scene.map_array(reflector, e), reflected.mirrored_eye, options, stats);
+    choose_maps(context, element, scene.map_array(reflector, e), reflected.mirrored_eye);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     ++stats.draws;
   }
 }
 
-void MarchPass::choose_maps(const GpuScene& scene, const ReflectorElement& element, const MapArray& array,
-                            const Vec4& mirrored_eye, const FrameOptions& options, FrameStats& stats) const {
+void MarchPass::choose_maps(const FrameContext& context, const ReflectorElement& element, const MapArray& array,
+                            const Vec4& mirrored_eye) const {
+  const auto& [scene, view, options, stats] = context;
   const std::vector<RadianceMap>& maps = scene.pack().radiance_maps;
   std::vector<WeighedMap> chosen = weigh_maps(element, maps, mirrored_eye, options.maps_per_element, options.selection);
   // Where not all can be asked, residual ones come before the worst of the others.

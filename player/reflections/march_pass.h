@@ -3,8 +3,7 @@
 
 #include "player/gpu/program.h"
 #include "player/reflections/image_target.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -12,28 +11,22 @@ class MarchPass {
  public:
   static Result<MarchPass> create(gpu::Dialect dialect);
 
-  // Clears the image and draws what it takes to show the reflector, whose front faces the eye: of a mirror (no kernel)
-  // the pixels that show it, for a kernel also what lies around, on its plane beyond its edges. Where half the
+  // Clears the image and draws what it takes to show the reflector, whose front faces the eye: of a mirror the
+  // pixels that show it, of an image that blurs also what lies around, on its plane beyond its edges. Where half the
   // kernel covers two pixels of rect.marched or more they are that large, and interpolated. What no map sees keeps a =
   // 0.
-  void draw(GpuScene& scene, const GpuReflector& reflector, const GpuKernel* kernel, const View& view,
-            const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown, const FrameOptions& options,
-            FrameStats& stats) const;
+  void draw(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const;
   // Instead of light, how many pixels of the image one of the map covers, across; all over the image.
-  void measure(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-               const ImageTarget& target, const FrameOptions& options) const;
+  void measure(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
   // Into what is bound, in pixels of `coarse` of the image's.
-  void march(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect, int coarse,
-             bool measure, const FrameOptions& options, FrameStats& stats) const;
+  void march(const FrameContext& context, const ReflectedImage& image, int coarse, bool measure) const;
   // Coarse pixels over all of the image but those that show the reflector and are blurred less: those alone keep their
   // value in its stencil.
-  void draw_coarse(GpuScene& scene, const GpuReflector& reflector, const GpuKernel& kernel, const View& view,
-                   const ImageRect& rect, const ImageTarget& target, const ShownPixels& shown,
-                   const FrameOptions& options, FrameStats& stats) const;
-  void choose_maps(const GpuScene& scene, const ReflectorElement& element, const MapArray& array,
-                   const Vec4& mirrored_eye, const FrameOptions& options, FrameStats& stats) const;
+  void draw_coarse(const FrameContext& context, const ReflectedImage& image, const ShownPixels& shown) const;
+  void choose_maps(const FrameContext& context, const ReflectorElement& element, const MapArray& array,
+                   const Vec4& mirrored_eye) const;
   gpu::Program program_, spread_, spread_everywhere_;
   gpu::VertexArray no_vertices_;
 };

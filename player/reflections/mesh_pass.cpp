@@ -70,15 +70,15 @@ Result<MeshPass> MeshPass::create(const gpu::Device& device) {
   return pass;
 }
 
-void MeshPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                    const ImageTarget& target, const ShownPixels* only, const FrameOptions& options,
-                    FrameStats& stats) const {
-  clear_image(target, rect);
+void MeshPass::draw(const FrameContext& context, const ReflectedImage& image, const ShownPixels* only) const {
+  const auto& [scene, view, options, stats] = context;
+  const GpuReflector& reflector = image.reflector;
+  clear_image(image.target, image.rect);
   if (only != nullptr) {
-    copy_stencil(target, rect, *only->frame, view);
-    clear_depth_and_mark(rect);
+    copy_stencil(image.target, image.rect, *only->frame, view);
+    clear_depth_and_mark(image.rect);
   }
-  const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
+  const ReflectedView reflected = reflect_view(reflector, view, image.rect, scene.bounds());
   program_.use();
   program_.set("u_clip_from_mirrored", reflected.image_from_view * reflected.view_from_mirrored);
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
@@ -95,11 +95,10 @@ void MeshPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& 
     elements.push_back({e, weigh_maps(reflector.elements[e], scene.pack().radiance_maps, reflected.mirrored_eye,
                                       options.maps_per_element, options.selection)});
   }
-  const float unit = kBehind * (view.orthographic ? scene.bounds().radius() : 1.0f);
   const auto draw_maps = [&](const gpu::RasterState& state, bool first) {
     gpu::apply(state);
     program_.use();
-    for (const Chosen& chosen : elements) draw_element(scene, reflector, chosen, first, unit, options, stats);
+    for (const Chosen& chosen : elements) draw_element(context, reflector, chosen, first);
   };
   draw_maps(first_state(only), true);
   gpu::RasterState holes = hole_state(only);
@@ -121,8 +120,10 @@ void MeshPass::count_holes(gpu::RasterState state) const {
   glEndQuery(GL_ANY_SAMPLES_PASSED);
 }
 
-void MeshPass::draw_element(GpuScene& scene, const GpuReflector& reflector, const Chosen& chosen, bool first,
-                            float unit, const FrameOptions& options, FrameStats& stats) const {
+void MeshPass::draw_element(const FrameContext& context, const GpuReflector& reflector, const Chosen& chosen,
+                            bool first) const {
+  const auto& [scene, view, options, stats] = context;
+  const float unit = kBehind * (view.orthographic ? scene.bounds().radius() : 1.0f);
   const ReflectorElement& element = reflector.elements[chosen.element];
   const MapArray& array = scene.map_array(reflector, chosen.element);
   array.light.bind(0);

@@ -4,8 +4,7 @@
 #include "player/gpu/program.h"
 #include "player/gpu/raster_state.h"
 #include "player/reflections/image_target.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -15,8 +14,7 @@ class MeshPass {
 
   // Clears the image and draws the maps of all elements that it shows: those that suit the eye best, and where they
   // leave holes the others behind them. `only`: of a mirror, the pixels that show it. Holes keep a = 0.
-  void draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-            const ImageTarget& target, const ShownPixels* only, const FrameOptions& options, FrameStats& stats) const;
+  void draw(const FrameContext& context, const ReflectedImage& image, const ShownPixels* only) const;
 
  private:
   // Of an element, those that suit the eye best first.
@@ -25,8 +23,7 @@ class MeshPass {
     std::vector<WeighedMap> maps;
   };
   void count_holes(gpu::RasterState state) const;
-  void draw_element(GpuScene& scene, const GpuReflector& reflector, const Chosen& chosen, bool first, float unit,
-                    const FrameOptions& options, FrameStats& stats) const;
+  void draw_element(const FrameContext& context, const GpuReflector& reflector, const Chosen& chosen, bool first) const;
   gpu::Program program_, holes_;
   gpu::VertexArray no_vertices_;
   gpu::Query query_;

@@ -31,15 +31,15 @@ Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
   return pass;
 }
 
-Status ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-                           const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const {
-  clear_image(target, rect);
-  const ReflectedView reflected = reflect_view(reflector, view, rect, scene.bounds());
+Status ReprojectPass::draw(const FrameContext& context, const ReflectedImage& image) const {
+  const auto& [scene, view, options, stats] = context;
+  clear_image(image.target, image.rect);
+  const ReflectedView reflected = reflect_view(image.reflector, view, image.rect, scene.bounds());
   const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
   program_.use();
   program_.set("u_clip_from_mirrored", reflected.image_from_view * reflected.view_from_mirrored);
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
-  program_.set("u_viewport", Vec2(static_cast<float>(rect.width), static_cast<float>(rect.height)));
+  program_.set("u_viewport", Vec2(static_cast<float>(image.rect.width), static_cast<float>(image.rect.height)));
   program_.set("u_point_max", point_max_);
   program_.set("u_bias_scale", view.orthographic ? scene.bounds().radius() : 1.0f);
   program_.set("u_closest", kClosest);
@@ -47,7 +47,7 @@ Status ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_mirrored)[2]);
   program_.set("u_map", 0);
   glBindVertexArray(no_vertices_.name());
-  for (const ReflectorElement& element : reflector.elements) {
+  for (const ReflectorElement& element : image.reflector.elements) {
     const Vec2 lower = element.lower, upper = element.upper;
     const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
                                       Vec3(lower.x, upper.y, 0)};
@@ -57,14 +57,14 @@ Status ReprojectPass::draw(GpuScene& scene, const GpuReflector& reflector, const
     const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t map = element.maps[maps[i].map];
-      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(scene, map, reflector, view, stats));
+      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(context, image.reflector, map));
     }
   }
   return {};
 }
 
-Status ReprojectPass::draw_map(GpuScene& scene, std::uint32_t index, const GpuReflector& reflector, const View& view,
-                               FrameStats& stats) const {
+Status ReprojectPass::draw_map(const FrameContext& context, const GpuReflector& reflector, std::uint32_t index) const {
+  const auto& [scene, view, options, stats] = context;
   const RadianceMap& map = scene.pack().radiance_maps[index];
   const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y;
   const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);

@@ -3,8 +3,7 @@
 
 #include "player/gpu/program.h"
 #include "player/reflections/image_target.h"
-#include "player/scene/frame_options.h"
-#include "player/scene/gpu_scene.h"
+#include "player/scene/frame_context.h"
 
 namespace oriel {
 
@@ -14,12 +13,10 @@ class ReprojectPass {
 
   // Clears the image and draws the chosen maps of all elements that it shows. The reflector's front faces the eye.
   // Holes keep a = 0.
-  Status draw(GpuScene& scene, const GpuReflector& reflector, const View& view, const ImageRect& rect,
-              const ImageTarget& target, const FrameOptions& options, FrameStats& stats) const;
+  Status draw(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
-  Status draw_map(GpuScene& scene, std::uint32_t map, const GpuReflector& reflector, const View& view,
-                  FrameStats& stats) const;
+  Status draw_map(const FrameContext& context, const GpuReflector& reflector, std::uint32_t map) const;
   gpu::Program program_;
   gpu::VertexArray no_vertices_;
   float point_max_ = 1;
