@@ -150,11 +150,10 @@ Result<Reference> read_reference(const PlayArguments& arguments) {
   return out;
 }
 
-Status compare_with_picture(const Reference& reference, GpuScene& scene, Renderer& renderer, const View& view,
-                            FrameOptions options, const PlayArguments& arguments) {
-  if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
-  ORIEL_TRY_VOID(renderer.render(scene, view, options));
-  FloatImage frame{static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height), 3, {}};
+// Of the renderer's last frame.
+Status compare_with_picture(const Reference& reference, Renderer& renderer, const PlayArguments& arguments) {
+  const UVec2 size(renderer.frame_size());
+  FloatImage frame{size.x, size.y, 3, {}};
   float white = 0;
   if (reference.linear) {
     frame.pixels = renderer.read_light();
@@ -226,7 +225,11 @@ Status play_compare(DeferredPack pack, const PlayArguments& arguments) {
   ORIEL_TRY(options.lamps, lamps_at(scene->pack(), arguments.moves));
   const View view = make_view(camera, static_cast<int>(n * picture.width), static_cast<int>(n * picture.height),
                               bounds_with_movers(*scene, options.poses));
-  if (!reference.rendered) return compare_with_picture(reference, *scene, *renderer, view, options, arguments);
+  if (!reference.rendered) {
+    if (arguments.ev100) options.white = white_of_exposure(*arguments.ev100);
+    ORIEL_TRY_VOID(renderer->render(*scene, view, options));
+    return compare_with_picture(reference, *renderer, arguments);
+  }
   ORIEL_TRY(const PlayedFrame frame, Stages(*scene, *renderer, view, arguments, options, n).draw());
   return compare_with_rendered(reference, frame, arguments);
 }

@@ -25,6 +25,10 @@ Camera turned(Camera camera, const MoveInput& input, const MoveOptions& options)
   return camera;
 }
 
+float notches(const MoveInput& input) {
+  return std::clamp(finite_or_zero(input.wheel), -100.0f, 100.0f);
+}
+
 // Right, up, ahead: keys and stick, each [-1,1].
 Vec3 wanted(const MoveInput& input) {
   const Vec3 keys(axis(input.right, input.left), axis(input.up, input.down), axis(input.forward, input.back));
@@ -32,8 +36,7 @@ Vec3 wanted(const MoveInput& input) {
   return glm::clamp(keys + stick, Vec3(-1), Vec3(1));
 }
 
-Camera orbited(const Camera& camera, MoveState& state, MoveInput input, float dt_s, float notches,
-               const MoveOptions& options) {
+Camera orbited(const Camera& camera, MoveState& state, MoveInput input, float dt_s, const MoveOptions& options) {
   const Vec3 by = wanted(input), centre = *state.orbit;
   const float factor = input.fast ? options.fast_factor : 1.0f;
   const float turn_px = factor * options.orbit_rad_per_s * dt_s / options.radians_per_pixel;
@@ -41,7 +44,8 @@ Camera orbited(const Camera& camera, MoveState& state, MoveInput input, float dt
   input.mouse_y_px = finite_or_zero(input.mouse_y_px) + by.y * turn_px;
   Camera next = turned(camera, input, options);
   const float here = glm::distance(camera.eye, centre);
-  const float zoom = std::exp(-by.z * factor * options.zoom_per_s * dt_s) * std::pow(options.wheel_factor, -notches);
+  const float zoom =
+      std::exp(-by.z * factor * options.zoom_per_s * dt_s) * std::pow(options.wheel_factor, -notches(input));
   // From where it is: a wall may have held it nearer than it was to be.
   if (state.orbit_m <= 0 || zoom < 1) state.orbit_m = here;
   const float distance = std::max(state.orbit_m * zoom, options.nearest_orbit_m);
@@ -56,10 +60,9 @@ Camera orbited(const Camera& camera, MoveState& state, MoveInput input, float dt
 
 Camera move_camera(const Camera& camera, MoveState& state, const MoveInput& input, float dt_s,
                    const MoveOptions& options) {
-  const float notches = std::clamp(finite_or_zero(input.wheel), -100.0f, 100.0f);
   const float dt = std::clamp(finite_or_zero(dt_s), 0.0f, options.max_step_s);
-  if (state.orbit) return orbited(camera, state, input, dt, notches, options);
-  const float speed = finite_or_zero(state.speed_m_s) * std::pow(options.wheel_factor, notches);
+  if (state.orbit) return orbited(camera, state, input, dt, options);
+  const float speed = finite_or_zero(state.speed_m_s) * std::pow(options.wheel_factor, notches(input));
   state.speed_m_s = std::clamp(speed, options.min_speed_m_s, options.max_speed_m_s);
 
   Camera next = turned(camera, input, options);

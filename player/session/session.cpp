@@ -67,6 +67,51 @@ void record_or_end(Session& session) {
   session.recorded = std::exchange(session.recording, std::nullopt);
 }
 
+void fly_or_walk(Session& session) {
+  session.move.fly = !session.move.fly && !session.move.orbit;
+  session.walking = !session.move.fly;
+  session.move.orbit.reset();
+  session.walker = {};
+}
+
+void play_or_stop(Session& session) {
+  session.walker = {};
+  session.path_time_s = session.path_time_s >= 0 || session.path.keys.empty() ? -1 : 0;
+}
+
+void flip(Session& session) {
+  Beside& beside = session.comparison.beside;
+  beside = beside == Beside::kFirst ? Beside::kSecond : Beside::kFirst;
+}
+
+// What an action changes of the session alone.
+struct Deed {
+  Action action;
+  void (*perform)(Session& session);
+};
+constexpr Deed kDeeds[] = {
+    {Action::kKeySheet, [](Session& s) { s.key_sheet = !s.key_sheet; }},
+    {Action::kPresent, [](Session& s) { s.presenting = !s.presenting; }},
+    {Action::kPanel, [](Session& s) { s.panel = !s.panel; }},
+    {Action::kStage,
+     [](Session& s) { s.frame.show = static_cast<Show>((static_cast<int>(s.frame.show) + 1) % kShows); }},
+    {Action::kFly, fly_or_walk},
+    {Action::kGo, [](Session& s) { s.go_to = Vec2(0.5f); }},
+    {Action::kHome, [](Session& s) { look_from(s.home, s); }},
+    {Action::kPlayPath, play_or_stop},
+    {Action::kRecord, record_or_end},
+    {Action::kBrighter, [](Session& s) { s.manual_ev100 = s.shown_ev100 - kExposureStep; }},
+    {Action::kDarker, [](Session& s) { s.manual_ev100 = s.shown_ev100 + kExposureStep; }},
+    {Action::kAutoExposure, [](Session& s) { s.manual_ev100.reset(); }},
+    {Action::kMoversBack, [](Session& s) { s.moves = s.moves_at_start; }},
+    {Action::kScreenshot, [](Session& s) { s.screenshot = true; }},
+    {Action::kLightScreenshot, [](Session& s) { s.light_screenshot = true; }},
+    {Action::kReload, [](Session& s) { s.reload = true; }},
+    {Action::kFlip, flip},
+    {Action::kSplit, [](Session& s) { s.comparison.beside = Beside::kSplit; }},
+    {Action::kDifference, [](Session& s) { s.comparison.beside = Beside::kDifference; }},
+};
+
 // Along the path while it plays, else by hand.
 void move_camera_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session) {
   if (session.path_time_s < 0) {
@@ -98,80 +143,12 @@ void take_path(const Pack& pack, Session& session) {
 }
 
 void perform(const Command& command, const Pack& pack, Session& session) {
-  switch (command.action) {
-    case Action::kHeld:
-      break;
-    case Action::kKeySheet:
-      session.key_sheet = !session.key_sheet;
-      break;
-    case Action::kPresent:
-      session.presenting = !session.presenting;
-      break;
-    case Action::kPanel:
-      session.panel = !session.panel;
-      break;
-    case Action::kStage:
-      session.frame.show = static_cast<Show>((static_cast<int>(session.frame.show) + 1) % kShows);
-      break;
-    case Action::kFly:
-      session.move.fly = !session.move.fly && !session.move.orbit;
-      session.walking = !session.move.fly;
-      session.move.orbit.reset();
-      session.walker = {};
-      break;
-    case Action::kOrbit:
-      orbit_or_end(pack, session);
-      break;
-    case Action::kGo:
-      session.go_to = Vec2(0.5f);
-      break;
-    case Action::kHome:
-      look_from(session.home, session);
-      break;
-    case Action::kPlayPath:
-      session.walker = {};
-      session.path_time_s = session.path_time_s >= 0 || session.path.keys.empty() ? -1 : 0;
-      break;
-    case Action::kRecord:
-      record_or_end(session);
-      break;
-    case Action::kBrighter:
-      session.manual_ev100 = session.shown_ev100 - kExposureStep;
-      break;
-    case Action::kDarker:
-      session.manual_ev100 = session.shown_ev100 + kExposureStep;
-      break;
-    case Action::kAutoExposure:
-      session.manual_ev100.reset();
-      break;
-    case Action::kMoversBack:
-      session.moves = session.moves_at_start;
-      break;
-    case Action::kScreenshot:
-      session.screenshot = true;
-      break;
-    case Action::kLightScreenshot:
-      session.light_screenshot = true;
-      break;
-    case Action::kReload:
-      session.reload = true;
-      break;
-    case Action::kFlip:
-      session.comparison.beside = session.comparison.beside == Beside::kFirst ? Beside::kSecond : Beside::kFirst;
-      break;
-    case Action::kSplit:
-      session.comparison.beside = Beside::kSplit;
-      break;
-    case Action::kDifference:
-      session.comparison.beside = Beside::kDifference;
-      break;
-    case Action::kCamera:
-      show_camera(command.camera, pack, session);
-      break;
-    case Action::kNextCamera:
-      if (!pack.cameras.empty()) show_camera((session.shown_camera + 1) % pack.cameras.size(), pack, session);
-      break;
-  }
+  for (const Deed& deed : kDeeds)
+    if (deed.action == command.action) deed.perform(session);
+  if (command.action == Action::kOrbit) orbit_or_end(pack, session);
+  if (command.action == Action::kCamera) show_camera(command.camera, pack, session);
+  if (command.action == Action::kNextCamera && !pack.cameras.empty())
+    show_camera((session.shown_camera + 1) % pack.cameras.size(), pack, session);
 }
 
 void move_on(const MoveInput& input, const Floors& floors, float dt_s, Session& session) {

@@ -40,20 +40,25 @@ constexpr std::chrono::milliseconds kUpload{8}, kBeforeFirst{150};
 constexpr std::chrono::milliseconds kLoadingFrame{33};
 constexpr float kFarthest = 4;  // that a mover is dragged, in radii of the scene
 
+// What is shown, and from where.
+struct Opened {
+  std::unique_ptr<GpuScene> scene;
+  std::unique_ptr<Other> other;  // beside it; may be null
+  Camera camera;
+  CameraPath path;
+};
+
 class Loop {
  public:
-  Loop(GlfwWindow& window, std::unique_ptr<GpuScene> scene, Renderer& renderer, const PlayArguments& arguments,
-       const Camera& camera, const CameraPath& path, const gpu::Device& device, std::unique_ptr<Other> other,
-       Clock::time_point started)
-      : watch_(started),
-        window_(window),
-        scene_(std::move(scene)),
+  Loop(GlfwWindow& window, const gpu::Device& device, Renderer& renderer, const PlayArguments& arguments, Opened opened)
+      : window_(window),
+        scene_(std::move(opened.scene)),
         renderer_(renderer),
         device_(device),
         arguments_(arguments),
         input_(window.get()),
         gui_(window.get()) {
-    session_.camera = session_.home = camera;
+    session_.camera = session_.home = opened.camera;
     session_.frame = arguments.frame;
     session_.frame.live.in_background = true;
     session_.lights = arguments.light_settings;
@@ -61,11 +66,11 @@ class Loop {
     session_.moves = session_.moves_at_start = arguments.moves;
     session_.manual_ev100 = arguments.ev100;
     session_.panel = arguments.panel;
-    session_.path = path;
+    session_.path = std::move(opened.path);
     session_.comparison.divider = arguments.divider;
     session_.comparison.first = arguments.pack;
     session_.comparison.second = arguments.other;
-    if (other) beside_.emplace(std::move(other));
+    if (opened.other) beside_.emplace(std::move(opened.other));
     session_.quality = arguments.quality;
     session_.move.speed_m_s *= floors_.size();
     meter_.device = device.renderer;
@@ -74,7 +79,7 @@ class Loop {
 
   const PaceRecord& pace() const { return paced_.record(); }
 
-  Status run(const std::function<bool()>& stopped) {
+  Status run(const std::function<bool()>& stopped, LoadingWatch watch) {
     Clock::time_point last = Clock::now();
     int frames = 0;
     while (true) {
@@ -94,8 +99,8 @@ class Loop {
       }
       // A window over monitors that are larger than the device's largest frame shows that in its corner.
       ORIEL_TRY_VOID(draw(std::min(width, device_.texture_size), std::min(height, device_.texture_size), dt_s));
-      watch_.frame(Clock::now(), meter_.loading.busy);
-      if (const auto news = watch_.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
+      watch.frame(Clock::now(), meter_.loading.busy);
+      if (const auto news = watch.news()) fmt::print(stderr, "oriel-play: {}\n", *news);
       if (drawn_ != Pace::Draw::kKeep) meter_.add(static_cast<float>(1000 * seconds_since(last)));
       rest(last);
       if (meter_.loading.busy) std::this_thread::sleep_until(last + kLoadingFrame);
@@ -241,13 +246,8 @@ class Loop {
   }
 
   Other::Seen seen(int width, int height) const {
-    return {session_.camera,
-            scene_->pack().mesh.origin,
-            width,
-            height,
-            session_.frame,
-            session_.moves,
-            arguments_.time_s + seconds_since(start_)};
+    const double time_s = arguments_.time_s + seconds_since(start_);
+    return {session_.camera, scene_->pack().mesh.origin, width, height, session_.frame, session_.moves, time_s};
   }
 
   void keep(const CameraPath& walk) {
@@ -337,7 +337,6 @@ class Loop {
     if (on) session_.panel = session_.key_sheet = false;
   }
 
-  LoadingWatch watch_;
   bool first_ = true;  // frame of the scene
   Clock::time_point aimed_{};
   GlfwWindow& window_;
@@ -370,27 +369,27 @@ Status play_in_window(DeferredPack pack, const PlayArguments& arguments, const s
   ORIEL_TRY(const auto window, GlfwWindow::open(arguments.width, arguments.height));
   ORIEL_TRY(const gpu::Device device, gpu::open_device());
   if (arguments.gl_debug) gpu::enable_debug_output(device);
-  ORIEL_TRY(auto scene, GpuScene::create(std::move(pack), device, {true, arguments.gpu_memory}));
-  const Pack& shown = scene->pack();
-  const CameraChoices choices{shown.cameras, shown.paths, shown.mesh.origin};
-  Camera camera = initial_camera(choices, scene->bounds().lower, scene->bounds().upper);
+  Opened opened;
+  ORIEL_TRY(opened.scene, GpuScene::create(std::move(pack), device, {true, arguments.gpu_memory}));
+  const Pack& known = opened.scene->pack();
+  const CameraChoices choices{known.cameras, known.paths, known.mesh.origin};
+  opened.camera = initial_camera(choices, opened.scene->bounds().lower, opened.scene->bounds().upper);
   if (!arguments.cameras.empty()) {
-    ORIEL_TRY(camera, parse_camera(arguments.cameras[0], choices));
+    ORIEL_TRY(opened.camera, parse_camera(arguments.cameras[0], choices));
   }
-  std::unique_ptr<Other> other;
   if (!arguments.other.empty()) {
-    ORIEL_TRY(other, Other::open(arguments.other, device, {false, arguments.gpu_memory}));
+    ORIEL_TRY(opened.other, Other::open(arguments.other, device, {false, arguments.gpu_memory}));
     // A picture is seen from where it was taken.
-    const auto taken = other->camera(shown.mesh.origin);
-    if (taken && arguments.cameras.empty()) camera = *taken;
+    const auto taken = opened.other->camera(known.mesh.origin);
+    if (taken && arguments.cameras.empty()) opened.camera = *taken;
   }
-  CameraPath path = shown.paths.empty() ? CameraPath() : shown.paths.front();
+  if (!known.paths.empty()) opened.path = known.paths.front();
   if (!arguments.path.empty()) {
-    ORIEL_TRY(path, choose_path(arguments.path, shown.paths, shown.mesh.origin));
+    ORIEL_TRY(opened.path, choose_path(arguments.path, known.paths, known.mesh.origin));
   }
   ORIEL_TRY(const auto renderer, Renderer::create(device));
-  Loop loop(*window, std::move(scene), *renderer, arguments, camera, path, device, std::move(other), started);
-  const Status ended = loop.run(stopped);
+  Loop loop(*window, device, *renderer, arguments, std::move(opened));
+  const Status ended = loop.run(stopped, LoadingWatch(started));
   if (arguments.stats.empty()) return ended;
   const std::string text = loop.pace().json();
   ORIEL_TRY_VOID(write_file_atomically(arguments.stats, std::as_bytes(std::span(text))));
