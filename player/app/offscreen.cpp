@@ -125,13 +125,13 @@ class Studio {
  private:
   Status write(const fs::path& file, const PictureNotes& notes) {
     const auto n = static_cast<std::uint32_t>(arguments_.supersample);
-    if (other_ != nullptr) return write_beside(renderer_, *other_, arguments_.divider, file.string(), notes, n);
+    if (other_ != nullptr) return other_->write_beside(renderer_, arguments_.divider, file.string(), notes, n);
     return write_picture(renderer_, file.string(), notes, n);
   }
 
   Result<ByteImage> as_shown(const PictureNotes& notes) {
     const auto n = static_cast<std::uint32_t>(arguments_.supersample);
-    if (other_ != nullptr) return shown_beside(renderer_, *other_, arguments_.divider, notes, n);
+    if (other_ != nullptr) return other_->shown_beside(renderer_, arguments_.divider, notes, n);
     return shown_picture(renderer_, notes, n);
   }
 

@@ -36,13 +36,21 @@ class Buffer {
   Handle<ObjectKind::kBuffer> handle_;
 };
 
+// Numbers of a vertex attribute.
+struct AttributeFormat {
+  int components = 0;
+  GLenum type = GL_FLOAT;
+  bool normalized = false;  // the largest integer is 1
+};
+
 // A vertex attribute of the bound vertex array, in a buffer of its own.
 template <class T>
-void add_attribute(std::vector<Buffer>& buffers, GLuint location, const std::vector<T>& values, int components,
-                   GLenum type, bool normalized) {
+void add_attribute(std::vector<Buffer>& buffers, GLuint location, const std::vector<T>& values,
+                   const AttributeFormat& format) {
   buffers.emplace_back(GLenum{GL_ARRAY_BUFFER}, std::span<const T>(values));
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, components, type, normalized ? GL_TRUE : GL_FALSE, sizeof(T), nullptr);
+  glVertexAttribPointer(location, format.components, format.type, format.normalized ? GL_TRUE : GL_FALSE, sizeof(T),
+                        nullptr);
 }
 
 }  // namespace oriel::gpu

@@ -120,10 +120,10 @@ TextureArray::TextureArray(const TextureFormat& format, int width, int height, i
   set_sampling(GL_TEXTURE_2D_ARRAY, options);
 }
 
-void TextureArray::upload(int level, int layer, int row, int width, int height, const void* pixels) const {
+void TextureArray::upload(int level, int layer, int row, const IVec2& size, const void* pixels) const {
   glBindTexture(GL_TEXTURE_2D_ARRAY, handle_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, row, layer, width, height, 1, format_.format, format_.type, pixels);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, row, layer, size.x, size.y, 1, format_.format, format_.type, pixels);
 }
 
 void TextureArray::bind(int unit) const {

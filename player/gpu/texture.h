@@ -103,7 +103,7 @@ class TextureArray {
   TextureArray(const TextureFormat& format, int width, int height, int layers, const TextureOptions& options = {});
 
   // Rows at the left edge of a layer's level, from `row` on.
-  void upload(int level, int layer, int row, int width, int height, const void* pixels) const;
+  void upload(int level, int layer, int row, const IVec2& size, const void* pixels) const;
   void bind(int unit) const;
   GLuint name() const { return handle_.name(); }
   std::size_t bytes() const { return bytes_; }

@@ -41,7 +41,7 @@ TextureData mipmapped(const Texture& texture, const gpu::TextureFormat& format,
   out.options.wrap_t = gl_wrap(texture.wrap_t);
   for (std::size_t i = left_out; i < levels.size(); ++i) {
     const int level = static_cast<int>(i - left_out);
-    out.add(level, 0, 0, std::max(1, out.width >> level), std::max(1, out.height >> level), std::move(levels[i]));
+    out.add({level, 0, 0, std::max(1, out.width >> level), std::max(1, out.height >> level)}, std::move(levels[i]));
   }
   return out;
 }
@@ -102,7 +102,7 @@ TextureData half_floats(std::uint32_t width, std::uint32_t height, std::vector<H
   out.width = static_cast<int>(width);
   out.height = static_cast<int>(height);
   out.options.min_filter = out.options.mag_filter = GL_LINEAR;
-  out.add(0, 0, 0, out.width, out.height, std::move(texels));
+  out.add({0, 0, 0, out.width, out.height}, std::move(texels));
   return out;
 }
 
@@ -212,7 +212,7 @@ LightData light_data(HalfPage page, int coarser) {
     TextureData cells;
     cells.format = gpu::kR32ui;
     cells.width = static_cast<int>(page.width), cells.height = static_cast<int>(page.height);
-    cells.add(0, 0, 0, cells.width, cells.height, std::move(page.cell));
+    cells.add({0, 0, 0, cells.width, cells.height}, std::move(page.cell));
     out.cells = std::move(cells);
   }
   out.light = half_floats(page.width, page.height, std::move(page.light));

@@ -45,7 +45,7 @@ std::vector<RangeCode> coded(std::span<const Vec2> ranges) {
 // Level 1, and above it the others beside each other: `width` and `height` are those of level 1 of the array.
 void add_ranges(const Relief& relief, int layer, int width, int height, TextureData& ranges) {
   const IVec2 first = relief.range_size(1);
-  ranges.add(0, layer, 0, first.x, first.y, coded(relief.ranges[0]));
+  ranges.add({0, layer, 0, first.x, first.y}, coded(relief.ranges[0]));
   std::vector<RangeCode> strip(static_cast<std::size_t>(width) * static_cast<std::size_t>(height / 2));
   for (int level = 2; level <= kRangeLevels; ++level) {
     const IVec2 cells = relief.range_size(level);
@@ -53,7 +53,7 @@ void add_ranges(const Relief& relief, int layer, int width, int height, TextureD
     for (int y = 0; y < cells.y; ++y)
       std::copy_n(codes.begin() + y * cells.x, cells.x, strip.begin() + y * width + width - (width >> (level - 2)));
   }
-  ranges.add(0, layer, height, width, height / 2, std::move(strip));
+  ranges.add({0, layer, height, width, height / 2}, std::move(strip));
 }
 
 }  // namespace
@@ -79,15 +79,15 @@ MapArrayData MapArrayData::make(std::span<const RadianceMap* const> maps) {
     std::vector<std::uint16_t> codes;
     codes.reserve(relief.disparity.size());
     for (const float s : relief.disparity) codes.push_back(disparity_code(s));
-    out.disparity.add(0, layer, 0, of_map.x, of_map.y, std::move(codes));
+    out.disparity.add({0, layer, 0, of_map.x, of_map.y}, std::move(codes));
     for (int level = 0; of_map != size && level < out.light.options.levels;
          ++level) {  // filters may touch what is beside it
       const int w = std::max(size.x >> level, 1), h = std::max(size.y >> level, 1);
-      out.light.add(level, layer, 0, w, h,
+      out.light.add({level, layer, 0, w, h},
                     std::vector<std::uint32_t>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)));
     }
     for (std::size_t level = 0; level < levels.rgb9e5.size(); ++level)
-      out.light.add(static_cast<int>(level), layer, 0, std::max(of_map.x >> level, 1), std::max(of_map.y >> level, 1),
+      out.light.add({static_cast<int>(level), layer, 0, std::max(of_map.x >> level, 1), std::max(of_map.y >> level, 1)},
                     std::move(levels.rgb9e5[level]));
     out.scale.push_back(levels.scale);
   }
@@ -112,7 +112,7 @@ TextureData map_points_data(const RadianceMap& map) {
   out.format = gpu::kRgba32f;
   out.width = static_cast<int>(map.width);
   out.height = static_cast<int>(map.height);
-  out.add(0, 0, 0, out.width, out.height, std::move(texels));
+  out.add({0, 0, 0, out.width, out.height}, std::move(texels));
   return out;
 }
 

@@ -123,8 +123,8 @@ SurroundData shape_of(int size, const IVec2& extent) {
 SurroundData surround_data(const SurroundMap& map) {
   SurroundPyramid pyramid = make_surround_pyramid(map);
   SurroundData out = shape_of(pyramid.size, pyramid.extent);
-  out.light.add(0, 0, 0, pyramid.extent.x, pyramid.extent.y, std::move(pyramid.light));
-  out.inverse_distance.add(0, 0, 0, pyramid.size + 2, pyramid.size + 2, std::move(pyramid.inverse_distance));
+  out.light.add({0, 0, 0, pyramid.extent.x, pyramid.extent.y}, std::move(pyramid.light));
+  out.inverse_distance.add({0, 0, 0, pyramid.size + 2, pyramid.size + 2}, std::move(pyramid.inverse_distance));
   out.place.size = pyramid.size;
   out.place.scale = pyramid.scale;
   out.place.range = pyramid.range;

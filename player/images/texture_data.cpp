@@ -38,7 +38,7 @@ bool TextureUpload::step(std::size_t bytes) {
     const int rows = std::max(fitting, 1);
     const auto* pixels = static_cast<const std::byte*>(block.pixels.get()) + of_row * static_cast<std::size_t>(row_);
     if (data_.layers > 0)
-      array.upload(block.level, block.layer, block.row + row_, block.width, rows, pixels);
+      array.upload(block.level, block.layer, block.row + row_, {block.width, rows}, pixels);
     else
       texture.upload(block.level, block.row + row_, rows, pixels);
     done += of_row * static_cast<std::size_t>(rows);

@@ -13,7 +13,7 @@ struct TextureData {
   // Whole rows from the left edge of a layer's level.
   struct Block {
     int level = 0, layer = 0, row = 0, width = 0, height = 0;
-    std::shared_ptr<const void> pixels;
+    std::shared_ptr<const void> pixels{};
   };
   gpu::TextureFormat format;
   int width = 1, height = 1;
@@ -21,11 +21,13 @@ struct TextureData {
   gpu::TextureOptions options;
   std::vector<Block> blocks;
 
+  // `block` without its pixels, and those.
   template <class T>
-  void add(int level, int layer, int row, int block_width, int block_height, std::vector<T> pixels) {
+  void add(Block block, std::vector<T> pixels) {
     auto kept = std::make_shared<const std::vector<T>>(std::move(pixels));
     const void* first = kept->data();
-    blocks.push_back({level, layer, row, block_width, block_height, {std::move(kept), first}});
+    block.pixels = {std::move(kept), first};
+    blocks.push_back(std::move(block));
   }
   // On the device.
   std::size_t bytes() const;

@@ -104,20 +104,19 @@ Status Other::show(const FloatImage& rgba) {
   return renderer_->take_light(rgba);
 }
 
-Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes,
-                               std::uint32_t n) {
+Result<ByteImage> Other::shown_beside(Renderer& first, float divider, const PictureNotes& notes, std::uint32_t n) {
   ORIEL_TRY(const ByteImage left, shown_picture(first, notes, n));
-  ORIEL_TRY(const ByteImage right, shown_picture(other.renderer(), notes, n));
+  ORIEL_TRY(const ByteImage right, shown_picture(*renderer_, notes, n));
   return join_split(left, right, divider);
 }
 
-Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes,
-                    std::uint32_t n) {
+Status Other::write_beside(Renderer& first, float divider, const std::string& path, const PictureNotes& notes,
+                           std::uint32_t n) {
   if (!is_linear_file(path)) {
-    ORIEL_TRY(const ByteImage shown, shown_beside(first, other, divider, notes, n));
+    ORIEL_TRY(const ByteImage shown, shown_beside(first, divider, notes, n));
     return write_shown(path, shown, notes);
   }
-  return write_light(path, join_split(light_picture(first, n), light_picture(other.renderer(), n), divider), notes);
+  return write_light(path, join_split(light_picture(first, n), light_picture(*renderer_, n), divider), notes);
 }
 
 }  // namespace oriel

@@ -48,6 +48,11 @@ class Other {
   bool has_live_news() const { return scene_ && scene_->has_live_news(); }
   // Any other RGBA picture instead, as Renderer::take_light().
   Status show(const FloatImage& rgba);
+  // shown_picture() and write_picture() of what both have drawn last: the first's up to the divider [0, 1], from there
+  // on this one's.
+  Result<ByteImage> shown_beside(Renderer& first, float divider, const PictureNotes& notes, std::uint32_t n = 1);
+  Status write_beside(Renderer& first, float divider, const std::string& path, const PictureNotes& notes,
+                      std::uint32_t n = 1);
 
  private:
   Other() = default;
@@ -61,12 +66,5 @@ class Other {
   bool laid_ = false;                   // in the renderer's frame
   std::map<std::string, std::string> notes_;
 };
-
-// shown_picture() and write_picture() of what both have drawn last: the first's up to the divider [0, 1], from there on
-// the other's.
-Result<ByteImage> shown_beside(Renderer& first, Other& other, float divider, const PictureNotes& notes,
-                               std::uint32_t n = 1);
-Status write_beside(Renderer& first, Other& other, float divider, const std::string& path, const PictureNotes& notes,
-                    std::uint32_t n = 1);
 
 }  // namespace oriel

@@ -30,8 +30,8 @@ Status SurveyPass::prepare(GpuScene& scene, Show show) {
       zone_array_ = gpu::make_vertex_array();
       glBindVertexArray(zone_array_.name());
       zone_buffers_.clear();
-      gpu::add_attribute(zone_buffers_, 0, mesh.positions, 3, GL_FLOAT, false);
-      gpu::add_attribute(zone_buffers_, 1, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
+      gpu::add_attribute(zone_buffers_, 0, mesh.positions, {3, GL_FLOAT});
+      gpu::add_attribute(zone_buffers_, 1, mesh.colors, {4, GL_UNSIGNED_BYTE, true});
       zone_corners_ = static_cast<GLsizei>(mesh.positions.size());
     }
     const auto charts = show == Show::kCharts ? chart_colors(pack) : std::vector<std::vector<std::uint8_t>>();

@@ -21,7 +21,7 @@ GpuMapMesh upload(const MapMesh& mesh) {
   for (const Vec3& v : mesh.vertices) vertices.push_back({share(v.x), share(v.y), share(v.z / out.scale), 0});
   out.vertex_array = gpu::make_vertex_array();
   glBindVertexArray(out.vertex_array.name());
-  gpu::add_attribute(out.buffers, 0, vertices, 3, GL_UNSIGNED_SHORT, true);
+  gpu::add_attribute(out.buffers, 0, vertices, {3, GL_UNSIGNED_SHORT, true});
   const auto upload_indices = [&]<class Index>(Index) {
     const std::vector<Index> indices(mesh.indices.begin(), mesh.indices.end());
     out.buffers.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const Index>(indices));

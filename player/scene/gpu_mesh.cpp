@@ -98,18 +98,18 @@ ShownTriangles gather_visible(std::span<const DrawRange> ranges, std::span<const
 }
 
 void upload_vertices(const Mesh& mesh, std::vector<gpu::Buffer>& buffers) {
-  gpu::add_attribute(buffers, 0, mesh.positions, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 1, mesh.normals, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 2, mesh.uvs, 2, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 3, mesh.lightmap_uvs, 2, GL_FLOAT, false);
+  gpu::add_attribute(buffers, 0, mesh.positions, {3, GL_FLOAT});
+  gpu::add_attribute(buffers, 1, mesh.normals, {3, GL_FLOAT});
+  gpu::add_attribute(buffers, 2, mesh.uvs, {2, GL_FLOAT});
+  gpu::add_attribute(buffers, 3, mesh.lightmap_uvs, {2, GL_FLOAT});
   if (mesh.colors.empty()) {
     glVertexAttrib4f(4, 1, 1, 1, 1);
   } else {
-    gpu::add_attribute(buffers, 4, mesh.colors, 4, GL_UNSIGNED_BYTE, true);
+    gpu::add_attribute(buffers, 4, mesh.colors, {4, GL_UNSIGNED_BYTE, true});
   }
   if (!mesh.normal_uvs.empty()) {
-    gpu::add_attribute(buffers, 5, mesh.normal_uvs, 2, GL_FLOAT, false);
-    gpu::add_attribute(buffers, 6, mesh.tangents, 4, GL_FLOAT, false);
+    gpu::add_attribute(buffers, 5, mesh.normal_uvs, {2, GL_FLOAT});
+    gpu::add_attribute(buffers, 6, mesh.tangents, {4, GL_FLOAT});
   }
 }
 
@@ -121,7 +121,7 @@ GpuMover upload_mover(const Mover& mover) {
   out.vertex_array = gpu::make_vertex_array();
   glBindVertexArray(out.vertex_array.name());
   upload_vertices(mover.mesh, out.buffers);
-  gpu::add_attribute(out.buffers, 7, mover.transfer.cluster, 1, GL_UNSIGNED_BYTE, false);
+  gpu::add_attribute(out.buffers, 7, mover.transfer.cluster, {1, GL_UNSIGNED_BYTE});
   out.buffers.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(indices));
   glBindVertexArray(0);
 

@@ -87,7 +87,7 @@ Status BesideView::write(Renderer& first, const Session& session, const std::str
   const ComparisonView& c = session.comparison;
   const bool whole = c.beside == Beside::kFirst || (c.beside == Beside::kDifference && !shows_flip_);
   if (whole) return write_picture(first, path, notes, n);
-  return write_beside(first, *other_, c.beside == Beside::kSplit ? c.divider : 0.0f, path, notes, n);
+  return other_->write_beside(first, c.beside == Beside::kSplit ? c.divider : 0.0f, path, notes, n);
 }
 
 }  // namespace oriel

@@ -31,7 +31,7 @@ void VolumePass::take(const ShadowMesh& mesh) {
   vertices_ = gpu::make_vertex_array();
   glBindVertexArray(vertices_.name());
   buffers_.clear();
-  gpu::add_attribute(buffers_, 0, places, 4, GL_FLOAT, false);
+  gpu::add_attribute(buffers_, 0, places, {4, GL_FLOAT});
   glBindVertexArray(0);
 }
 

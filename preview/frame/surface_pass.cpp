@@ -86,12 +86,12 @@ auto PreviewMesh::upload_vertices(const Scene& scene, const gpu::Device& device)
   vertices->array = gpu::make_vertex_array();
   glBindVertexArray(vertices->array.name());
   std::vector<gpu::Buffer>& buffers = vertices->buffers;
-  gpu::add_attribute(buffers, 0, scene.positions, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 1, scene.normals, 3, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 2, scene.uv0, 2, GL_FLOAT, false);
-  gpu::add_attribute(buffers, 3, scene.uv1, 2, GL_FLOAT, false);
-  if (!scene.colors.empty()) gpu::add_attribute(buffers, 4, scene.colors, 4, GL_UNSIGNED_BYTE, true);
-  if (!scene.tangents.empty()) gpu::add_attribute(buffers, 5, scene.tangents, 4, GL_FLOAT, false);
+  gpu::add_attribute(buffers, 0, scene.positions, {3, GL_FLOAT});
+  gpu::add_attribute(buffers, 1, scene.normals, {3, GL_FLOAT});
+  gpu::add_attribute(buffers, 2, scene.uv0, {2, GL_FLOAT});
+  gpu::add_attribute(buffers, 3, scene.uv1, {2, GL_FLOAT});
+  if (!scene.colors.empty()) gpu::add_attribute(buffers, 4, scene.colors, {4, GL_UNSIGNED_BYTE, true});
+  if (!scene.tangents.empty()) gpu::add_attribute(buffers, 5, scene.tangents, {4, GL_FLOAT});
   vertices->indices = gpu::Buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const UVec3>(scene.triangles));
   glBindVertexArray(0);
   return std::shared_ptr<const Vertices>(std::move(vertices));

@@ -75,7 +75,7 @@ class Numbers {
     ORIEL_TRY(out.target_, gpu::Framebuffer::create("numbers", &out.color_, &out.depth_));
     out.vertex_array_ = gpu::make_vertex_array();
     glBindVertexArray(out.vertex_array_.name());
-    gpu::add_attribute(out.buffers_, 0, pack.mesh.positions, 3, GL_FLOAT, false);
+    gpu::add_attribute(out.buffers_, 0, pack.mesh.positions, {3, GL_FLOAT});
     out.buffers_.emplace_back(GLenum{GL_ELEMENT_ARRAY_BUFFER}, std::span<const std::uint32_t>(pack.mesh.indices));
     return out;
   }
