@@ -135,6 +135,20 @@ Json worst_json(const BakeFacts& f) {
   return out;
 }
 
+Json certificate_json(const BakeFacts& f) {
+  const Certificate& c = f.radiosity.certificate;
+  return {{"pixels", c.pixels},
+          {"paths", c.paths},
+          {"bias", c.bias},
+          {"bias_95_interval", c.bias_interval},
+          {"relative_error", c.relative_error},
+          {"relative_error_95_low", c.error_low},
+          {"relative_error_95_high", c.error_high},
+          {"texel_error", c.texel_error},
+          {"rays", c.rays},
+          {"worst", worst_json(f)}};
+}
+
 // What is off by how much, part by part: asked for, stated by the estimate itself, measured on what it did not know.
 Json errors_json(const BakeFacts& f) {
   const Certificate& c = f.radiosity.certificate;
@@ -295,17 +309,7 @@ std::string plan_json(const BakeFacts& f) {
         {"filter_drift", f.radiosity.filter_drift},
         {"ended_early", f.radiosity.ended_early},
         {"out_of_rays", f.radiosity.out_of_rays},
-        {"certificate",
-         {{"pixels", f.radiosity.certificate.pixels},
-          {"paths", f.radiosity.certificate.paths},
-          {"bias", f.radiosity.certificate.bias},
-          {"bias_95_interval", f.radiosity.certificate.bias_interval},
-          {"relative_error", f.radiosity.certificate.relative_error},
-          {"relative_error_95_low", f.radiosity.certificate.error_low},
-          {"relative_error_95_high", f.radiosity.certificate.error_high},
-          {"texel_error", f.radiosity.certificate.texel_error},
-          {"rays", f.radiosity.certificate.rays},
-          {"worst", worst_json(f)}}},
+        {"certificate", certificate_json(f)},
         {"refinements", f.radiosity.refinements},
         {"reuse", reuse_json(f.radiosity.reuse)},
         {"seams", seams_json(f.radiosity.seams)},

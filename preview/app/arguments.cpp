@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   oriel-preview house.glb                                      walk through it at once; the file is followed as it is saved
   oriel-preview house.glb --offscreen --camera hall -o a.png   16 passes into a file
-  oriel-preview house.glb --offscreen --paths 256 -o a.exr     whole paths on top: what oriel-bake render gives
+  oriel-preview house.glb --offscreen --paths 256 -o a.exr     whole paths on top: towards oriel-bake render's
 
 Keys of the window are those of oriel-play: WASD and mouse walk, Tab opens the panel.)";
 
