@@ -53,22 +53,26 @@ std::vector<float> diffusion_steps(float time) {
 
 Flow further_flow(const TexelGraph& graph, const Conductance& conductance, std::vector<Vec3> values, float time,
                   Context& context) {
-  Flow flow(values.size());
-  std::vector<Vec3> next(values.size());
+  const std::size_t n = values.size();
+  std::vector<Vec3> next(n), sum(n, Vec3(0));
+  // Edges conduct alike at all times: their flow is that of the sum over steps.
   const std::vector<float> steps = diffusion_steps(time);
   for (const float sign : {1.0f, -1.0f})
     for (const float step : steps) {
-      each_texel(context, values.size(), [&](std::size_t i) {
+      each_texel(context, n, [&](std::size_t i) {
         Vec3 gain(0);
         const auto own = graph.of(i);
-        for (std::size_t k = 0; k < own.size(); ++k) {
-          const Vec3 moved = step * conductance[i][k] * (values[own[k]] - values[i]);
-          gain += moved, flow[i][k] += sign * moved;
-        }
-        next[i] = values[i] + gain;
+        for (std::size_t k = 0; k < own.size(); ++k) gain += conductance[i][k] * (values[own[k]] - values[i]);
+        sum[i] += sign * step * values[i];
+        next[i] = values[i] + step * gain;
       });
       values.swap(next);
     }
+  Flow flow(n);
+  each_texel(context, n, [&](std::size_t i) {
+    const auto own = graph.of(i);
+    for (std::size_t k = 0; k < own.size(); ++k) flow[i][k] = conductance[i][k] * (sum[own[k]] - sum[i]);
+  });
   return flow;
 }
 
