@@ -274,10 +274,7 @@ Vec3 Accel::transmittance_of_all(std::span<const Ray> legs, std::uint64_t& rays)
 }
 
 Hit Accel::Impl::front_in_its_place(const Hit& back, const Vec3& direction) const {
-  const auto is_one_sided = [&](std::uint32_t t) {
-    return !scene->materials[scene->surfaces[scene->triangle_surface[t]].material].double_sided;
-  };
-  if (!is_one_sided(back.triangle)) return back;
+  if (scene->materials[scene->surfaces[scene->triangle_surface[back.triangle]].material].double_sided) return back;
   struct Search {
     const Impl& accel;
     DVec3 point, direction;

@@ -5,35 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
+#include "formats/core/text.h"
 #include "formats/export/pieces.h"
 #include "formats/export/sha256.h"
 #include "formats/export/viewer_files.h"
 
 namespace oriel {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 // Every {{name}} of a text.
 std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& values) {

@@ -168,7 +168,9 @@ class CachedEstimator : public LightEstimator {
     // Closed forms do not tell where light comes from, samples do; few of those that are not aimed meet it at all.
     const bool few_tell = options_.directional || direct_light_.samples_lights();
     const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
+    const double begun = seconds_left();
     ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, quick_rays_));
+    const double took = begun - seconds_left();
     // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
     std::vector<std::uint32_t> crowded = order_;
     std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
@@ -177,8 +179,8 @@ class CachedEstimator : public LightEstimator {
     if (reuse_) reuse_->give_first(known_direct_ = reuse_->same_glance(graph_, direct_.value), direct_.value);
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
     std::uint32_t per_half = first;
-    const double least = options_.left ? (1 - kDirectTime) * options_.left() : 0;
-    for (int round = 0; round < kDirectRounds && !(options_.left && options_.left() < least); ++round) {
+    const double least = (1 - kDirectTime) * seconds_left();
+    for (int round = 0; round < kDirectRounds; ++round) {
       per_half *= 4;
       // A fixed number of gather rays brings a fixed number of shadow rays with it.
       if (options_.error <= 0) per_half = std::max(per_half, options_.samples / (4 * kHalves));
@@ -187,12 +189,16 @@ class CachedEstimator : public LightEstimator {
         return little_seen_[i] || (reuse_ && known_direct_[i]) || direct_.per_half[i] >= per_half;
       });
       keep_uncertain(direct_, beside_, round == 0 ? 0 : kUncertain, context_, list);
+      // Each round may be four times as long as the one before: it is not begun where it would not end in time.
+      const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
+      if (options_.left && took * more > seconds_left() - least) break;
       ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, quick_rays_));
     }
     known_now_.first_direct = direct_.value;
     return {};
   }
 
+  double seconds_left() const { return options_.left ? options_.left() : 0; }
   double refined() const { return static_cast<double>(task_.work() - first_work_); }
   bool out_of_rays() const { return refined() >= task_.most_work(texels_.count()); }
   bool done() const { return ended_early_ || context_.stopped() || (options_.enough && options_.enough()); }

@@ -19,6 +19,14 @@ class Leaks : public testing::TestWithParam<Estimator> {
     options.samples = 64;
     return test::bake(std::move(scene), kTexel, options);
   }
+  // For eyes on a circle around the middle alone.
+  static Baked bake_seen_from_outside(Scene scene) {
+    RadiosityOptions options = test::cached_options(0.05);
+    if (GetParam() == Estimator::kReference) options = {.samples = 64};
+    for (int i = 0; i < 8; ++i)
+      options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
+    return test::bake(std::move(scene), kTexel, options);
+  }
 };
 
 std::uint32_t two_sided(SceneParts& parts) {
@@ -169,11 +177,7 @@ TEST_P(Leaks, RoomThatIsSeenFromOutsideAlone) {
   parts.quad("floor", white, {-2.03f, 0, 2.03f}, {4.06f, 0, 0}, {0, 0, -4.06f});
   parts.box("room", two_sided(parts), {-1, -0.5f, -1}, {1, 2, 1}, true);
   parts.scene().sky = Vec3(100);
-  RadiosityOptions options = test::cached_options(0.05);
-  if (GetParam() == Estimator::kReference) options = {.samples = 64};
-  for (int i = 0; i < 8; ++i)
-    options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
-  const Baked b = test::bake(parts.finish(), kTexel, options);
+  const Baked b = bake_seen_from_outside(parts.finish());
   const auto inside = [](const Surface& surface, const SurfacePoint& at) {
     return surface.name == "floor" && std::max(std::abs(at.position.x), std::abs(at.position.z)) < 0.99f;
   };
@@ -192,11 +196,7 @@ TEST_P(Leaks, BoardsThatReachThroughTheWall) {
     parts.box("board", white, {-1.03f, y, -0.57f}, {-0.77f, y + 0.02f, 0.57f});
   }
   parts.scene().sky = Vec3(100);
-  RadiosityOptions options = test::cached_options(0.05);
-  if (GetParam() == Estimator::kReference) options = {.samples = 64};
-  for (int i = 0; i < 8; ++i)
-    options.eyes.emplace_back(1.8f * std::cos(kPi * float(i) / 4), 1.5f, 1.8f * std::sin(kPi * float(i) / 4));
-  const Baked b = test::bake(parts.finish(), kTexel, options);
+  const Baked b = bake_seen_from_outside(parts.finish());
   const auto inside = [](const Surface& surface, const SurfacePoint&) { return surface.name == "room"; };
   EXPECT_LT(leaked_share(b, inside), 1e-4);
 }
