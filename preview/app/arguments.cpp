@@ -52,7 +52,9 @@ std::vector<Option> output_options(PreviewArguments& a) {
 std::vector<Option> effect_options(PreviewArguments& a) {
   constexpr const char* kEffects = "Effects";
   return {
-      {"--samples", kEffects, "Points on lamps in each pass, shared by power; at least one for each kind of lamp",
+      {"--samples", kEffects,
+       "Points on lamps in each pass, shared by what they give what the eye sees; at least one for each kind of "
+       "lamp",
        number(a.frame.samples, 1, 4096), Use::kEveryday},
       {"--shadows", kEffects,
        "By shadow volumes in the stencil buffer; by rays, which also see what glass and cut-outs let pass; auto: the "
@@ -67,8 +69,7 @@ std::vector<Option> effect_options(PreviewArguments& a) {
        flag(a.frame.shared)},
       {"--elements", kEffects,
        "At most so many elements of surfaces shine back what comes to them, after any number of bounces; each pass "
-       "finds "
-       "others, finer where the eye gets more of them, and takes 36; 0: none",
+       "finds others, finer where the eye gets more of them, and takes 36; 0: none",
        number(a.frame.elements, 0, 65536), Use::kEveryday},
       {"--cap-rays", kEffects,
        "Of --shadows volumes: which triangles hold the eye in their shadow, as so many rays from the view plane tell, "

@@ -63,11 +63,7 @@ class LampTracer {
       const auto lit = shine(lamps_[p], points[x], accel_.scene());
       if (!lit) continue;
       light[i].w += 1;
-      auto known = ShadowClasses::kUnknown;
-      if (lamps_[p].soft > 0 && !lamps_[p].seen_at)
-        known = ShadowClasses::kLit;
-      else if (classes != nullptr)
-        known = classes->known(p, classes->block_of(x, y));
+      const auto known = classes != nullptr ? classes->known(p, classes->block_of(x, y)) : ShadowClasses::kUnknown;
       if (known == ShadowClasses::kLit) light[i] += Vec4(lit->light, 0);
       if (known == ShadowClasses::kLit || known == ShadowClasses::kUmbra)
         if (classes == nullptr || !classes->asks(p, x, y)) continue;

@@ -60,11 +60,6 @@ std::optional<Shone> shine(const LampPoint& lamp, const EyePoint& at, const Scen
   if (!(share > 0)) return std::nullopt;
   if (lamp.light != ~0u) out.light = lamp.share * punctual_intensity(scene, scene.lights[lamp.light], -direction);
   out.light *= share;
-  if (lamp.seen_at) {
-    const Vec3 to = *lamp.seen_at - at.origin;
-    const float distance = std::max(glm::length(to), 1e-15f);
-    out.ray = {at.origin, to / distance, distance};
-  }
   return out;
 }
 
@@ -197,7 +192,7 @@ Result<LampShares> Lamps::by_eye(std::span<const EyePoint> eye, const Accel& acc
   const auto share = [](std::span<const double> given, std::vector<double>& cdf) {
     const double all = std::accumulate(given.begin(), given.end(), 0.0);
     double run = 0, last = 0;
-    const double before = cdf.empty() ? 1 : cdf.back();
+    const double before = cdf.back();
     for (std::size_t i = 0; i < given.size() && all > 0; ++i) {
       const double part = (cdf[i] - std::exchange(last, cdf[i])) / before;
       cdf[i] = run += kByPower * part + (1 - kByPower) * given[i] / all;

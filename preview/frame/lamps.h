@@ -20,14 +20,13 @@ enum class LampKind { kFlat, kPunctual, kAfar };
 // and with `soft` that is added to d², of a disk that is near: its area / pi.
 struct LampPoint {
   LampKind kind = LampKind::kFlat;
-  Vec4 place{0, 0, 0, 1};         // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
-  Vec3 normal{0, 0, -1};          // of a flat lamp's front
-  Vec3 power{0};                  // per channel
-  std::uint32_t light = ~0u;      // into Scene::lights, of a punctual one
-  float soft = 0;                 // m²; > 0: an element, of what surfaces reflect
-  float share = 1;                // of one with a light: power over the light's own colour or intensity
-  std::optional<Vec3> seen_at{};  // of an element: where the shadow ray goes; none: no shadows
-  std::uint32_t lamp = ~0u;       // a number of its own: surfaces, then lights; ~0u: of an element or the sky
+  Vec4 place{0, 0, 0, 1};     // scene space, homogeneous: w = 0, and xyz is the unit direction to it, from afar
+  Vec3 normal{0, 0, -1};      // of a flat lamp's front
+  Vec3 power{0};              // per channel
+  std::uint32_t light = ~0u;  // into Scene::lights, of a punctual one
+  float soft = 0;             // m²; > 0: an element, of what surfaces reflect
+  float share = 1;            // of one with a light: power over the light's own colour or intensity
+  std::uint32_t lamp = ~0u;   // a number of its own: surfaces, then lights; ~0u: of an element or the sky
 };
 
 // A point's light on a receiver, lux, were nothing between, and the ray that looks for what is, from `origin`; none

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x656c656d;
 constexpr int kMostBounces = 64;
-constexpr std::uint32_t kTogether = 64;  // particles of a task
+constexpr std::uint32_t kParticles = 2048, kTogether = 64;  // of a kind of source, and of a task
 
 }  // namespace
 
-Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSources& sources,
-                                            const LandingOptions& options, Context& context) {
+Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSources& sources, std::uint32_t pass,
+                                            Context& context) {
   struct Task {
     SourceKind kind;
     std::uint32_t first, last, count;  // of as many particles of that kind
@@ -24,7 +24,7 @@ Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSour
   std::vector<Task> tasks;
   for (const SourceKind kind : sources.kinds()) {
     const bool aimed = kind == SourceKind::kNear || !sources.guides(kind).empty();
-    const std::uint32_t count = std::max(1u, aimed ? options.particles : options.particles / 8);
+    const std::uint32_t count = std::max(1u, aimed ? kParticles : kParticles / 8);
     for (std::uint32_t first = 0; first < count; first += kTogether)
       tasks.push_back({kind, first, std::min(count, first + kTogether), count, {}});
   }
@@ -38,7 +38,7 @@ Result<std::vector<Landing>> land_particles(const Transport& t, const GuidedSour
         task.landed.push_back({s.position, s.geometric_normal, shines, s.magnitude});
     };
     for (std::uint32_t k = task.first; k < task.last; ++k) {
-      Sampler sampler(context.seed, kStream + static_cast<std::uint64_t>(task.kind), options.pass * task.count + k);
+      Sampler sampler(context.seed, kStream + static_cast<std::uint64_t>(task.kind), pass * task.count + k);
       const Particle particle = sources.emit(task.kind, sampler);
       ParticleWalk(t, particle.ray, particle.power, sampler).run(kMostBounces, land, [](const Ray&) {});
     }

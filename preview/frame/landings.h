@@ -11,15 +11,11 @@ struct Landing {
   float magnitude = 0;             // of the surface's coordinates, as SurfacePoint
 };
 
-struct LandingOptions {
-  std::uint32_t particles = 2048;  // of each kind of source; an eighth of one from afar that has no guides
-  std::uint32_t pass = 0;          // each has other particles
-};
-
 // Of particles on their way through all reflections and glass each place with reflection. On the mean over many all of
 // them shine back what surfaces reflect, after any number of bounces; what lobes reflect goes in all directions, too.
-// Seed and threads: the context's. Error kStopped.
+// Each pass has 2048 other particles of each kind of source, an eighth of one from afar that has no guides. Seed and
+// threads: the context's. Error kStopped.
 Result<std::vector<Landing>> land_particles(const Transport& transport, const GuidedSources& sources,
-                                            const LandingOptions& options, Context& context);
+                                            std::uint32_t pass, Context& context);
 
 }  // namespace oriel

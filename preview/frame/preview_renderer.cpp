@@ -16,8 +16,7 @@ constexpr int kTrials = 2;              // of volumes: the first one has shaders
 constexpr std::uint32_t kAskAgain = 4;  // of so many passes one asks again what rays cost
 constexpr std::uint64_t kCapStream = 0x63617073;
 constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by which lamps share points
-constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels
-constexpr std::uint32_t kBatch = 64;         // elements of a draw, as shaders/passes/screen_preview_elements.frag
+constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels; 64 at most fit the uniforms of a draw
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
 class Stage {
@@ -283,20 +282,18 @@ void PreviewRenderer::add_elements() const {
   elements_pass_.set("u_place", 0);
   elements_pass_.set("u_normal", 1);
   elements_pass_.set("u_face", 2);
-  for (std::size_t first = 0; first < reflecting_.size(); first += kBatch) {
-    std::vector<Vec4> places;
-    std::vector<Vec3> fronts, powers;
-    for (std::size_t i = first; i < std::min<std::size_t>(reflecting_.size(), first + kBatch); ++i) {
-      places.emplace_back(Vec3(reflecting_[i].place), reflecting_[i].soft);
-      fronts.push_back(reflecting_[i].normal);
-      powers.push_back(reflecting_[i].power);
-    }
-    elements_pass_.set("u_count", static_cast<int>(places.size()));
-    elements_pass_.set("u_elements", std::span<const Vec4>(places));
-    elements_pass_.set("u_fronts", std::span<const Vec3>(fronts));
-    elements_pass_.set("u_powers", std::span<const Vec3>(powers));
-    draw_screen(no_vertices_);
+  std::vector<Vec4> places;
+  std::vector<Vec3> fronts, powers;
+  for (const LampPoint& element : reflecting_) {
+    places.emplace_back(Vec3(element.place), element.soft);
+    fronts.push_back(element.normal);
+    powers.push_back(element.power);
   }
+  elements_pass_.set("u_count", static_cast<int>(places.size()));
+  elements_pass_.set("u_elements", std::span<const Vec4>(places));
+  elements_pass_.set("u_fronts", std::span<const Vec3>(fronts));
+  elements_pass_.set("u_powers", std::span<const Vec3>(powers));
+  draw_screen(no_vertices_);
 }
 
 void PreviewRenderer::add_pass(const PreviewOptions& options) const {

@@ -31,7 +31,7 @@ Result<std::vector<LampPoint>> reflecting_points(const PreviewScene& scene, cons
   if (eye.empty()) return points;
   const auto first = [&](std::size_t n) { return std::span(eye).first(std::min(n, eye.size())); };
   ORIEL_TRY(const auto sources, GuidedSources::create(transport, *scene.sources, eye, pass, context));
-  ORIEL_TRY(const auto landings, land_particles(transport, sources, {.pass = pass}, context));
+  ORIEL_TRY(const auto landings, land_particles(transport, sources, pass, context));
   ORIEL_TRY(std::vector<BounceElement> found,
             bounce_elements(landings, first(kImportant), options.elements, *scene.accel, context));
   ORIEL_TRY_VOID(find_importance(found, first(kShadowed), *scene.accel, context));
@@ -43,7 +43,6 @@ Result<std::vector<LampPoint>> reflecting_points(const PreviewScene& scene, cons
     point.place = Vec4(at.place, 1), point.normal = at.normal, point.power = at.power;
     const float brighter = std::max(1.0f, luminance(at.power) / std::max(luminance(e.power), 1e-30f));
     point.soft = std::max(softness(pass) * brighter * e.area / kPi, 1e-12f);
-    point.seen_at = at.place;
   }
   return points;
 }

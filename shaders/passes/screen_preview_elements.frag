@@ -2,7 +2,7 @@
 #include "lib/incidence.glsl"
 uniform sampler2D u_place, u_normal, u_face;
 uniform int u_count;
-uniform vec4 u_elements[64];  // a: area over pi
+uniform vec4 u_elements[64];  // a: added to squares of distances (LampPoint::soft)
 uniform vec3 u_fronts[64];
 uniform vec3 u_powers[64];    // radiance times area: what leaves along the normal, cd
 layout(location = 0) out vec4 o_light;

@@ -48,8 +48,8 @@ void expect_even_on_cylinder(float radius) {
     }
   const double mean = sum / count, scatter = std::sqrt(squares / count - mean * mean) / mean;
   std::printf("a cylinder of %.0f pixels' radius: mean %.2f, scatter %.2f\n", double{radius}, mean, scatter);
-  EXPECT_NEAR(mean, 1, 0.15);
-  EXPECT_LT(scatter, 0.5);  // own points alone: 2.8
+  EXPECT_NEAR(mean, 1, 0.01);
+  EXPECT_LT(scatter, 0.05);  // own points alone: 2.8
 }
 
 TEST(Neighbours, AreFoundOnSmallColumns) {

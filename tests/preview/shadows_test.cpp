@@ -291,8 +291,8 @@ TEST_F(SharedPointsTest, ClassesThatAreWrongLeaveTheMean) {
   EXPECT_NEAR(sum / truth, 1, 2e-3);
 }
 
-// Nothing is in the way of anything here.
-TEST_F(SharedPointsTest, FramesWithElementsAreTheSame) {
+// Nothing is in the way of anything here. Reflected light is shared in both frames.
+TEST_F(SharedPointsTest, FramesWithReflectedLightAreTheSame) {
   test::SceneParts parts;
   const std::uint32_t grey = parts.diffuse(Vec3(0.5f)), red = parts.diffuse(Vec3(0.7f, 0.2f, 0.1f));
   parts.quad("floor", grey, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
