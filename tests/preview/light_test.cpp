@@ -263,8 +263,8 @@ TEST_F(PreviewLight, MorePathsAreNeverWorse) {
       for (std::size_t i = 0; i < shown.pixels.size(); ++i) shown.pixels[i] = blended.pixels[4 * (i / 3) + i % 3];
       const double error = apart(shown, truth);
       std::printf(" %u: %.4f, %.4f", samples, error, apart(mean.mean, truth));
-      EXPECT_LT(error, 1.02 * last) << samples;
-      EXPECT_LT(error, 1.02 * apart(mean.mean, truth)) << samples;
+      EXPECT_LE(error, 1.001 * last) << samples;
+      EXPECT_LE(error, 1.001 * apart(mean.mean, truth)) << samples;
       last = std::min(last, error);
     }
     std::printf("\n");
