@@ -85,6 +85,8 @@ Status find_eyes(const BakeOptions& options, Stopwatch& timed, Context& context,
   eyes.walk = prepared.walk;
   ORIEL_TRY(prepared.region, timed("eyes", [&](auto&) { return find_eye_region(*prepared.accel, eyes, context); }));
   const LightSet lights(prepared.scene());
+  if (options.eyes.source == EyeSource::kWalk)
+    ORIEL_TRY_VOID(stand_around_bodies(*prepared.accel, prepared.region, context));
   if (options.eyes.source == EyeSource::kWalk && (!lights.empty() || luminance(prepared.scene().sky) > 0))
     ORIEL_TRY_VOID(leave_the_dark({*prepared.accel, lights, path_options(options)}, prepared.region, context));
   if (!prepared.region.note.empty()) prepared.omissions.push_back(prepared.region.note);

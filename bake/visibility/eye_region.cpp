@@ -106,7 +106,7 @@ Region reachable(const FloorPlan& plan, const Links& links, std::span<const Vec3
 }
 
 // Of a region, what people walk on: all that has a roof, and of the open only what is near one or near a start. All of
-// it where it has neither, unless that is little: the top of a box is no floor.
+// it where it has neither.
 Region near_roofs(const FloorPlan& plan, const Links& links, const Region& region, std::span<const Vec3> starts,
                   const WalkOptions& options) {
   std::vector<float> left(plan.places.size(), -1);  // metres that may still be walked in the open
@@ -120,8 +120,7 @@ Region near_roofs(const FloorPlan& plan, const Links& links, const Region& regio
   for (const Vec3& start : starts)
     if (const auto place = place_under(plan, start, options.size()); place && !plan.places[*place].covered)
       begin(*place, options.outdoors_m);
-  const float area = static_cast<float>(region.size()) * plan.cell_m * plan.cell_m;
-  if (front.empty()) return area < options.least_open_m2 ? Region{} : region;
+  if (front.empty()) return region;
   for (std::size_t at = 0; at < front.size(); ++at)  // a place is visited again where a longer walk reaches it
     for (const std::uint32_t next : links[front[at]])
       if (const float rest = left[front[at]] - plan.cell_m; rest >= 0 && rest > left[next]) {

@@ -117,7 +117,6 @@ Vec2 middle(const FloorPlan& plan, std::size_t column) {
 WalkOptions WalkOptions::scaled(float size) const {
   WalkOptions out = *this;
   for (float* length : {&out.cell_m, &out.head_room_m, &out.step_m, &out.radius_m, &out.eye_height_m}) *length *= size;
-  out.least_open_m2 *= size * size;
   return out;
 }
 

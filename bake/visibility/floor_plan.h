@@ -18,10 +18,9 @@ struct WalkOptions {
   float radius_m = 0.25f;               // of a person
   float max_slope_deg = 45;             // of a floor
   float eye_height_m = 1.6f;
-  float roof_m = 30;        // higher up, nothing is a roof: a dome that stands for the sky, say
-  float doorstep_m = 5;     // how far from a roof people walk in the open, along the floor
-  float least_open_m2 = 4;  // smaller places without a roof or a camera are tops of things
-  float outdoors_m = 25;    // and how far from a camera or a path that stands there
+  float roof_m = 30;      // higher up, nothing is a roof: a dome that stands for the sky, say
+  float doorstep_m = 5;   // how far from a roof people walk in the open, along the floor
+  float outdoors_m = 25;  // and how far from a camera or a path that stands there
 
   // Of people of another size: all that goes with their bodies. How far they go does not.
   WalkOptions scaled(float size) const;

@@ -12,4 +12,10 @@ namespace oriel {
 // dark everywhere. Error kStopped.
 Status leave_the_dark(const Transport& transport, EyeRegion& region, Context& context);
 
+// A cube, a lamp, a machine alone has tops that pass for floors, or none. Where no camera is given, most of what is
+// seen from the region can be seen from around the scene too, and most of what can be seen from there is not seen from
+// the region, eyes are at 64 places around the scene, from beside it to where all of it is in the frame, with a note.
+// A room's inside is not seen from around it; around a house on a lawn most is the lawn. Error kStopped.
+Status stand_around_bodies(const Accel& accel, EyeRegion& region, Context& context);
+
 }  // namespace oriel

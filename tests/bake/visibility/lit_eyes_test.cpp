@@ -1,4 +1,4 @@
-// Eyes where there is light.
+// Eyes where there is light, and something to see.
 #include "bake/visibility/lit_eyes.h"
 
 #include <gtest/gtest.h>
@@ -58,6 +58,54 @@ TEST(LitEyes, StayWhereThereIsLightOrSomebodyWantsThem) {
     EXPECT_EQ(region.points.size(), kind == House::kWithACamera ? 1u : 0u);
     EXPECT_TRUE(region.note.empty());
   }
+}
+
+EyeRegion stood(const Scene& scene) {
+  const Accel accel = *Accel::build(scene);
+  Context context;
+  EyeRegion region = *find_eye_region(accel, {}, context);
+  EXPECT_TRUE(stand_around_bodies(accel, region, context));
+  return region;
+}
+
+// Of a block of 4 m with a slab over a part of its top people who stand there see next to nothing; from around it all
+// is.
+TEST(LitEyes, StandAroundABodyAlone) {
+  SceneParts parts;
+  const auto stone = parts.diffuse(Vec3(0.5f));
+  parts.box("block", stone, {-2, 0, -2}, {2, 4, 2});
+  parts.box("slab", stone, {-2, 6.2f, -2}, {0, 6.4f, 2});
+  const Scene scene = parts.finish();
+  EXPECT_FALSE(find_eye_region(*Accel::build(scene), {}, *std::make_unique<Context>())->grids.empty()) << "the top";
+  const EyeRegion region = stood(scene);
+  EXPECT_TRUE(region.grids.empty());
+  ASSERT_EQ(region.points.size(), 64u);
+  float lowest = 10, highest = -10;
+  for (const Vec3& eye : region.points) {
+    EXPECT_GT(glm::distance(eye, 0.5f * (scene.lower + scene.upper)), scene.radius());
+    lowest = std::min(lowest, eye.y), highest = std::max(highest, eye.y);
+  }
+  EXPECT_LT(lowest, 0);
+  EXPECT_GT(highest, 6.4f);
+  EXPECT_NE(region.note.find("from around the scene"), std::string::npos) << region.note;
+}
+
+// A house has an inside, with or without a lawn of a hectare around it; a flat without ceilings is seen from within.
+TEST(LitEyes, StayInBuildings) {
+  EXPECT_FALSE(stood(house(House::kShell)).grids.empty());
+  SceneParts lawn, flat;
+  const auto white = lawn.diffuse(Vec3(0.7f));
+  lawn.quad("lawn", white, {-50, -0.2f, 50}, {100, 0, 0}, {0, 0, -100});
+  lawn.box("outside", white, {-3.2f, -0.2f, -3.2f}, {3.2f, 3.2f, 3.2f});
+  lawn.quad("floor", white, {-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+  lawn.quad("ceiling", white, {-3, 3, -3}, {6, 0, 0}, {0, 0, 6});
+  EXPECT_FALSE(stood(lawn.finish()).grids.empty());
+  flat.diffuse(Vec3(0.7f));
+  flat.box("floor", white, {-6, -0.2f, -6}, {6, 0, 6});
+  for (const float at : {-6.0f, -2.0f, 2.0f, 5.8f})
+    flat.box("wall across", white, {at, 0, -6}, {at + 0.2f, 2.6f, std::abs(at) < 5 ? 4.0f : 6.0f});
+  for (const float at : {-6.0f, 5.8f}) flat.box("wall along", white, {-6, 0, at}, {6, 2.6f, at + 0.2f});
+  EXPECT_FALSE(stood(flat.finish()).grids.empty());
 }
 
 }  // namespace

@@ -64,14 +64,6 @@ TEST(OpenGround, CountsAroundACameraThatStandsThere) {
   EXPECT_LT(area, 2000);
 }
 
-TEST(OpenGround, TheTopOfAThingIsNoFloor) {
-  SceneParts parts;
-  parts.box("box", parts.diffuse(Vec3(0.5f)), Vec3(-0.5f), Vec3(0.5f));
-  const EyeRegion region = region_of(parts.finish());
-  EXPECT_TRUE(region.grids.empty());
-  EXPECT_FALSE(region.note.empty());
-}
-
 // A closed room of 6 x 2.7 x 5 m with a box in it, in some unit.
 Scene room(float unit, bool ground = false) {
   SceneParts parts;
