@@ -26,15 +26,6 @@ std::uint32_t axis_of(const Vec3& n) {
   return 2 * static_cast<std::uint32_t>(axis) + (n[axis] < 0 ? 1 : 0);
 }
 
-// Irradiance on an eye's point by radiance times area at a place, were nothing between; soft: added to the distance².
-float shine(const Vec3& place, const Vec3& normal, const EyePoint& on, float soft) {
-  const Vec3 to = place - on.origin;
-  const float d2 = std::max(length2(to), 1e-30f);
-  const Vec3 direction = to / std::sqrt(d2);
-  const float cosine = -glm::dot(normal, direction);
-  return cosine > 0 ? cosine * incidence(on.at, direction) / (d2 + soft) : 0;
-}
-
 float near2(const Scene& scene) {
   const float near = kNear * scene.radius();
   return std::max(near * near, 1e-30f);
@@ -49,20 +40,18 @@ Result<std::vector<double>> importance_of(std::span<const Landing> landings, std
   ORIEL_TRY_VOID(parallel_for(context, "", tasks, [&](std::size_t task) {
     for (std::size_t i = task * kTogether; i < std::min(landings.size(), (task + 1) * kTogether); ++i) {
       const Landing& l = landings[i];
-      const Vec3 origin = offset_origin(l.place, l.normal, l.magnitude);
+      const LampPoint lamp = lamp_at({offset_origin(l.place, l.normal, l.magnitude), l.normal, l.power}, soft);
       double sum = 0, seen = 0;
       int asked = 0;
       for (std::size_t k = 0; k < eye.size(); ++k) {
-        const EyePoint& on = eye[(i + k) % eye.size()];
-        const double shone = double{shine(origin, l.normal, on, soft)};
-        sum += shone;
-        if (!(shone > 0) || asked == 2) continue;
+        const auto shone = shine(lamp, eye[(i + k) % eye.size()], accel.scene());
+        if (!shone) continue;
+        sum += double{luminance(shone->light)};
+        if (asked == 2) continue;
         ++asked;
-        const Vec3 to = origin - on.origin;
-        const float distance = std::max(glm::length(to), 1e-15f);
-        seen += double{luminance(accel.transmittance({on.origin, to / distance, distance}))};
+        seen += double{luminance(accel.transmittance(shone->ray))};
       }
-      importance[i] = sum * (seen / std::max(asked, 1) + kHidden) * double{luminance(l.power)};
+      importance[i] = sum * (seen / std::max(asked, 1) + kHidden);
     }
   }));
   double all = 0, power = 0;
@@ -171,6 +160,13 @@ class Clusters {
 
 }  // namespace
 
+LampPoint lamp_at(const BounceElement::Place& place, float soft) {
+  LampPoint lamp;
+  lamp.place = Vec4(place.place, 1), lamp.normal = place.normal, lamp.power = place.power;
+  lamp.soft = soft;
+  return lamp;
+}
+
 Result<std::vector<BounceElement>> bounce_elements(std::span<const Landing> landings, std::span<const EyePoint> eye,
                                                    std::uint32_t count, const Accel& accel, Context& context) {
   if (count == 0 || landings.empty()) return std::vector<BounceElement>();
@@ -186,13 +182,11 @@ Status find_importance(std::vector<BounceElement>& elements, std::span<const Eye
     std::vector<Ray> rays;
     std::vector<double> light;
     for (std::size_t k = 0; k < eye.size(); ++k) {
-      const BounceElement::Place& p = e.places[(i + k) % e.places.size()];
-      const float shone = shine(p.place, p.normal, eye[k], e.area / kPi + near2(accel.scene()));
-      if (!(shone > 0)) continue;
-      const Vec3 to = p.place - eye[k].origin;
-      const float distance = std::max(glm::length(to), 1e-15f);
-      rays.push_back({eye[k].origin, to / distance, distance});
-      light.push_back(double{shone} * double{luminance(p.power)});
+      const LampPoint lamp = lamp_at(e.places[(i + k) % e.places.size()], e.area / kPi + near2(accel.scene()));
+      const auto shone = shine(lamp, eye[k], accel.scene());
+      if (!shone) continue;
+      rays.push_back(shone->ray);
+      light.push_back(double{luminance(shone->light)});
     }
     std::vector<Vec3> passed(rays.size());
     accel.transmittance(rays, passed);

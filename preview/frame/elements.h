@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "preview/frame/lamps.h"
 #include "preview/frame/landings.h"
 
 namespace oriel {
@@ -20,6 +21,9 @@ struct BounceElement {
   std::vector<Place> places{};  // by power
   double importance = 0;        // in proportion to how often it is to be taken
 };
+
+// All of an element as a lamp at one of its places; soft: LampPoint's.
+LampPoint lamp_at(const BounceElement::Place& place, float soft);
 
 // At most `count` elements (or as many as normals have axes) that reflect diffusely what comes to surfaces: landings of
 // the lamps' particles, brought together by normal and place, finer where they shine more on the eye's points. No light

@@ -134,6 +134,7 @@ Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Contex
 
 Status PreviewRenderer::light(const PreviewOptions& options, Context& context, PreviewStats& stats) {
   light_.framebuffer.bind();
+  light_here_.clear();
   gpu::apply({});
   glClear(GL_COLOR_BUFFER_BIT);
   if (options.direct) {
@@ -192,6 +193,7 @@ ShadowVolumes PreviewRenderer::volumes_of(const LampPoint& point, std::uint32_t 
 void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, const PreviewOptions& options,
                                PreviewStats& stats) {
   light_.framebuffer.bind();
+  light_here_.clear();
   if (volumes) {
     const Stage stage(stats.shadows_s);
     const ShadowVolumes shadow = volumes_of(point, options.cap_rays);
@@ -213,9 +215,9 @@ Status PreviewRenderer::add_lamps_by_rays(std::span<const LampPoint> lamps, cons
     classes_->begin(lamps, context.seed, passes_);
     shared.classes = &*classes_;
   }
-  ORIEL_TRY(const auto light, lamps_by_rays(points_, lamps, *scene_->accel, shared, context));
+  ORIEL_TRY(light_here_, lamps_by_rays(points_, lamps, *scene_->accel, shared, context));
   stats.shadow_rays = rays;
-  light_.light.upload(0, light.data());
+  light_.light.upload(0, light_here_.data());
   return {};
 }
 
@@ -232,6 +234,11 @@ void PreviewRenderer::read_seen() {
   if (!std::exchange(read_, true)) points_ = read_points();
 }
 
+std::vector<Vec4>& PreviewRenderer::read_light() {
+  if (light_here_.empty()) light_here_ = read_texture(light_.light);
+  return light_here_;
+}
+
 // What surfaces shine back; without shadows where those are switched off.
 Status PreviewRenderer::reflect(const PreviewOptions& options, Context& context) {
   read_seen();
@@ -239,6 +246,7 @@ Status PreviewRenderer::reflect(const PreviewOptions& options, Context& context)
   if (reflecting_.empty()) return {};
   if (options.shadows != ShadowMethod::kNone) return add_shadowed_elements(context);
   light_.framebuffer.bind();
+  light_here_.clear();
   add_elements();
   return {};
 }
@@ -251,7 +259,7 @@ Status PreviewRenderer::add_shadowed_elements(Context& context) {
   for (std::size_t step = 3, i = 0; i < smoothing_rounds(passes_); ++i, step *= 2) {
     ORIEL_TRY(reflected, neighbours.smoothed(reflected, step, context));
   }
-  std::vector<Vec4> light = read_texture(light_.light);
+  std::vector<Vec4>& light = read_light();
   for (std::size_t i = 0; i < light.size(); ++i) light[i] += reflected[i];
   light_.light.upload(0, light.data());
   return {};
@@ -265,7 +273,7 @@ Status PreviewRenderer::trace(Context& context, PreviewStats& stats) {
     if (std::exchange(has_traced_, false)) traced_.upload(0, black.data());
     return {};
   }
-  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_texture(light_.light), reflecting_};
+  const TracedFrame frame{points_, view_.clip_from_pack, view_.eye, read_light(), reflecting_};
   ORIEL_TRY(const TracedLight traced, trace_specular(*scene_, frame, passes_, context));
   traced_.upload(0, traced.light.data());
   has_traced_ = true;

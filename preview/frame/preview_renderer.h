@@ -76,6 +76,8 @@ class PreviewRenderer {
   Status add_lamps_by_rays(std::span<const LampPoint> lamps, const PreviewOptions& options, Context& context,
                            PreviewStats& stats);
   void read_seen();
+  // Of the pass so far.
+  std::vector<Vec4>& read_light();
   Status share_lamps(Context& context);
   Status reflect(const PreviewOptions& options, Context& context);
   Status add_shadowed_elements(Context& context);
@@ -101,6 +103,7 @@ class PreviewRenderer {
   std::optional<FrameTarget> frame_;
   SeenPoints points_;                  // of the pass under way, where rays need them
   bool read_ = false;                  // they are there
+  std::vector<Vec4> light_here_;       // what light_ holds, where rays found it last; else empty
   LampShares lamp_shares_;             // of this view
   std::vector<LampPoint> reflecting_;  // of that pass
   // Seconds by point on a lamp, of this scene and size.

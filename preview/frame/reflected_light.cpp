@@ -37,12 +37,10 @@ Result<std::vector<LampPoint>> reflecting_points(const PreviewScene& scene, cons
   ORIEL_TRY_VOID(find_importance(found, first(kShadowed), *scene.accel, context));
   Sampler sampler(context.seed, kStream, pass);
   for (const BounceElement& e : some_of(found, options.points, sampler.next1())) {
-    LampPoint& point = points.emplace_back();
     const auto chosen = static_cast<std::size_t>(sampler.next1() * static_cast<float>(e.places.size()));
     const BounceElement::Place& at = e.places[std::min(chosen, e.places.size() - 1)];
-    point.place = Vec4(at.place, 1), point.normal = at.normal, point.power = at.power;
     const float brighter = std::max(1.0f, luminance(at.power) / std::max(luminance(e.power), 1e-30f));
-    point.soft = std::max(softness(pass) * brighter * e.area / kPi, 1e-12f);
+    points.push_back(lamp_at(at, std::max(softness(pass) * brighter * e.area / kPi, 1e-12f)));
   }
   return points;
 }

@@ -13,7 +13,7 @@ struct TracedFrame {
   const SeenPoints& seen;
   Mat4 clip_from_pack{1};
   Vec4 eye{0, 0, 0, 1};
-  std::vector<Vec4> light;                // irradiance, lux: what rays find again where they meet what the frame shows
+  const std::vector<Vec4>& light;         // irradiance, lux: what rays find again where they meet what the frame shows
   std::span<const LampPoint> reflecting;  // of the pass: light of surfaces on what the frame does not show
 };
 
