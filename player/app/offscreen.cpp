@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "formats/query/triangle_hit.h"
 #include "player/app/panorama_shot.h"
 #include "player/app/shots.h"
 #include "player/app/stop.h"
@@ -14,6 +15,7 @@
 #include "player/navigation/lamps.h"
 #include "player/navigation/poses.h"
 #include "player/navigation/zone.h"
+#include "player/output/exposed.h"
 #include "player/output/frame_record.h"
 #include "player/output/other.h"
 #include "player/output/picture.h"
@@ -60,11 +62,8 @@ class Studio {
 
   // Draws it `times` times; the record is the median's.
   Result<FrameRecord> draw(const Shot& shot, int times) {
-    ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + shot.time_s));
-    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
-    const int n = arguments_.supersample;
-    const View view =
-        make_view(shot.camera, n * arguments_.width, n * arguments_.height, bounds_with_movers(scene_, options_.poses));
+    ORIEL_TRY_VOID(place(shot.time_s));
+    const View view = make_view(shot.camera, size().x, size().y, bounds_with_movers(scene_, options_.poses));
     std::vector<FrameRecord> records;
     for (int i = 0; i < times; ++i) {
       if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
@@ -77,6 +76,30 @@ class Studio {
     FrameRecord record = median_record(records);
     if (!arguments_.stats.empty()) ORIEL_TRY_VOID(count_holes(view, record.stats));
     return record;
+  }
+
+  // The mean of the frames of a lens that is open for a while; the record is the last one's, with the time of all.
+  Result<FrameRecord> draw_exposed(const Shot& shot) {
+    const LensSettings& lens = arguments_.lens;
+    const float focus_m = lens.focus_m > 0 || lens.aperture_m <= 0 ? lens.focus_m : distance_ahead(shot.camera);
+    const auto n = static_cast<std::uint32_t>(lens.frames);
+    const auto start = std::chrono::steady_clock::now();
+    FrameStats stats;
+    FrameMean mean;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (stop_requested()) return fail(ErrorCode::kStopped, "", "stopped by the user");
+      const ExposurePoint at = exposure_point(i, n);
+      const float time_s = shot.time_s + at.time * lens.shutter_s;
+      ORIEL_TRY_VOID(place(time_s));
+      const Camera camera = shot.camera_at && lens.shutter_s > 0 ? shot.camera_at(time_s) : shot.camera;
+      const View view = lens_view(camera, size(), bounds_with_movers(scene_, options_.poses),
+                                  0.5f * lens.aperture_m * at.lens, focus_m, at.pixel);
+      ORIEL_TRY(stats, renderer_.render(scene_, view, options_));
+      mean.add(renderer_.read_frame());
+    }
+    ORIEL_TRY_VOID(renderer_.take_light(mean.mean()));
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    return FrameRecord{shot.name, took.count(), stats, zone_.holds(shot.camera.eye)};
   }
 
   // In a frame of its own: it reads images back.
@@ -123,6 +146,21 @@ class Studio {
   }
 
  private:
+  IVec2 size() const { return arguments_.supersample * IVec2(arguments_.width, arguments_.height); }
+
+  // Movers and lamps, so long into a path.
+  Status place(float time_s) {
+    ORIEL_TRY(options_.poses, poses_at(scene_.pack(), arguments_.moves, arguments_.time_s + time_s));
+    ORIEL_TRY(options_.lamps, lamps_at(scene_.pack(), arguments_.moves));
+    return {};
+  }
+
+  // Along the view, to what is in the middle of the picture; the scene's size where nothing is.
+  float distance_ahead(const Camera& camera) const {
+    const auto found = first_triangle(scene_.pack().mesh, camera.eye, glm::normalize(camera.forward));
+    return found ? found->distance : glm::distance(scene_.bounds().lower, scene_.bounds().upper);
+  }
+
   Status write(const fs::path& file, const PictureNotes& notes) {
     const auto n = static_cast<std::uint32_t>(arguments_.supersample);
     if (other_ != nullptr) return other_->write_beside(renderer_, arguments_.divider, file.string(), notes, n);
@@ -182,7 +220,8 @@ Result<std::vector<FrameRecord>> draw_shots(const std::vector<Shot>& shots, cons
                                             Studio& studio) {
   std::vector<FrameRecord> records;
   for (const Shot& shot : shots) {
-    ORIEL_TRY(FrameRecord record, studio.draw(shot, std::max(arguments.frames, 1)));
+    ORIEL_TRY(FrameRecord record,
+              arguments.lens.frames > 1 ? studio.draw_exposed(shot) : studio.draw(shot, std::max(arguments.frames, 1)));
     ORIEL_TRY_VOID(studio.keep(shot, nullptr));
     studio.tell(shot, record);
     records.push_back(std::move(record));
@@ -199,7 +238,7 @@ Result<std::vector<FrameRecord>> draw_path(const std::vector<Shot>& shots, const
   std::vector<FrameRecord> records;
   Progress progress(shots.size());
   for (const Shot& shot : shots) {
-    ORIEL_TRY(FrameRecord record, studio.draw(shot, 1));
+    ORIEL_TRY(FrameRecord record, arguments.lens.frames > 1 ? studio.draw_exposed(shot) : studio.draw(shot, 1));
     ORIEL_TRY_VOID(studio.keep(shot, film.get()));
     flicker.add(renderer.read_light());
     records.push_back(std::move(record));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 
 #include "formats/query/camera_spec.h"
@@ -65,14 +66,17 @@ Result<FrameTimes> frame_times(const CameraPath& path, const PlayArguments& argu
 }  // namespace
 
 Result<std::vector<Shot>> path_shots(const GpuScene& scene, const PlayArguments& arguments) {
-  ORIEL_TRY(const CameraPath path, choose_path(arguments.path, scene.pack().paths, scene.pack().mesh.origin));
+  ORIEL_TRY(CameraPath path, choose_path(arguments.path, scene.pack().paths, scene.pack().mesh.origin));
   ORIEL_TRY(const FrameTimes times, frame_times(path, arguments));
   if (!arguments.output.empty()) ORIEL_TRY_VOID(make_folder(arguments.output));
+  const std::string name = path.name;
+  const auto camera_at = [path = std::make_shared<CameraPath>(std::move(path)), smooth_s = arguments.smooth_s](
+                             float time_s) { return smoothed_camera_on_path(*path, time_s, smooth_s); };
   std::vector<Shot> shots;
   for (int i = 0; i < times.count; ++i) {
     const auto time = static_cast<float>(times.step_s * i);
-    Shot shot{
-        fmt::format("{}@{:.3f}", path.name, time), smoothed_camera_on_path(path, time, arguments.smooth_s), {}, time};
+    Shot shot{fmt::format("{}@{:.3f}", name, time), camera_at(time), {}, time};
+    shot.camera_at = camera_at;
     if (i > 0) shot.since_last_s = static_cast<float>(times.step_s);
     if (!arguments.output.empty())
       shot.file = fs::path(arguments.output) / fmt::format("{:04}.{}", i, arguments.format);

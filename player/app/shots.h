@@ -1,6 +1,7 @@
 // Which frames are drawn without a window, and into which files.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct Shot {
   float time_s = 0;    // into the path, which the movers' clock follows
   // Since the frame before, to which eyes are adapted; infinite where there is none.
   float since_last_s = std::numeric_limits<float>::infinity();
+  std::function<Camera(float time_s)> camera_at{};  // of one that moves; none: it stays
 };
 
 // Along arguments.path, at even times; files only where a folder was given, which is made. Errors: kUsage, kIo,

@@ -198,13 +198,25 @@ Status Renderer::draw_light(const FrameContext& context, std::span<const DrawBat
   return {};
 }
 
-std::vector<float> Renderer::read_light() const {
-  const int width = frame_->light.width(), height = frame_->light.height();
-  std::vector<float> rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+FloatImage Renderer::read_frame() const {
+  const IVec2 size = frame_size();
+  FloatImage out{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 4, {}};
+  const std::size_t row = 4 * std::size_t{out.width};
+  out.pixels.resize(row * out.height);
   frame_->framebuffer.bind();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
-  return flipped(rgba, width, height);
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, out.pixels.data());
+  for (std::size_t low = 0, high = out.height; low + 1 < high--; ++low)
+    std::swap_ranges(&out.pixels[low * row], &out.pixels[low * row] + row, &out.pixels[high * row]);
+  return out;
+}
+
+std::vector<float> Renderer::read_light() const {
+  const FloatImage rgba = read_frame();
+  std::vector<float> rgb;
+  rgb.reserve(rgba.pixels.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.pixels.size(); i += 4) rgb.insert(rgb.end(), &rgba.pixels[i], &rgba.pixels[i] + 3);
+  return rgb;
 }
 
 Status Renderer::take_light(const FloatImage& rgba) {

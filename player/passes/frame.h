@@ -33,7 +33,9 @@ class Renderer {
   }
   // Light of the last frame, RGB in cd/m², row 0 at the top.
   std::vector<float> read_light() const;
-  // A picture as the frame: RGBA as FrameTarget::light, row 0 at the top. Error kUsage where it exceeds the device.
+  // RGBA as FrameTarget::light, row 0 at the top.
+  FloatImage read_frame() const;
+  // A picture as the frame, of that kind. Error kUsage where it exceeds the device.
   Status take_light(const FloatImage& rgba);
   IVec2 frame_size() const { return frame_ ? IVec2(frame_->light.width(), frame_->light.height()) : IVec2(0); }
   // By pixel of the last frame, row 0 at the top: the material (into Pack::materials) of the reflector, planar or

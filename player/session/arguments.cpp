@@ -32,10 +32,11 @@ constexpr const char* kExitCodes =
 
 constexpr double kFilmFps = 30;
 constexpr int kPanoramaWidth = 2048;
+constexpr int kFramesOfLens = 64;
 
 constexpr const char *kPack = "Arguments", *kWindow = "Window", *kPicture = "Picture", *kLights = "Lights",
                      *kMovers = "Movers", *kOffscreen = "Offscreen", *kCompare = "Comparison", *kPath = "Paths",
-                     *kDevice = "Device";
+                     *kLens = "Lens", *kDevice = "Device";
 
 OptionValue size(PlayArguments& out) {
   return {"WxH",
@@ -70,18 +71,6 @@ OptionValue gpu_memory(std::uint64_t& bytes) {
           },
           [&bytes] { return bytes == kNoLimit ? "" : fmt::format("{}B", bytes); },
           [&bytes] { return bytes == kNoLimit ? nlohmann::ordered_json() : nlohmann::ordered_json(bytes); }};
-}
-
-OptionValue eye_height(float& metres) {
-  return {"LENGTH",
-          [&metres](const std::string& typed) -> Status {
-            static constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
-            ORIEL_TRY(const double found, parse_quantity(typed, kUnits, "length", "1.6m or 160cm"));
-            metres = static_cast<float>(found);
-            return {};
-          },
-          [&metres] { return metres > 0 ? fmt::format("{:g}m", metres) : ""; },
-          [&metres] { return metres > 0 ? nlohmann::ordered_json(metres) : nlohmann::ordered_json(); }};
 }
 
 OptionValue frames(int& count) {
@@ -311,7 +300,7 @@ std::vector<Option> window_options(PlayArguments& out) {
        choice(out.quality, kQualities), Use::kEveryday},
       {"--eye-height", kWindow,
        "Of people who walk, over the floor; their steps, speed and reach go with it. Default: as the bake found it",
-       eye_height(out.eye_height_m)},
+       length(out.eye_height_m)},
       {"--gpu-memory", kDevice,
        "Textures, lightmap pages and maps take no more than this on the device: what is near and in view is shown as "
        "it "
@@ -323,8 +312,9 @@ std::vector<Option> window_options(PlayArguments& out) {
 
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
-  for (auto&& more : {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
-                      live_options(kLights, out.frame.live), path_options(out), compare_options(out)})
+  for (auto&& more :
+       {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
+        live_options(kLights, out.frame.live), path_options(out), lens_options(kLens, out.lens), compare_options(out)})
     append(options, more);
   return options;
 }
@@ -350,6 +340,9 @@ std::string contradiction(const PlayArguments& out) {
   if (!out.offscreen && !out.output.empty()) return "-o needs --offscreen";
   if (!out.offscreen && (!out.video.empty() || out.fps > 0 || out.smooth_s > 0 || out.panorama))
     return "--video, --fps, --smooth and --panorama need --offscreen";
+  if (!out.offscreen && (out.lens.frames > 1 || out.lens.open()))
+    return "--accumulate, --aperture and --shutter need --offscreen";
+  if (out.lens.frames > 1 && !out.other.empty()) return "--accumulate shows one pack: leave " + out.other + " out";
   if (!out.video.empty() && !out.output.empty()) return "found both --video and -o, expected one of them";
   if (!out.video.empty() && !std::filesystem::path(out.video).has_extension())
     return "--video takes the kind of film from its name: expected an extension, as .mp4";
@@ -368,6 +361,7 @@ std::string contradiction(const PlayArguments& out) {
 
 Status settle(const Given& given, PlayArguments& out) {
   if (!out.video.empty() && out.fps == 0) out.fps = kFilmFps;
+  if (out.lens.open() && !given.has("--accumulate")) out.lens.frames = kFramesOfLens;
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
   out.frame.halves = out.makes_pictures();

@@ -12,6 +12,7 @@
 #include "player/images/residency.h"
 #include "player/passes/display_pass.h"
 #include "player/scene/frame_options.h"
+#include "player/session/lens_options.h"
 #include "player/session/light_settings.h"
 #include "player/session/pace.h"
 
@@ -54,6 +55,7 @@ struct PlayArguments {
   float smooth_s = 0;  // standard deviation that the path is smoothed with
   std::string video;   // film of the path
   bool panorama = false;
+  LensSettings lens;
   std::string stats;                    // a file for what the frames cost
   std::uint64_t gpu_memory = kNoLimit;  // bytes of images on the device
   bool panel = false;
