@@ -91,12 +91,14 @@ class Studio {
       const ExposurePoint at = exposure_point(i, n);
       const float time_s = shot.time_s + at.time * lens.shutter_s;
       ORIEL_TRY_VOID(place(time_s));
+      options_.look = i;
       const Camera camera = shot.camera_at && lens.shutter_s > 0 ? shot.camera_at(time_s) : shot.camera;
       const View view = lens_view(camera, size(), bounds_with_movers(scene_, options_.poses),
                                   0.5f * lens.aperture_m * at.lens, focus_m, at.pixel);
       ORIEL_TRY(stats, renderer_.render(scene_, view, options_));
       mean.add(renderer_.read_frame());
     }
+    options_.look = 0;
     ORIEL_TRY_VOID(renderer_.take_light(mean.mean()));
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     return FrameRecord{shot.name, took.count(), stats, zone_.holds(shot.camera.eye)};

@@ -293,16 +293,9 @@ Result<std::optional<BrightChange>> BrightPass::draw(const FrameContext& context
   if (lights.empty()) return std::nullopt;
   const BrightChange change{{&of_movers_.change, &of_movers_.surfaces}, &of_scene_.change, &of_scene_.surfaces};
   const bool coarse = options.coarse && options.mover_shadows == MoverShadows::kTextures;
-  Known now{scene.serial(),
-            view.clip_from_pack,
-            view.width,
-            view.height,
-            options.mover_lights,
-            options.mover_shadows,
-            coarse,
-            options.light_points,
-            options.visible_sets,
-            {}};
+  Known now{scene.serial(),       view.clip_from_pack,   view.width, view.height,
+            options.mover_lights, options.mover_shadows, coarse,     options.light_points,
+            options.look,         options.visible_sets,  {}};
   for (const PlacedMover& placed : movers) now.poses.push_back(placed.pack_from_object);
   if (now == known_) return change;
   if (known_.width != now.width || known_.height != now.height) ORIEL_TRY_VOID(make_targets(view.width, view.height));

@@ -68,6 +68,7 @@ class BrightPass {
     MoverShadows shadows = MoverShadows::kMaps;
     bool coarse = false;  // textures
     int points = 0;
+    std::uint32_t look = 0;
     bool visible_sets = true;  // which batches are shown depends on it
     std::vector<Mat4> poses;
     bool operator==(const Known&) const = default;

@@ -15,7 +15,14 @@ Vec2 hammersley(int i, int count) {
   return {(static_cast<float>(i) + 0.5f) / static_cast<float>(count), y + 0.5f / static_cast<float>(count)};
 }
 
-void sample_polygon(const BrightLight& light, int points, LightSamples& out) {
+// Of a set of points, by which look `look` moves them (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+// Sequences").
+Vec2 shift_of(std::uint32_t look) {
+  const auto part = [&](double step) { return static_cast<float>(glm::fract(step * look)); };
+  return {part(0.7548776662466927), part(0.5698402909980532)};
+}
+
+void sample_polygon(const BrightLight& light, int points, std::uint32_t look, LightSamples& out) {
   std::vector<float> areas;
   float area = 0;
   for (std::size_t t = 0; t + 2 < light.corners.size(); t += 3) {
@@ -25,7 +32,7 @@ void sample_polygon(const BrightLight& light, int points, LightSamples& out) {
   }
   if (!(area > 0)) return;
   for (int i = 0; i < points; ++i) {
-    Vec2 u = hammersley(i, points);
+    Vec2 u = glm::fract(hammersley(i, points) + shift_of(look));
     const float at = u.x * area;
     std::size_t t = 0;
     while (t + 1 < areas.size() && areas[t] <= at) ++t;
@@ -40,27 +47,30 @@ void sample_polygon(const BrightLight& light, int points, LightSamples& out) {
 }
 
 // Points of the disk of directions, as even as they come (Vogel 1979, "A Better Way to Construct the Sunflower Head").
-void sample_disk(const BrightLight& light, int points, LightSamples& out) {
+void sample_disk(const BrightLight& light, int points, std::uint32_t look, LightSamples& out) {
   const float tangent = std::tan(std::min(light.angular_radius_rad, 1.5f));
   const int count = tangent > 0 ? points : 1;
   const Mat3 frame = frame_from_normal(-light.direction);
+  const Vec2 shift = shift_of(look);
+  const float in_ring = glm::fract(0.5f + shift.x);
   for (int i = 0; i < count; ++i) {
-    const float r = count > 1 ? tangent * std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(count)) : 0;
-    const float angle = 2.3999632f * static_cast<float>(i);
+    const bool alone = count == 1 && look == 0;
+    const float r = alone ? 0 : tangent * std::sqrt((static_cast<float>(i) + in_ring) / static_cast<float>(count));
+    const float angle = 2.3999632f * static_cast<float>(i) + 2 * kPi * shift.y;
     out.at.emplace_back(glm::normalize(frame * Vec3(r * std::cos(angle), r * std::sin(angle), 1)), 0);
   }
 }
 
 }  // namespace
 
-LightSamples sample_light(const BrightLight& light, int points) {
+LightSamples sample_light(const BrightLight& light, int points, std::uint32_t look) {
   LightSamples out;
   out.intensity = light.intensity;
   out.axis = light.direction;
   if (light.kind == BrightLightKind::kPolygon) {
-    sample_polygon(light, points, out);
+    sample_polygon(light, points, look, out);
   } else if (light.kind == BrightLightKind::kDirectional) {
-    sample_disk(light, points, out);
+    sample_disk(light, points, look, out);
   } else {
     out.at.emplace_back(light.position, 1);
     if (light.kind == BrightLightKind::kSpot) {

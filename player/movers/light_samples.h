@@ -23,8 +23,8 @@ struct LightSamples {
   Vec3 center{0};       // of the points, or the direction to it where directional
   float radius = 0;     // that holds the points, metres; directional: tangent of its angular radius
 };
-// points: of lights that have a size, 1 to kMaxLightPoints.
-LightSamples sample_light(const BrightLight& light, int points = kMaxLightPoints);
+// points: of lights that have a size, 1 to kMaxLightPoints. look: other points in each, even over all (FrameOptions).
+LightSamples sample_light(const BrightLight& light, int points = kMaxLightPoints, std::uint32_t look = 0);
 
 // How many points a light's shadows of those movers are taken from: by how large it looks from the nearest, and more
 // where few movers are lit, as a light that is seen through a door needs them. spheres: around the movers. pairs: of

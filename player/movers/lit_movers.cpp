@@ -76,7 +76,7 @@ std::vector<LitMovers> find_lit(std::span<const BrightLight> lights, std::span<c
       spheres.push_back(movers[i].sphere);
     }
     if (lit.receivers.empty()) continue;
-    lit.samples = sample_light(lights[l], choose_points(lights[l], spheres, pairs, options.light_points));
+    lit.samples = sample_light(lights[l], choose_points(lights[l], spheres, pairs, options.light_points), options.look);
     if (lit.samples.at.empty()) continue;
     const auto away = [&](const LitMovers::Receiver& r) { return length2(Vec3(r.mover->sphere) - lit.samples.center); };
     std::stable_sort(lit.receivers.begin(), lit.receivers.end(),

@@ -250,6 +250,7 @@ void GlassPass::set_body(const GpuScene& scene, const GlassBody& body, const Fra
   light_.set("u_ior", std::clamp(m.ior, 1.0f, kMostIor));
   light_.set("u_width", frosted ? m.roughness * m.roughness : 0.0f);
   light_.set("u_looks", !frosted ? 1 : options.coarse ? kCoarseLooks : kLooks);
+  light_.set("u_turn", static_cast<float>(glm::fract(0.618033988749895 * options.look)));
   light_.set("u_centre", body.centre);
   light_.set("u_radius", body.radius);
   light_.set("u_plane_count", static_cast<int>(body.planes.size()));

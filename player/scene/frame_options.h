@@ -71,7 +71,10 @@ struct FrameOptions {
   MoverLights mover_lights = MoverLights::kShadowed;
   MoverShadows mover_shadows = MoverShadows::kMaps;
   int light_points = 16;  // of each bright light, that movers' shadows are taken from: 1 to 16
-  float white = 0;        // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
+  // Which it is of frames that are added up: lights' points and rays of frosted glass are others in each, even over
+  // all.
+  std::uint32_t look = 0;
+  float white = 0;  // cd/m² shown as white, for see-through unlit surfaces; 0: as the exposure meter finds
 
   bool operator==(const FrameOptions&) const = default;
 };

@@ -13,7 +13,7 @@ std::vector<Option> lens_options(const char* group, LensSettings& out) {
       {"--accumulate",
        group,
        "A picture is the mean of so many frames, each through other points of its pixels, of the lens and of the time "
-       "that it is open: soft where one of them is, and as smooth as many are. Default: 1, or 64 with --aperture or "
+       "that it is open, of lamps that movers shade and of frosted glass. Default: 1, or 64 with --aperture or "
        "--shutter",
        number(out.frames, 1, 65536),
        Use::kRare,

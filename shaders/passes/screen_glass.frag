@@ -19,6 +19,7 @@ uniform vec3 u_absorption;  // 1/m
 uniform float u_ior;        // at least 1
 uniform float u_width;      // alpha of its facets; 0: clear
 uniform int u_looks;        // of a lobe
+uniform float u_turn;       // [0, 1): other ones in each of frames that are added up
 uniform vec3 u_centre;
 uniform float u_radius;
 uniform int u_plane_count;  // 0: curved
@@ -215,7 +216,7 @@ void main() {
   if (place.a == 0.0) discard;
   vec4 sum = vec4(0.0);
   // Each of 4 x 4 neighbours looks elsewhere in the lobe.
-  float turn = float(pixel.x % 4 * 4 + pixel.y % 4) / 16.0;
+  float turn = fract(float(pixel.x % 4 * 4 + pixel.y % 4) / 16.0 + u_turn);
   for (int i = 0; i < u_looks; ++i) {
     float share = (float(i) + fract(turn * 7.0 + 1.0 / 32.0)) / float(u_looks), wide = spread;
     vec3 d = clear;

@@ -156,6 +156,36 @@ TEST(LightSamples, GiveThePolygonsIrradiance) {
   EXPECT_NEAR(lux, expected, 0.02f * expected);
 }
 
+// Of a square of side 2 the mean square off its middle is 1/3 along each axis, of a disk of radius 1 it is 1/4.
+TEST(LightSamples, AreEvenOverManyLooks) {
+  BrightLight square, sun;
+  square.kind = BrightLightKind::kPolygon;
+  square.direction = {0, -1, 0};
+  square.corners = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  sun.kind = BrightLightKind::kDirectional;
+  sun.direction = {0, -1, 0};
+  sun.angular_radius_rad = 0.1f;
+  for (const int points : {1, 4}) {
+    Vec2 of_square(0), of_sun(0), mean(0);
+    constexpr int kLooks = 256;
+    for (std::uint32_t look = 0; look < kLooks; ++look) {
+      for (const Vec4& at : sample_light(square, points, look).at) {
+        of_square += Vec2(at.x * at.x, at.z * at.z) / static_cast<float>(kLooks * points);
+        mean += Vec2(at.x, at.z) / static_cast<float>(kLooks * points);
+      }
+      for (const Vec4& at : sample_light(sun, points, look).at) {
+        const Vec2 off = Vec2(at.x, at.z) / at.y / std::tan(0.1f);
+        of_sun += off * off / static_cast<float>(kLooks * points);
+      }
+    }
+    EXPECT_LT(glm::length(mean), 0.02f);
+    for (int c = 0; c < 2; ++c) {
+      EXPECT_NEAR(of_square[c], 1 / 3.0f, 0.01f);
+      EXPECT_NEAR(of_sun[c], 0.25f, 0.01f);
+    }
+  }
+}
+
 // Shadows of points all over the light stay within the cone and its box, as far as the bounds go.
 TEST(ShadowCone, HoldsTheShadow) {
   const Bounds bounds{Vec3(-4, -2, -4), Vec3(4, 3, 4)};
