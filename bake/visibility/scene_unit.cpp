@@ -32,6 +32,7 @@ class Probe {
     double height = 0;  // between floor and ceiling; 0: the point is neither
     Vec3 floor{0};
     bool room = false;  // with walls
+    bool open = false;  // a floor with nothing overhead, between walls as high as those of rooms for people
   };
 
   // What the k-th point of a kind belongs to, where it faces up or down.
@@ -45,15 +46,24 @@ class Probe {
     const float towards = slope > 0 || (two_sided && k % 2 == 0) ? 1.0f : -1.0f;
     const Vec3 way{0, towards, 0}, start = spawn_origin(scene_, t, at, way);
     const Hit other = accel_.intersect({start, way});
-    if (!other) return {};
+    if (!other) {
+      const auto walls_reach = [&](double h) { return between_walls(start + static_cast<float>(h) * way, h); };
+      return {.floor = start, .open = towards > 0 && walls_reach(kLow) && !walls_reach(kHigh)};
+    }
     const Vec3 end = start + other.distance * way, middle = 0.5f * (start + end);
-    int walls = 0;
-    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
-      walls += bool(accel_.intersect({middle, side, static_cast<float>(kWidest) * other.distance}));
-    return {other.distance, towards > 0 ? start : end, walls >= 3};
+    return {other.distance, towards > 0 ? start : end, between_walls(middle, other.distance)};
   }
 
  private:
+  // Whether there are walls on three of four sides, no further away than rooms of that height are wide.
+  bool between_walls(const Vec3& from, double height) const {
+    const auto reach = static_cast<float>(kWidest * height);
+    int walls = 0;
+    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+      walls += bool(accel_.intersect({from, side, reach}));
+    return walls >= 3;
+  }
+
   std::uint32_t pick(Kind kind, const Vec2& u) const {
     const auto index = [](float x, std::size_t count) {
       return static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(x * static_cast<float>(count)), count - 1));
@@ -118,7 +128,7 @@ std::optional<UnitGuess> guess_unit(const Accel& accel) {
     std::uint32_t people = 0, here = 0;
     for (std::uint32_t k = 0; k < kPoints; ++k) {
       const Probe::Found found = probe.find(kind, k);
-      people += fits_people(found.height);
+      people += fits_people(found.height) || found.open;
       if (found.room) heights.push_back(found.height), ++here;
     }
     if (people >= kFew * kPoints) return std::nullopt;

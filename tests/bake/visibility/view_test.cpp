@@ -91,6 +91,22 @@ TEST(SceneUnit, MetresStay) {
   EXPECT_FALSE(guess_unit(accel_of(pavilion(1000, true))));
 }
 
+// Rooms whose ceilings were left out to look in; the only thing with something overhead is the floor below a table.
+TEST(SceneUnit, RoomsWithoutCeilingsKeepMetres) {
+  SceneParts parts;
+  const std::uint32_t m = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", m, Vec3(0), Vec3(0, 0, 5), Vec3(6, 0, 0));
+  for (const auto& [corner, along] : {std::pair{Vec3(0), Vec3(6, 0, 0)},
+                                      {Vec3(6, 0, 5), Vec3(-6, 0, 0)},
+                                      {Vec3(0, 0, 5), Vec3(0, 0, -5)},
+                                      {Vec3(6, 0, 0), Vec3(0, 0, 5)}})
+    parts.quad("wall", m, corner, along, Vec3(0, 2.6f, 0));
+  parts.box("table", m, Vec3(1, 0.38f, 1), Vec3(3, 0.42f, 3));
+  for (const float x : {1.0f, 2.95f})
+    for (const float z : {1.0f, 2.95f}) parts.box("leg", m, Vec3(x, 0, z), Vec3(x + 0.05f, 0.38f, z + 0.05f));
+  EXPECT_FALSE(guess_unit(accel_of(parts.finish())));
+}
+
 TEST(SceneUnit, ThingsWithoutRoomsTellNothing) {
   SceneParts parts;
   parts.sphere("ball", parts.diffuse(Vec3(0.5f)), Vec3(0), 0.01f, 2);
