@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "bake/import/coplanar.h"
 #include "bake/import/images.h"
 #include "bake/import/lighting.h"
 #include "bake/import/movers.h"
@@ -241,6 +242,7 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY_VOID(place_meshes(document, meshes, poses, movers.of_node, accessors, budget, out.scene, context));
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
+  separate_layers(out.scene, context);
   find_solids(out.scene, context);
   std::vector<std::uint32_t> moving = movers.nodes;
   for (const NodePose& pose : poses)

@@ -78,6 +78,8 @@ std::map<std::uint32_t, std::string> find_thin(const Scene& scene) {
 }  // namespace
 
 void find_solids(Scene& scene, Context& context) {
+  // Light that enters a body of panes leaves it by their backs.
+  for (SceneMaterial& m : scene.materials) m.double_sided = m.double_sided || (m.transmission > 0 && !m.solid);
   if (std::ranges::none_of(scene.materials, [](const SceneMaterial& m) { return m.solid; })) return;
   const auto thin = find_thin(scene);
   std::map<std::uint32_t, std::uint32_t> copies;  // by material: the pane

@@ -9,7 +9,8 @@ namespace oriel {
 // Materials with a volume (SceneMaterial::solid) stay solid on surfaces that enclose a space and face outwards, each by
 // itself or all of a material and a mover together. Corners at the same place are one. Solids have one side, whatever
 // the file says. Other surfaces get a copy of the material that is a thin pane seen from both sides, with a warning; so
-// does glass of an alpha mode other than OPAQUE. Does nothing in a scene without such materials.
+// does glass of an alpha mode other than OPAQUE. Glass without a volume is a thin pane, seen from both sides whatever
+// the file says: a window that is a box of one-sided panes lets light in and out.
 void find_solids(Scene& scene, Context& context);
 
 }  // namespace oriel

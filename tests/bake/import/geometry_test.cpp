@@ -30,7 +30,8 @@ TEST(Geometry, StripsAndFansFaceAsListsDo) {
   }
   EXPECT_NEAR(areas[1], areas[0], 1e-6);
   EXPECT_NEAR(areas[2], areas[0], 1e-6);
-  EXPECT_EQ(r.warnings.size(), 1u);
+  EXPECT_EQ(r.warnings.size(), 2u);
+  EXPECT_TRUE(r.warned("surfaces lie in one place"));
   EXPECT_TRUE(r.warned("2 primitives of points or lines"));
 }
 

@@ -144,5 +144,21 @@ TEST(Solids, PanesWithoutAreaAreDropped) {
   EXPECT_TRUE(material_of(r.scene(), 0).solid);
 }
 
+// Exporters write windows as boxes of glass without a volume, one-sided as is glTF's default.
+TEST(Solids, GlassWithoutVolumeIsSeenFromBothSides) {
+  Gltf g = with(kGlass);
+  g.doc["materials"][0]["extensions"].erase("KHR_materials_volume");
+  add_faces(g, 0, 6);
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_FALSE(material_of(r.scene(), 0).solid);
+  EXPECT_TRUE(material_of(r.scene(), 0).double_sided);
+  Gltf matte = with(R"({"pbrMetallicRoughness":{"metallicFactor":0}})");
+  add_faces(matte, 0, 6);
+  const Imported m = import(matte);
+  ASSERT_TRUE(m.ok()) << m.error();
+  EXPECT_FALSE(material_of(m.scene(), 0).double_sided);
+}
+
 }  // namespace
 }  // namespace oriel::test

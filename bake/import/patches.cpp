@@ -1,0 +1,191 @@
+#include "bake/import/patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oriel {
+namespace {
+
+constexpr int kMostLayers = 8;                // then they share a place again
+constexpr double kOverlap = 1e-3;             // of the smaller triangle: less is a common edge
+constexpr std::size_t kMostPairs = 1u << 26;  // of triangles of one plane that are compared
+
+using Polygon = std::vector<DVec2>;
+
+double area_of(const Polygon& p) {
+  double twice = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const DVec2 &a = p[i], &b = p[(i + 1) % p.size()];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return 0.5 * twice;
+}
+
+// The area that two counter-clockwise triangles share (Sutherland and Hodgman 1974).
+double shared_area(const std::array<DVec2, 3>& subject, const std::array<DVec2, 3>& clip) {
+  Polygon rest(subject.begin(), subject.end()), next;
+  for (std::size_t k = 0; k < 3 && !rest.empty(); ++k) {
+    const DVec2 from = clip[k], along = clip[(k + 1) % 3] - from;
+    const auto inside = [&](const DVec2& p) { return along.x * (p.y - from.y) - along.y * (p.x - from.x); };
+    next.clear();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const DVec2 &a = rest[i], &b = rest[(i + 1) % rest.size()];
+      const double at_a = inside(a), at_b = inside(b);
+      if (at_a >= 0) next.push_back(a);
+      if ((at_a >= 0) != (at_b >= 0)) next.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    rest.swap(next);
+  }
+  return area_of(rest);
+}
+
+}  // namespace
+
+std::vector<Layer> PlanePatches::layers(std::span<const Planar> triangles) {
+  triangles_.assign(triangles.begin(), triangles.end());
+  find_patches();
+  if (patches_.size() < 2) return {};
+  project();
+  find_overlaps();
+  return stack();
+}
+
+bool PlanePatches::meets(const Layer& layer, std::span<const Planar> others) const {
+  std::vector<Flat> patch;
+  for (const std::uint32_t t : layer.triangles) patch.push_back(flattened(t));
+  return std::ranges::any_of(others, [&](const Planar& other) {
+    const Flat f = flattened(other.triangle);
+    return std::ranges::any_of(patch, [&](const Flat& p) { return overlap(p, f); });
+  });
+}
+
+bool PlanePatches::has_elsewhere(std::uint32_t vertex, std::uint32_t patch) const {
+  const auto found = patch_of_vertex_.find(vertex);
+  return found != patch_of_vertex_.end() && found->second != patch;
+}
+
+std::uint32_t PlanePatches::root(std::uint32_t i) {
+  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+  return i;
+}
+
+// Triangles of a surface that have a corner in common.
+void PlanePatches::connect() {
+  parent_.resize(triangles_.size());
+  std::unordered_map<Vec3, std::uint32_t, PlaceHash> at;
+  std::uint32_t of_surface = ~0u;
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    parent_[i] = i;
+    const std::uint32_t t = triangles_[i].triangle;
+    if (scene_.triangle_surface[t] != of_surface) at.clear();
+    of_surface = scene_.triangle_surface[t];
+    for (int k = 0; k < 3; ++k) {
+      const auto [found, is_new] = at.try_emplace(scene_.positions[scene_.triangles[t][k]], i);
+      if (!is_new) parent_[root(i)] = root(found->second);
+    }
+  }
+}
+
+void PlanePatches::find_patches() {
+  connect();
+  patches_.clear();
+  patch_of_.assign(triangles_.size(), ~0u);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const std::uint32_t r = root(i);
+    if (patch_of_[r] == ~0u) {
+      patch_of_[r] = static_cast<std::uint32_t>(patches_.size());
+      patches_.emplace_back().lets_through = scene_.materials[surface(i).material].alpha_mode != AlphaMode::kOpaque;
+    }
+    patch_of_[i] = patch_of_[r];
+    patches_[patch_of_[i]].members.push_back(i);
+    patches_[patch_of_[i]].area += triangle_area(scene_, triangles_[i].triangle);
+  }
+}
+
+void PlanePatches::project() {
+  const Vec3 n = glm::abs(geometric_normal(scene_, triangles_.front().triangle));
+  drop_ = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+  flat_.clear();
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    flat_.push_back(flattened(triangles_[i].triangle));
+    flat_.back().patch = patch_of_[i];
+  }
+}
+
+PlanePatches::Flat PlanePatches::flattened(std::uint32_t triangle) const {
+  Flat f;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& p = scene_.positions[scene_.triangles[triangle][k]];
+    f.corners[static_cast<std::size_t>(k)] = DVec2(p[(drop_ + 1) % 3], p[(drop_ + 2) % 3]);
+  }
+  f.area = area_of({f.corners.begin(), f.corners.end()});
+  if (f.area < 0) std::swap(f.corners[1], f.corners[2]), f.area = -f.area;
+  f.lower = glm::min(glm::min(f.corners[0], f.corners[1]), f.corners[2]);
+  f.upper = glm::max(glm::max(f.corners[0], f.corners[1]), f.corners[2]);
+  return f;
+}
+
+bool PlanePatches::overlap(const Flat& a, const Flat& b) {
+  if (a.lower.x >= b.upper.x || b.lower.x >= a.upper.x || a.lower.y >= b.upper.y || b.lower.y >= a.upper.y)
+    return false;
+  return shared_area(a.corners, b.corners) >= kOverlap * std::min(a.area, b.area);
+}
+
+// Whether the smaller of both lies in the plane of the other.
+bool PlanePatches::in_one_place(std::uint32_t i, std::uint32_t k) const {
+  const std::uint32_t large = flat_[i].area >= flat_[k].area ? i : k, small = i + k - large;
+  const std::uint32_t t = triangles_[large].triangle, other = triangles_[small].triangle;
+  const DVec3 n(geometric_normal(scene_, t)), from(scene_.positions[scene_.triangles[t].x]);
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(glm::dot(n, DVec3(scene_.positions[scene_.triangles[other][c]]) - from)) > one_place_) return false;
+  return true;
+}
+
+void PlanePatches::find_overlaps() {
+  std::vector<std::uint32_t> order(flat_.size()), open;
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(flat_[i].lower.x, i); });
+  std::size_t pairs = 0;
+  for (const std::uint32_t i : order) {
+    std::erase_if(open, [&](std::uint32_t k) { return flat_[k].upper.x <= flat_[i].lower.x; });
+    if ((pairs += open.size()) > kMostPairs) return;
+    for (const std::uint32_t k : open) compare(i, k);
+    open.push_back(i);
+  }
+}
+
+void PlanePatches::compare(std::uint32_t i, std::uint32_t k) {
+  const Flat &a = flat_[i], &b = flat_[k];
+  if (a.patch == b.patch || patches_[a.patch].overlaps.contains(b.patch)) return;
+  if (surface(i).mover != surface(k).mover || !overlap(a, b) || !in_one_place(i, k)) return;
+  patches_[a.patch].overlaps.insert(b.patch);
+  patches_[b.patch].overlaps.insert(a.patch);
+}
+
+std::vector<Layer> PlanePatches::stack() {
+  std::vector<std::uint32_t> order(patches_.size());
+  for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t p) {
+    return std::pair(patches_[p].lets_through, -static_cast<float>(patches_[p].area));
+  });
+  std::vector<int> level(patches_.size(), -1);
+  std::vector<Layer> layers;
+  for (const std::uint32_t p : order) {
+    Layer layer{.triangles = {}, .patch = p};
+    for (const std::uint32_t other : patches_[p].overlaps) {
+      if (level[other] < layer.level) continue;
+      layer.level = level[other] + 1;
+      layer.below = scene_.triangle_surface[triangles_[patches_[other].members.front()].triangle];
+    }
+    level[p] = layer.level = std::min(layer.level, kMostLayers);
+    if (layer.level == 0) continue;
+    for (const std::uint32_t i : patches_[p].members) layer.triangles.push_back(triangles_[i].triangle);
+    layers.push_back(std::move(layer));
+  }
+  patch_of_vertex_.clear();
+  for (std::uint32_t i = 0; i < triangles_.size() && !layers.empty(); ++i)
+    for (int k = 0; k < 3; ++k) patch_of_vertex_[scene_.triangles[triangles_[i].triangle][k]] = patch_of_[i];
+  return layers;
+}
+
+}  // namespace oriel

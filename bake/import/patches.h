@@ -1,0 +1,95 @@
+// Patches of surfaces that lie in one plane, and which of them overlap (coplanar.h).
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <set>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "bake/scene/scene.h"
+
+namespace oriel {
+
+// A triangle and the cell of planes that its own is in.
+struct Planar {
+  std::uint64_t cell = 0;
+  std::uint32_t triangle = 0;
+  bool operator<(const Planar& o) const { return std::tie(cell, triangle) < std::tie(o.cell, o.triangle); }
+};
+
+struct PlaceHash {
+  std::size_t operator()(const Vec3& p) const {
+    std::uint64_t h = 0;
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t bits = 0;
+      const float value = p[k] + 0.0f;  // -0 is 0
+      std::memcpy(&bits, &value, sizeof bits);
+      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+};
+
+// A patch that lies on others.
+struct Layer {
+  std::vector<std::uint32_t> triangles;
+  std::uint32_t patch = 0;
+  std::uint32_t below = 0;  // a surface that it lies on
+  int level = 0;            // layers below it
+};
+
+// What lies in one plane. one_place: of what is no further apart than that, metres, rays cannot tell which is in front.
+class PlanePatches {
+ public:
+  PlanePatches(const Scene& scene, double one_place) : scene_(scene), one_place_(one_place) {}
+
+  // The patches of these triangles that lie on others. They are of one cell, in the order of the scene.
+  std::vector<Layer> layers(std::span<const Planar> triangles);
+  // Of the last triangles: whether one of others overlaps one of the layer, seen along the plane's normal.
+  bool meets(const Layer& layer, std::span<const Planar> others) const;
+  // Likewise: whether a vertex is one of another patch.
+  bool has_elsewhere(std::uint32_t vertex, std::uint32_t patch) const;
+
+ private:
+  struct Patch {
+    std::vector<std::uint32_t> members;  // into triangles_
+    double area = 0;
+    bool lets_through = false;
+    std::set<std::uint32_t> overlaps;  // patches
+  };
+  struct Flat {
+    std::array<DVec2, 3> corners;  // counter-clockwise, along the two axes that the plane faces least
+    DVec2 lower, upper;
+    double area = 0;
+    std::uint32_t patch = 0;
+  };
+
+  const Surface& surface(std::uint32_t member) const {
+    return scene_.surfaces[scene_.triangle_surface[triangles_[member].triangle]];
+  }
+  std::uint32_t root(std::uint32_t member);
+  void connect();
+  void find_patches();
+  void project();
+  Flat flattened(std::uint32_t triangle) const;
+  static bool overlap(const Flat& a, const Flat& b);
+  bool in_one_place(std::uint32_t i, std::uint32_t k) const;
+  void find_overlaps();
+  void compare(std::uint32_t i, std::uint32_t k);
+  std::vector<Layer> stack();
+
+  const Scene& scene_;
+  double one_place_;
+  int drop_ = 0;                   // the axis that the plane faces most
+  std::vector<Planar> triangles_;  // in the order of the scene
+  std::vector<std::uint32_t> parent_, patch_of_;
+  std::unordered_map<std::uint32_t, std::uint32_t> patch_of_vertex_;
+  std::vector<Patch> patches_;
+  std::vector<Flat> flat_;
+};
+
+}  // namespace oriel
