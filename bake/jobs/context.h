@@ -71,6 +71,18 @@ class Context {
   std::function<bool()> enough_;
 };
 
+// What a stage runs with, and who counts the rays that it traces. A context alone is one whose rays nobody counts.
+struct Stage {
+  Stage(Context& of, std::atomic<std::uint64_t>* counter = nullptr) : context(of), rays(counter) {}
+  void count(std::uint64_t traced) const {
+    if (rays) *rays += traced;
+  }
+  std::uint64_t traced() const { return rays ? rays->load() : 0; }
+
+  Context& context;
+  std::atomic<std::uint64_t>* rays;  // what is traced is added; may be null
+};
+
 // While it lives, stopped() is also true once enough() is: for work that may end anywhere. It is made and ends while no
 // other thread uses the context; enough() is called from any thread.
 class Interruptible {

@@ -32,17 +32,18 @@ int thread_count(const Context& context) {
   return 1;
 }
 
-Status parallel_for(Context& context, std::string_view stage, std::size_t count,
-                    const std::function<void(std::size_t)>& body, const std::atomic<std::uint64_t>* rays) {
+Status parallel_for(const Stage& stage, std::string_view name, std::size_t count,
+                    const std::function<void(std::size_t)>& body) {
+  Context& context = stage.context;
   const auto threads = static_cast<std::size_t>(thread_count(context));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   std::atomic<std::size_t> done{0};
   const std::size_t step = std::max<std::size_t>(1, count / 200);
-  const std::uint64_t rays_before = rays ? rays->load() : 0;
+  const std::uint64_t rays_before = stage.traced();
   const auto report = [&](std::size_t finished) {
-    if (!stage.empty())
-      context.report(stage, count == 0 ? 1.0 : static_cast<double>(finished) / static_cast<double>(count),
-                     rays ? rays->load() - rays_before : 0);
+    if (!name.empty())
+      context.report(name, count == 0 ? 1.0 : static_cast<double>(finished) / static_cast<double>(count),
+                     stage.traced() - rays_before);
   };
   if (count > 0) report(0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -52,7 +53,7 @@ Status parallel_for(Context& context, std::string_view stage, std::size_t count,
     const std::size_t finished = done.fetch_add(1) + 1;
     if (finished % step == 0 && finished != count) report(finished);
   });
-  if (done.load() != count) return fail(ErrorCode::kStopped, std::string(stage), "stopped");
+  if (done.load() != count) return fail(ErrorCode::kStopped, std::string(name), "stopped");
   report(count);
   return {};
 }

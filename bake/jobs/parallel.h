@@ -10,11 +10,11 @@
 namespace oriel {
 
 // Calls body(i) for i in [0, count) on at most context.threads threads, in no particular order. Results must not
-// depend on that order: write to slot i only. Reports progress under `stage` where that is not empty; `rays` (may be
-// null) is a counter that bodies add to; progress tells what it grew by. Denormals are flushed to zero alike in every
+// depend on that order: write to slot i only. Reports progress under `name` where that is not empty, with what the
+// stage's count of rays grew by. Denormals are flushed to zero alike in every
 // thread. Error kStopped when context.stop was set before all bodies ran.
-Status parallel_for(Context& context, std::string_view stage, std::size_t count,
-                    const std::function<void(std::size_t)>& body, const std::atomic<std::uint64_t>* rays = nullptr);
+Status parallel_for(const Stage& stage, std::string_view name, std::size_t count,
+                    const std::function<void(std::size_t)>& body);
 
 // Threads that parallel_for would use: context.threads, or the CPUs this process may run on.
 int thread_count(const Context& context);

@@ -41,8 +41,7 @@ Bytes written(const std::function<void(Archive&)>& write) {
 // The units of a loop: runs of its items.
 class Units {
  public:
-  Units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays)
-      : context_(context), loop_(loop), rays_(rays) {
+  Units(const Stage& stage, const UnitLoop& loop) : stage_(stage), context_(stage.context), loop_(loop) {
     side_ = static_cast<std::size_t>(std::clamp(kRaysAUnit / std::max(loop.rays, 1.0), 1.0, 1e9));
   }
 
@@ -66,7 +65,7 @@ class Units {
     const auto start = Clock::now();
     std::uint64_t traced = 0;
     for (std::size_t i = first(unit); i < last(unit) && !context_.stopped(); ++i) traced += loop_.compute(i);
-    add(traced);
+    stage_.count(traced);
     if (context_.stopped())
       context_.units->leave(name);  // it may be a part only
     else
@@ -95,36 +94,28 @@ class Units {
     const std::optional<KeptUnit> kept = context_.units->find(name);
     std::uint64_t traced = 0;
     if (!kept || !restore(kept->results, [&](Archive& a) { results(unit, traced, a); })) return false;
-    add(traced);
+    stage_.count(traced);
     return true;
   }
 
-  void add(std::uint64_t traced) {
-    if (rays_) *rays_ += traced;
-  }
-
+  Stage stage_;
   Context& context_;
   const UnitLoop& loop_;
-  std::atomic<std::uint64_t>* rays_;
   std::size_t side_;  // items of a unit
 };
 
 }  // namespace
 
-Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays) {
+Status parallel_units(const Stage& stage, const UnitLoop& loop) {
+  Context& context = stage.context;
   if (!context.units) {
-    const auto body = [&](std::size_t i) {
-      const std::uint64_t traced = loop.compute(i);
-      if (rays) *rays += traced;
-    };
-    ORIEL_TRY_VOID(parallel_for(context, loop.stage, loop.count, body, rays));
+    ORIEL_TRY_VOID(parallel_for(stage, loop.stage, loop.count, [&](std::size_t i) { stage.count(loop.compute(i)); }));
     // An item may have ended meanwhile with half of its work.
     return context.stopped() ? fail(ErrorCode::kStopped, std::string(loop.stage), "stopped") : Status();
   }
-  Units units(context, loop, rays);
+  Units units(stage, loop);
   std::vector<std::uint8_t> finished(units.count());
-  ORIEL_TRY_VOID(parallel_for(
-      context, loop.stage, units.count(), [&](std::size_t u) { finished[u] = units.finish(u); }, rays));
+  ORIEL_TRY_VOID(parallel_for(stage, loop.stage, units.count(), [&](std::size_t u) { finished[u] = units.finish(u); }));
   for (;;) {
     if (context.stopped()) return fail(ErrorCode::kStopped, std::string(loop.stage), "stopped");
     std::vector<std::size_t> left;
@@ -138,7 +129,7 @@ Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::u
 }
 
 bool recall_item(Context& context, const Hash128& inputs, const UnitLoop& loop, std::size_t item) {
-  return context.units && Units(context, loop, nullptr).recall(item, inputs);
+  return context.units && Units(context, loop).recall(item, inputs);
 }
 
 Status one_unit(Context& context, std::string_view stage, const std::function<void(Archive&)>& inputs,

@@ -75,9 +75,9 @@ struct UnitLoop {
 };
 
 // parallel_for over the items that no store holds. The results are the same with any store and any number of threads.
-// Units that others have claimed are waited for, last. Adds to `rays` what computing all items takes or took (may be
-// null). Error kStopped.
-Status parallel_units(Context& context, const UnitLoop& loop, std::atomic<std::uint64_t>* rays = nullptr);
+// Units that others have claimed are waited for, last. The rays counted are those that computing all items takes or
+// took. Error kStopped.
+Status parallel_units(const Stage& stage, const UnitLoop& loop);
 
 // Fills an item's results with those that this loop had under other stage inputs, where the store has them: of loops
 // whose items are units of their own (`rays` at least those of a unit). Whether they were there.

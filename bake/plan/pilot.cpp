@@ -93,7 +93,7 @@ Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, cons
     return radiance;
   };
   const WallClock clock;
-  ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, strips, &rays));
+  ORIEL_TRY_VOID(capture_maps({surroundings, outgoing}, {context, &rays}, strips));
   const double seconds = clock.seconds(), count = kStrips * pixels(strips.front());
   ORIEL_TRY(const double bytes,
             stored_bytes(in, coarse, surroundings.reflectors()[whole.reflector].reflector, std::move(strips)));

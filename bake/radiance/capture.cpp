@@ -13,8 +13,9 @@ Vec3 usable_light(const Vec3& c) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
-SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction, const Cone& cone) {
+SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
+              const Cone& cone) {
+  const auto& [surroundings, outgoing] = lit;
   const auto& emitters = surroundings.reflectors()[reflector].emitters;
   SeenLight seen;
   std::uint64_t lobe_rays = 0;
@@ -54,11 +55,11 @@ CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const
   return {pack_from_reflector(reflector, q), glm::normalize(to_pack * (way / distance)), {width, width / distance}};
 }
 
-MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                       const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) {
-  const Reflector& reflector = surroundings.reflectors()[map.reflector].reflector;
+MapPixel capture_pixel(const LitSurroundings& lit, const RadianceMap& map, std::uint32_t x, std::uint32_t y,
+                       std::uint64_t& rays) {
+  const Reflector& reflector = lit.around.reflectors()[map.reflector].reflector;
   const CaptureRay ray = capture_ray(reflector, map, Vec2(x, y) + 0.5f);
-  const auto [sight, light, traced] = see(surroundings, outgoing, map.reflector, ray.from, ray.direction, ray.cone);
+  const auto [sight, light, traced] = see(lit, map.reflector, ray.from, ray.direction, ray.cone);
   rays += traced;
   const bool has_depth = sight.state == Sight::kSurface || sight.back;
   const float height = std::max(0.0f, glm::dot(sight.offset, Vec3(reflector.pack_from_reflector[2])));
@@ -81,19 +82,18 @@ std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::
   return bands;
 }
 
-UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                      const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
+UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps) {
   UnitLoop loop{.stage = "radiance", .count = bands.size(), .rays = kRaysABand};
   loop.inputs = [&](std::size_t i, Archive& key) {
     key(frame_of(maps[bands[i].map]), bands[i].first_row, bands[i].rows);
   };
-  loop.compute = [&](std::size_t i) {
+  loop.compute = [&, lit](std::size_t i) {
     const MapBand& band = bands[i];
     RadianceMap& map = maps[band.map];
     std::uint64_t rays = 0;
     for (std::uint32_t y = band.first_row; y < band.first_row + band.rows; ++y)
       for (std::uint32_t x = 0; x < map.width; ++x) {
-        const MapPixel pixel = capture_pixel(surroundings, outgoing, map, x, y, rays);
+        const MapPixel pixel = capture_pixel(lit, map, x, y, rays);
         const std::size_t at = std::size_t{y} * map.width + x;
         map.radiance[at] = pixel.radiance, map.disparity[at] = pixel.disparity, map.valid[at] = pixel.valid;
       }
@@ -109,10 +109,9 @@ UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingR
   return loop;
 }
 
-Status capture_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
-                    std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays) {
-  const std::vector<MapBand> bands = make_bands(surroundings, maps);
-  return parallel_units(context, capture_loop(surroundings, outgoing, bands, maps), rays);
+Status capture_maps(const LitSurroundings& lit, const Stage& stage, std::vector<RadianceMap>& maps) {
+  const std::vector<MapBand> bands = make_bands(lit.around, maps);
+  return parallel_units(stage, capture_loop(lit, bands, maps));
 }
 
 }  // namespace oriel

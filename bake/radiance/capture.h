@@ -11,6 +11,12 @@ namespace oriel {
 // Radiance (cd/m²) that a surface sends back along the ray, without regard to its throughput. Called from any thread.
 using OutgoingRadiance = std::function<Vec3(const SeenSurface&)>;
 
+// What rays from reflectors see, and its light.
+struct LitSurroundings {
+  const ReflectedSurroundings& around;
+  const OutgoingRadiance& outgoing;
+};
+
 // The light without what is negative or not finite.
 Vec3 usable_light(const Vec3& c);
 
@@ -21,8 +27,8 @@ struct SeenLight {
   Vec3 radiance{0};  // cd/m²
   std::uint64_t rays = 0;
 };
-SeenLight see(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::uint32_t reflector,
-              const Vec3& from, const Vec3& direction, const Cone& cone = {});
+SeenLight see(const LitSurroundings& lit, std::uint32_t reflector, const Vec3& from, const Vec3& direction,
+              const Cone& cone = {});
 
 // A pixel of a radiance map, as its members have it.
 struct MapPixel {
@@ -37,8 +43,8 @@ struct CaptureRay {
 };
 CaptureRay capture_ray(const Reflector& reflector, const RadianceMap& map, const Vec2& at);
 // What capture_maps() has for a pixel. Adds to `rays`.
-MapPixel capture_pixel(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                       const RadianceMap& map, std::uint32_t x, std::uint32_t y, std::uint64_t& rays);
+MapPixel capture_pixel(const LitSurroundings& lit, const RadianceMap& map, std::uint32_t x, std::uint32_t y,
+                       std::uint64_t& rays);
 
 // Some rows of a map: a unit of work.
 struct MapBand {
@@ -47,8 +53,7 @@ struct MapBand {
 // The maps in bands, with room for their pixels.
 std::vector<MapBand> make_bands(const ReflectedSurroundings& surroundings, std::vector<RadianceMap>& maps);
 // Captures those bands. All must outlive it.
-UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                      const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
+UnitLoop capture_loop(const LitSurroundings& lit, const std::vector<MapBand>& bands, std::vector<RadianceMap>& maps);
 
 // Fills the pixels of maps that are planned (formats/assets/radiance_map.h says how): depth and light are those of the
 // ray through a pixel's centre; textures of what it ends on are means over what the pixel shows of them (its cone,
@@ -56,9 +61,7 @@ UnitLoop capture_loop(const ReflectedSurroundings& surroundings, const OutgoingR
 // ReflectedSurroundings::look has them: what transmitting surfaces hide and show is weighted by their transmittance,
 // and mirrors add what they reflect. The reflector's own triangles are never hit. The back of a one-sided surface keeps
 // its depth, with radiance 0 and valid 0. Radiance that is not finite or negative counts as 0. Maps of a reflector that
-// lists emitters show those by way of other mirrors only. Adds to `rays` (may be null). The same bytes for any number
-// of threads. Error kStopped.
-Status capture_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, Context& context,
-                    std::vector<RadianceMap>& maps, std::atomic<std::uint64_t>* rays = nullptr);
+// lists emitters show those by way of other mirrors only. The same bytes for any number of threads. Error kStopped.
+Status capture_maps(const LitSurroundings& lit, const Stage& stage, std::vector<RadianceMap>& maps);
 
 }  // namespace oriel

@@ -29,9 +29,8 @@ void fields(Archive& archive, BandCheck& c) {
 
 class Checker {
  public:
-  Checker(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Box> edited,
-          std::uint64_t seed)
-      : surroundings_(surroundings), outgoing_(outgoing), edited_(edited), seed_(seed) {}
+  Checker(const LitSurroundings& lit, std::span<const Box> edited, std::uint64_t seed)
+      : lit_(lit), edited_(edited), seed_(seed) {}
 
   // Of a band whose pixels are those of the bake before.
   BandCheck check(const RadianceMap& map, const MapBand& band, const Vec3& darkest, std::uint64_t& rays) const {
@@ -44,7 +43,7 @@ class Checker {
         const Vec2 at = sampler.next2() * static_cast<float>(kBlock);
         const std::uint32_t px = std::min(x + static_cast<std::uint32_t>(at.x), map.width - 1);
         const std::uint32_t py = std::min(y + static_cast<std::uint32_t>(at.y), band.first_row + band.rows - 1);
-        const MapPixel now = capture_pixel(surroundings_, outgoing_, map, px, py, rays);
+        const MapPixel now = capture_pixel(lit_, map, px, py, rays);
         found.square += difference(map, std::size_t{py} * map.width + px, now, darkest);
         ++found.samples;
       }
@@ -53,7 +52,7 @@ class Checker {
 
  private:
   bool meets_edited(const RadianceMap& map, const MapBand& band) const {
-    const Reflector& reflector = surroundings_.reflectors()[map.reflector].reflector;
+    const Reflector& reflector = lit_.around.reflectors()[map.reflector].reflector;
     for (std::uint32_t y = band.first_row; y < band.first_row + band.rows && !edited_.empty(); ++y)
       for (std::uint32_t x = 0; x < map.width; ++x) {
         const CaptureRay ray = capture_ray(reflector, map, Vec2(x, y) + 0.5f);
@@ -79,8 +78,7 @@ class Checker {
     return square;
   }
 
-  const ReflectedSurroundings& surroundings_;
-  const OutgoingRadiance& outgoing_;
+  const LitSurroundings lit_;
   std::span<const Box> edited_;
   std::uint64_t seed_;
 };
@@ -124,12 +122,13 @@ std::vector<Vec3> darkest_of(std::span<const RadianceMap> maps, std::span<const 
 
 }  // namespace
 
-Status capture_edited_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                           const KnownReflections& known, std::span<const Box> edited, double error, Context& context,
-                           std::vector<RadianceMap>& maps, MapReuse& reuse, std::atomic<std::uint64_t>* rays) {
-  const std::vector<MapBand> all = make_bands(surroundings, maps);
-  const std::vector<std::uint32_t> before = numbers_before(surroundings, known);
-  UnitLoop old = capture_loop(surroundings, outgoing, all, maps);
+Result<MapReuse> capture_edited_maps(const LitSurroundings& lit, const Edit& edit, const Stage& stage,
+                                     std::vector<RadianceMap>& maps) {
+  const KnownReflections& known = edit.known;
+  Context& context = stage.context;
+  const std::vector<MapBand> all = make_bands(lit.around, maps);
+  const std::vector<std::uint32_t> before = numbers_before(lit.around, known);
+  UnitLoop old = capture_loop(lit, all, maps);
   old.inputs = [&](std::size_t i, Archive& key) {
     const RadianceMap& map = maps[all[i].map];
     key(frame_under(map, before[map.reflector]), all[i].first_row, all[i].rows);
@@ -141,14 +140,14 @@ Status capture_edited_maps(const ReflectedSurroundings& surroundings, const Outg
   std::vector<MapBand> there, left;
   for (std::size_t i = 0; i < all.size(); ++i) (is_there[i] ? there : left).push_back(all[i]);
 
-  const Checker checker(surroundings, outgoing, edited, context.seed);
+  const Checker checker(lit, edit.boxes, context.seed);
   const std::vector<Vec3> darkest = darkest_of(maps, there);
   std::vector<BandCheck> checks(there.size());
   UnitLoop check{.stage = "known radiance", .count = there.size(), .rays = kRaysABand};
   check.inputs = [&](std::size_t i, Archive& key) {
     const MapBand& band = there[i];
     key(frame_of(maps[band.map]), band.first_row, band.rows, known.inputs, darkest[band.map]);
-    for (const Box& box : edited) key(box.lower, box.upper);
+    for (const Box& box : edit.boxes) key(box.lower, box.upper);
   };
   check.compute = [&](std::size_t i) {
     std::uint64_t traced = 0;
@@ -156,13 +155,14 @@ Status capture_edited_maps(const ReflectedSurroundings& surroundings, const Outg
     return traced;
   };
   check.results = [&](std::size_t i, Archive& archive) { archive(checks[i]); };
-  ORIEL_TRY_VOID(parallel_units(context, check, rays));
+  ORIEL_TRY_VOID(parallel_units(stage, check));
 
+  MapReuse reuse{.asked = edit.error, .bands = static_cast<std::uint32_t>(all.size())};
   double kept_square = 0, pixels = 0;
   for (const MapBand& band : all) pixels += double{1.0f * band.rows} * maps[band.map].width;
   for (std::size_t i = 0; i < there.size(); ++i) {
     const BandCheck& found = checks[i];
-    if (found.met || found.square > error * error * found.samples) {
+    if (found.met || found.square > edit.error * edit.error * found.samples) {
       left.push_back(there[i]);
       continue;
     }
@@ -170,10 +170,9 @@ Status capture_edited_maps(const ReflectedSurroundings& surroundings, const Outg
     const double share = double{1.0f * there[i].rows} * maps[there[i].map].width / pixels;
     kept_square += found.samples > 0 ? share * found.square / found.samples : 0;
   }
-  reuse.asked = error;
-  reuse.bands = static_cast<std::uint32_t>(all.size());
   reuse.error = std::sqrt(kept_square);
-  return parallel_units(context, capture_loop(surroundings, outgoing, left, maps), rays);
+  ORIEL_TRY_VOID(parallel_units(stage, capture_loop(lit, left, maps)));
+  return reuse;
 }
 
 }  // namespace oriel

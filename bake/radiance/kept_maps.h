@@ -13,13 +13,19 @@ struct MapReuse {
   double error = 0;                   // that this brings: rms over the pixels of all maps, relative
 };
 
-// capture_maps(), but for bands of maps of `known` (same reflector, eye, window and size) whose pixels the store still
-// has. Such a band stays where no pixel's ray meets an edited box before it ends, and where one of sixteen pixels,
-// captured anew, differs by no more than `error`, root mean square, relative to the light there and 1 % of the map's
-// mean; a pixel that ends elsewhere counts as wholly different. What is behind further mirrors or lobes is told by
-// those pixels alone. The same for any number of threads. Error kStopped.
-Status capture_edited_maps(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                           const KnownReflections& known, std::span<const Box> edited, double error, Context& context,
-                           std::vector<RadianceMap>& maps, MapReuse& reuse, std::atomic<std::uint64_t>* rays);
+// What the bake before knew, what was edited since, and the error that keeping some of it may bring (relative rms).
+struct Edit {
+  const KnownReflections& known;
+  std::vector<Box> boxes;
+  double error = 0;
+};
+
+// capture_maps(), but for bands of known maps (same reflector, eye, window and size) whose pixels the store still has.
+// Such a band stays where no pixel's ray meets an edited box before it ends, and where one of sixteen pixels, captured
+// anew, differs by no more than the error, root mean square, relative to the light there and 1 % of the map's mean; a
+// pixel that ends elsewhere counts as wholly different. What is behind further mirrors or lobes is told by those pixels
+// alone. The same for any number of threads. Error kStopped.
+Result<MapReuse> capture_edited_maps(const LitSurroundings& lit, const Edit& edit, const Stage& stage,
+                                     std::vector<RadianceMap>& maps);
 
 }  // namespace oriel

@@ -70,14 +70,12 @@ std::optional<Host> camera_host(std::span<const RadianceMap> maps, std::span<con
 
 class ResidualCapture {
  public:
-  ResidualCapture(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                  std::span<const RadianceMap> others, RadianceMap& map, std::atomic<std::uint64_t>* rays)
-      : surroundings_(surroundings),
-        reflector_(surroundings.reflectors()[map.reflector].reflector),
-        outgoing_(outgoing),
+  ResidualCapture(const LitSurroundings& lit, std::span<const RadianceMap> others, const Stage& stage, RadianceMap& map)
+      : lit_(lit),
+        reflector_(lit.around.reflectors()[map.reflector].reflector),
         others_(others),
         map_(map),
-        rays_(rays) {}
+        stage_(stage) {}
 
   // The samples by pixel: each pixel's own first, then those of neighbours, ring by ring.
   std::vector<const ReflectedSample*> aims(std::span<const ReflectedSample> missing, std::uint32_t spread) const {
@@ -108,8 +106,8 @@ class ResidualCapture {
     Vec3 from = pack_from_reflector(reflector_, q);
     float passed = 0;
     for (int hidden = 0; hidden < kMaxHidden && passed < expected * (1 + kSameSurface); ++hidden) {
-      const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
-      if (rays_) *rays_ += seen.rays;
+      const SeenLight seen = see(lit_, map_.reflector, from, direction);
+      stage_.count(seen.rays);
       if (sky && seen.sight.state == Sight::kSky) {
         ReflectedSample found = aim;
         found.on_plane = q;
@@ -142,8 +140,8 @@ class ResidualCapture {
     const Vec3 along = glm::normalize(q - map_.eye);
     const Vec3 from = pack_from_reflector(reflector_, q);
     const Vec3 direction = glm::normalize(Mat3(reflector_.pack_from_reflector) * along);
-    const Sight sight = surroundings_.look(map_.reflector, from, direction, [](const SeenSurface&) { return false; });
-    if (rays_) *rays_ += sight.rays;
+    const Sight sight = lit_.around.look(map_.reflector, from, direction, [](const SeenSurface&) { return false; });
+    stage_.count(sight.rays);
     if (sight.state == Sight::kNothing) return;
     const bool sky = sight.state == Sight::kSky;
     ReflectedSample found;
@@ -153,8 +151,8 @@ class ResidualCapture {
     found.spacing = 1;
     found.sky = sky || sight.backdrop;
     if (is_shown(found)) return;
-    const SeenLight seen = see(surroundings_, outgoing_, map_.reflector, from, direction);
-    if (rays_) *rays_ += seen.rays;
+    const SeenLight seen = see(lit_, map_.reflector, from, direction);
+    stage_.count(seen.rays);
     map_.radiance[at] = seen.radiance;
     map_.disparity[at] = sky ? 0 : disparity_of(map_, found.image.z);
     map_.valid[at] = static_cast<std::uint8_t>(sight.state);
@@ -163,15 +161,14 @@ class ResidualCapture {
  private:
   bool is_shown(const ReflectedSample& found) const {
     return std::any_of(others_.begin(), others_.end(),
-                       [&](const RadianceMap& map) { return shows(surroundings_, map, found); });
+                       [&](const RadianceMap& map) { return shows(lit_.around, map, found); });
   }
 
-  const ReflectedSurroundings& surroundings_;
+  const LitSurroundings lit_;
   const Reflector& reflector_;
-  const OutgoingRadiance& outgoing_;
   std::span<const RadianceMap> others_;
   RadianceMap& map_;
-  std::atomic<std::uint64_t>* rays_;
+  const Stage stage_;
 };
 
 // The longer side of a map of the element that takes no more than those bytes, halved from `wanted` until it does; 0:
@@ -182,17 +179,39 @@ std::uint32_t fitting_resolution(const Element& element, std::uint32_t wanted, s
   return 0;
 }
 
+struct Residual {
+  std::vector<RadianceMap> maps;
+  std::uint32_t reduced = 0;  // had to be smaller or left out
+  std::uint64_t rays = 0;
+};
+
 class ResidualMaker {
  public:
-  ResidualMaker(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing, std::span<const Vec3> eyes,
-                const ResidualOptions& options, Context& context, std::atomic<std::uint64_t>* rays)
-      : surroundings_(surroundings),
-        outgoing_(outgoing),
-        eyes_(eyes),
-        options_(options),
-        context_(context),
-        rays_(rays) {}
+  ResidualMaker(const LitSurroundings& lit, const ResidualOptions& options, Context& context)
+      : lit_(lit), options_(options), context_(context) {}
 
+  // Of one reflector, as a unit of work.
+  Result<Residual> find_or_make(std::uint32_t reflector, std::span<const RadianceMap> maps, std::uint64_t bytes) {
+    Residual made;
+    const auto inputs = [&](Archive& key) {
+      // More memory than the largest map takes changes nothing.
+      key(reflector, options_.eyes, std::min(bytes, map_bytes(options_.max_resolution, options_.max_resolution)),
+          options_.samples, options_.spread, options_.max_resolution, options_.least_missing, options_.cameras,
+          options_.most_missing, options_.camera_samples);
+      for (const RadianceMap& map : maps) key(frame_of(map));
+    };
+    const auto compute = [&]() -> Status {
+      rays_ = reduced_ = 0;
+      ORIEL_TRY(made.maps, make(reflector, maps, bytes));
+      made.reduced = reduced_, made.rays = rays_;
+      return {};
+    };
+    ORIEL_TRY_VOID(one_unit(context_, "residual", inputs, compute,
+                            [&](Archive& archive) { archive(made.maps, made.reduced, made.rays); }));
+    return made;
+  }
+
+ private:
   // What is missing in the reflector's maps, in no more than `bytes`; none where that is little. Counts what it had to
   // make smaller or leave out.
   Result<std::vector<RadianceMap>> make(std::uint32_t reflector, std::span<const RadianceMap> own,
@@ -220,16 +239,13 @@ class ResidualMaker {
     return made;
   }
 
-  std::uint32_t reduced = 0;
-
- private:
   // Of samples that no map shows; without any, of all from there that none does.
   Result<std::optional<RadianceMap>> map_of(std::uint32_t reflector, std::span<const RadianceMap> maps,
                                             const Host& host, std::span<const ReflectedSample> missing,
                                             std::uint64_t bytes) {
     const std::uint32_t wanted = std::min(options_.max_resolution, host.resolution);
     const std::uint32_t resolution = fitting_resolution(host.element, wanted, bytes);
-    reduced += resolution < wanted;
+    reduced_ += resolution < wanted;
     if (resolution == 0) return std::nullopt;
     RadianceMap map = blank_map(reflector, host.eye, host.element, resolution);
     map.has_emission = host.has_emission;
@@ -238,7 +254,7 @@ class ResidualMaker {
     map.radiance.assign(pixels, Vec3(0));
     map.disparity.assign(pixels, 0);
     map.valid.assign(pixels, 0);
-    ResidualCapture capture(surroundings_, outgoing_, maps, map, rays_);
+    ResidualCapture capture(lit_, maps, {context_, &rays_}, map);
     const auto aims = capture.aims(missing, options_.spread);
     ORIEL_TRY_VOID(parallel_for(context_, "", pixels, [&](std::size_t i) {
       if (missing.empty())
@@ -254,7 +270,7 @@ class ResidualMaker {
   Result<std::vector<std::vector<ReflectedSample>>> see_by_camera(std::uint32_t reflector) {
     std::vector<std::vector<ReflectedSample>> seen;
     for (const Vec3& camera : options_.cameras) {
-      ORIEL_TRY(auto samples, sample_reflections(surroundings_, reflector, {&camera, 1}, options_.camera_samples,
+      ORIEL_TRY(auto samples, sample_reflections(lit_.around, reflector, {&camera, 1}, options_.camera_samples,
                                                  context_.seed + 3, context_));
       float total = 0;
       for (const ReflectedSample& s : samples) total += s.weight;
@@ -277,7 +293,7 @@ class ResidualMaker {
       std::vector<std::uint8_t> unseen(samples.size());
       ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
         unseen[i] = std::none_of(maps.begin(), maps.end(),
-                                 [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
+                                 [&](const RadianceMap& map) { return shows(lit_.around, map, samples[i]); });
       }));
       std::size_t i = 0;
       std::erase_if(samples, [&](const ReflectedSample&) { return unseen[i++] == 0; });
@@ -291,11 +307,11 @@ class ResidualMaker {
   // Samples of surfaces and the sky that no map sees; none where they are not worth a map.
   Result<std::vector<ReflectedSample>> find_missing(std::uint32_t reflector, std::span<const RadianceMap> maps) {
     ORIEL_TRY(const auto samples,
-              sample_reflections(surroundings_, reflector, eyes_, options_.samples, context_.seed + 2, context_));
+              sample_reflections(lit_.around, reflector, options_.eyes, options_.samples, context_.seed + 2, context_));
     std::vector<std::uint8_t> is_missing(samples.size());
     ORIEL_TRY_VOID(parallel_for(context_, "", samples.size(), [&](std::size_t i) {
       is_missing[i] = std::none_of(maps.begin(), maps.end(),
-                                   [&](const RadianceMap& map) { return shows(surroundings_, map, samples[i]); });
+                                   [&](const RadianceMap& map) { return shows(lit_.around, map, samples[i]); });
     }));
     std::vector<ReflectedSample> missing;
     double total = 0, lost = 0;
@@ -307,12 +323,11 @@ class ResidualMaker {
     return missing;
   }
 
-  const ReflectedSurroundings& surroundings_;
-  const OutgoingRadiance& outgoing_;
-  std::span<const Vec3> eyes_;
+  const LitSurroundings lit_;
   const ResidualOptions& options_;
   Context& context_;
-  std::atomic<std::uint64_t>* rays_;
+  std::uint32_t reduced_ = 0;
+  std::atomic<std::uint64_t> rays_{0};
 };
 
 // The reflector's maps with the residuals behind those of their elements.
@@ -327,42 +342,11 @@ void append_with_residuals(std::span<RadianceMap> maps, std::vector<RadianceMap>
   }
 }
 
-struct Residual {
-  std::vector<RadianceMap> maps;
-  std::uint32_t reduced = 0;  // had to be smaller or left out
-  std::uint64_t rays = 0;
-};
-
-// Of one reflector, as a unit of work.
-Result<Residual> residual_of(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                             std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
-                             std::uint32_t reflector, std::span<const RadianceMap> maps, std::uint64_t bytes) {
-  Residual made;
-  const auto inputs = [&](Archive& key) {
-    // More memory than the largest map takes changes nothing.
-    key(reflector, eyes, std::min(bytes, map_bytes(options.max_resolution, options.max_resolution)), options.samples,
-        options.spread, options.max_resolution, options.least_missing, options.cameras, options.most_missing,
-        options.camera_samples);
-    for (const RadianceMap& map : maps) key(frame_of(map));
-  };
-  const auto compute = [&]() -> Status {
-    std::atomic<std::uint64_t> rays{0};
-    ResidualMaker maker(surroundings, outgoing, eyes, options, context, &rays);
-    ORIEL_TRY(made.maps, maker.make(reflector, maps, bytes));
-    made.reduced = maker.reduced;
-    made.rays = rays;
-    return {};
-  };
-  ORIEL_TRY_VOID(one_unit(context, "residual", inputs, compute,
-                          [&](Archive& archive) { archive(made.maps, made.reduced, made.rays); }));
-  return made;
-}
-
 }  // namespace
 
-Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
-                     std::vector<FoundReflector>& reflectors, ViewPlan& plan, std::atomic<std::uint64_t>* rays) {
+Status add_residuals(const LitSurroundings& lit, const ResidualOptions& options, const Stage& stage,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan) {
+  ResidualMaker maker(lit, options, stage.context);
   std::uint64_t used = 0;
   std::uint32_t reduced = 0;
   for (const RadianceMap& map : plan.maps) used += map_bytes(map.width, map.height);
@@ -375,10 +359,10 @@ Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRa
       continue;
     }
     const std::uint64_t left = options.memory_bytes - std::min(options.memory_bytes, used);
-    ORIEL_TRY(Residual made, residual_of(surroundings, outgoing, eyes, options, context, r, own, left));
+    ORIEL_TRY(Residual made, maker.find_or_make(r, own, left));
     for (const RadianceMap& map : made.maps) used += map_bytes(map.width, map.height);
     reduced += made.reduced;
-    if (rays) *rays += made.rays;
+    stage.count(made.rays);
     residuals.push_back(std::move(made));
   }
   if (reduced > 0)

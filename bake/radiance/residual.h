@@ -12,6 +12,7 @@ struct ResidualOptions {
   double least_missing = 2e-4;                     // share of their weight that is worth a residual
   std::uint32_t max_resolution = 512;              // of its longer side
   std::uint32_t spread = 4;                        // pixels around a missing sample that are looked at too
+  std::span<const Vec3> eyes{};                    // scene space: who misses what
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // of all maps, kMapBytesPerPixel each
   // Eyes, scene space, none of which may miss more than this share of what it sees in a reflector; found by so many
   // samples for each of them.
@@ -20,16 +21,14 @@ struct ResidualOptions {
   std::uint32_t camera_samples = 2048;
 };
 
-// Adds residual maps to each reflector whose maps (captured) miss some of what eyes (scene space) see in it, valid only
+// Adds residual maps to each reflector whose maps (captured) miss some of what eyes see in it, valid only
 // where they hold it. One for what eyes miss on the mean, with the eye and element of that map of its from which most
 // of the missing is in line; then one for each camera that misses too much, the worst first, from its own mirror image,
 // until none does or an element has as many maps as the player asks. They are put behind that
 // element's other maps, and the reflectors' maps are numbered anew. Where memory_bytes does not suffice, those of the
-// least important reflectors are made smaller or left out, as plan.omitted says. Adds to `rays` (may be null). The same
-// for any number of threads. Error kStopped.
-Status add_residuals(const ReflectedSurroundings& surroundings, const OutgoingRadiance& outgoing,
-                     std::span<const Vec3> eyes, const ResidualOptions& options, Context& context,
-                     std::vector<FoundReflector>& reflectors, ViewPlan& plan,
-                     std::atomic<std::uint64_t>* rays = nullptr);
+// least important reflectors are made smaller or left out, as plan.omitted says. The same for any number of threads.
+// Error kStopped.
+Status add_residuals(const LitSurroundings& lit, const ResidualOptions& options, const Stage& stage,
+                     std::vector<FoundReflector>& reflectors, ViewPlan& plan);
 
 }  // namespace oriel

@@ -127,7 +127,7 @@ class SurroundCapture {
 }  // namespace
 
 Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, const OutgoingRadiance& outgoing,
-                            Context& context, std::atomic<std::uint64_t>* rays) {
+                            const Stage& stage) {
   std::vector<UVec2> rows;  // map, row
   for (std::uint32_t i = 0; i < found.maps.size(); ++i) {
     SurroundMap& map = found.maps[i];
@@ -164,7 +164,7 @@ Status capture_surroundings(const Accel& accel, FoundCurvedReflectors& found, co
     archive(std::span(map.radiance).subspan(first, map.size), std::span(map.inverse_distance).subspan(first, map.size),
             std::span(map.valid).subspan(first, map.size));
   };
-  return parallel_units(context, loop, rays);
+  return parallel_units(stage, loop);
 }
 
 }  // namespace oriel

@@ -122,7 +122,7 @@ class Verifier {
       return traced;
     };
     loop.results = [&](std::size_t k, Archive& archive) { archive(batch[k].estimates, batch[k].paths); };
-    return parallel_units(context_, loop, &rays_);
+    return parallel_units({context_, &rays_}, loop);
   }
 
   // which: one of the estimates, or kEstimates for the foretelling.

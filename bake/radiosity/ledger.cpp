@@ -104,18 +104,15 @@ Result<Ledger> keep_ledger(const Transport& transport, const Atlas& atlas, std::
   std::atomic<std::uint64_t> rays{0};
   for (const SourceKind kind : sources.kinds()) {
     const std::uint64_t stream = mix64(0x1ed6e4 + static_cast<std::uint64_t>(kind));
-    ORIEL_TRY_VOID(parallel_for(
-        context, "ledger", fates.size() / kRun,
-        [&](std::size_t run) {
-          std::uint64_t traced = 0;
-          for (std::size_t i = run * kRun; i < (run + 1) * kRun; ++i) {
-            Sampler sampler(context.seed, stream, static_cast<std::uint32_t>(i));
-            const Particle particle = sources.emit(kind, sampler);
-            fates[i] = follow(transport, atlas, particle, sampler, traced);
-          }
-          rays += traced;
-        },
-        &rays));
+    ORIEL_TRY_VOID(parallel_for({context, &rays}, "ledger", fates.size() / kRun, [&](std::size_t run) {
+      std::uint64_t traced = 0;
+      for (std::size_t i = run * kRun; i < (run + 1) * kRun; ++i) {
+        Sampler sampler(context.seed, stream, static_cast<std::uint32_t>(i));
+        const Particle particle = sources.emit(kind, sampler);
+        fates[i] = follow(transport, atlas, particle, sampler, traced);
+      }
+      rays += traced;
+    }));
     add_kind(kind, fates, ledger.lamps_lm, ledger);
     ledger.particles += fates.size();
   }

@@ -198,7 +198,7 @@ Result<FoundSides> find_lit_sides(const Transport& transport, std::span<const Ve
     return traced;
   };
   loop.results = [&](std::size_t i, Archive& archive) { archive(of_part[i]); };
-  if (const Status judged = parallel_units(context, loop, &rays); !judged && context.stop)
+  if (const Status judged = parallel_units({context, &rays}, loop); !judged && context.stop)
     return tl::unexpected(judged.error());
   FoundSides found;
   found.sides.assign(transport.accel.scene().triangles.size(), LitSides::kFront);

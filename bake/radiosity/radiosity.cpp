@@ -87,7 +87,7 @@ std::vector<std::vector<bool>> cells_at(const Seams& seams, std::span<const Ligh
 }
 
 Status stitch_lightmap(const RadiosityTask& task, Radiosity& light) {
-  ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.context, task.quick_rays));
+  ORIEL_TRY(const Seams seams, find_seams(task.transport, task.atlas, light.pages, task.quick));
   if (seams.points.empty()) return {};
   const auto power = [&] { return luminance(Vec3(incident_power(task, light))); };
   const double before = power(), error = task.options.error;
@@ -129,7 +129,7 @@ class DarkEstimator : public LightEstimator {
 
 Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task) {
   if (is_dark(task.transport)) {
-    ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays));
+    ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.quick));
     return std::make_unique<DarkEstimator>(std::move(texels));
   }
   if (task.options.estimator == Estimator::kCached) return make_cached_estimator(task);
@@ -224,7 +224,7 @@ Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const Fra
   const double goal = options.error > 0 ? options.error : light.report.relative_error;
   auto c = certify(task.transport, task.atlas, task.map, light.pages, held_out, what, goal, at_most, task.context,
                    options.eyes);
-  if (c) task.rays += c->rays;
+  if (c) task.paths.count(c->rays);
   return c;
 }
 
@@ -305,7 +305,8 @@ Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
   context.foretell("first light", 0);
   ORIEL_TRY(const std::vector<FramePixel> pixels,
             pixels_of(transport, atlas, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
-  const RadiosityTask task{transport, atlas, texel_map, pixels, options, context, rays, quick_rays};
+  const RadiosityTask task{transport, atlas,   texel_map,        pixels,
+                           options,   context, {context, &rays}, {context, &quick_rays}};
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
   Radiosity light;
   Goal goal{.error = options.error};

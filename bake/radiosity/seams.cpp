@@ -263,14 +263,14 @@ class SeamFinder {
 }  // namespace
 
 Result<Seams> find_seams(const Transport& transport, const Atlas& atlas, std::span<const LightmapPage> pages,
-                         Context& context, std::atomic<std::uint64_t>& rays) {
-  const SeamFinder finder(transport, atlas, pages, context.seed);
+                         const Stage& stage) {
+  const SeamFinder finder(transport, atlas, pages, stage.context.seed);
   const std::size_t count = finder.edge_count(), runs = (count + kRun - 1) / kRun;
   std::vector<Seams> found(runs);
-  ORIEL_TRY_VOID(parallel_for(context, "seams", runs, [&](std::size_t run) {
+  ORIEL_TRY_VOID(parallel_for(stage, "seams", runs, [&](std::size_t run) {
     std::uint64_t traced = 0;
     found[run] = finder.find(run * kRun, std::min(count, (run + 1) * kRun), traced);
-    rays += traced;
+    stage.count(traced);
   }));
   Seams seams;
   for (const Seams& part : found) {

@@ -1,8 +1,6 @@
 // Where a surface goes on across charts, pages and objects, so that its light is continuous there.
 #pragma once
 
-#include <atomic>
-
 #include "bake/atlas/texel_map.h"
 #include "bake/trace/path.h"
 #include "formats/assets/lightmap.h"
@@ -29,6 +27,6 @@ struct Seams {
 //   free: a wall standing on the seam parts the light of two rooms.
 // Adds to rays. Stage name "seams"; error kStopped.
 Result<Seams> find_seams(const Transport& transport, const Atlas& atlas, std::span<const LightmapPage> pages,
-                         Context& context, std::atomic<std::uint64_t>& rays);
+                         const Stage& stage);
 
 }  // namespace oriel

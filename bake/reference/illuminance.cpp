@@ -48,7 +48,7 @@ Result<std::vector<PointIlluminance>> illuminance_at(const Transport& transport,
       meter.grow(p, r, rays);
       total_rays += rays;
     };
-    ORIEL_TRY_VOID(parallel_for(context, stage, active.size() * kReplicates, body, &total_rays));
+    ORIEL_TRY_VOID(parallel_for({context, &total_rays}, stage, active.size() * kReplicates, body));
     if (context.stopped()) return fail(ErrorCode::kStopped, stage, "stopped");
     for (const std::size_t p : active) {
       results[p] = meter.summarize(p);

@@ -142,7 +142,7 @@ Result<ReferenceFrame> render_reference(const Transport& transport, const Camera
                            {context.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), i}, rays));
       total_rays += rays;
     };
-    return parallel_for(context, "reference", height, row, &total_rays);
+    return parallel_for({context, &total_rays}, "reference", height, row);
   };
   const std::uint32_t most = std::max(options.samples, 1u);
   std::uint32_t done = 0;

@@ -33,7 +33,7 @@ Status time_capture(const BakeOptions& options, const BakedScene& dark, Context&
   const ElapsedTime clock;
   {
     const Trial trial(context);
-    ORIEL_TRY_VOID(capture_maps(surroundings, with_lobes_of(is_curved, outgoing), context, maps, nullptr));
+    ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, outgoing)}, context, maps));
   }
   const double planar_s = clock.spent() * planned.planar_pixels() / std::max(pixels, 1.0);
   ORIEL_TRY(const SurroundCost surround, surround_cost(dark, all, paths, context));
@@ -56,7 +56,7 @@ Result<SurroundCost> surround_cost(const BakedScene& baked, const FoundReflectio
   std::atomic<std::uint64_t> rays{0};
   const Trial trial(context);
   const ElapsedTime clock;
-  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, outgoing), {context, &rays}));
   const double times = texels / tried;
   return SurroundCost{times * clock.spent(), times * static_cast<double>(rays)};
 }

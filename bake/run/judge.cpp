@@ -57,19 +57,18 @@ struct Judged {
 
 }  // namespace
 
-Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+Result<ReflectedError> judge_light(const LitSurroundings& lit, std::uint32_t reflector,
                                    std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
-                                   const OutgoingRadiance& outgoing, Context& context,
-                                   std::atomic<std::uint64_t>& rays) {
-  const Reflector& r = surroundings.reflectors()[reflector].reflector;
+                                   const Stage& stage) {
+  const Reflector& r = lit.around.reflectors()[reflector].reflector;
   std::vector<Judged> judged(samples.size());
-  ORIEL_TRY_VOID(parallel_for(context, "", samples.size(), [&](std::size_t i) {
+  ORIEL_TRY_VOID(parallel_for(stage, "", samples.size(), [&](std::size_t i) {
     const ReflectedSample& s = samples[i];
     const Vec3 along = glm::normalize(s.on_plane - Vec3(s.eye.x, s.eye.y, -s.eye.z));
-    const SeenLight seen = see(surroundings, outgoing, reflector, pack_from_reflector(r, s.on_plane),
-                               glm::normalize(Mat3(r.pack_from_reflector) * along));
-    rays += seen.rays;
-    judged[i] = {seen.radiance, shown(surroundings, maps, s)};
+    const SeenLight seen =
+        see(lit, reflector, pack_from_reflector(r, s.on_plane), glm::normalize(Mat3(r.pack_from_reflector) * along));
+    stage.count(seen.rays);
+    judged[i] = {seen.radiance, shown(lit.around, maps, s)};
   }));
   ReflectedError e;
   DVec3 mean(0);

@@ -16,12 +16,11 @@ struct ReflectedError {
 };
 
 // Compares the maps of one reflector (captured; of Reflector::first_map on) with light traced for the samples (of
-// sample_reflections), bilinear in the map that shows each sharpest. Adds to `rays`. The same for any number of
-// threads. Error kStopped.
-Result<ReflectedError> judge_light(const ReflectedSurroundings& surroundings, std::uint32_t reflector,
+// sample_reflections), bilinear in the map that shows each sharpest. The same for any number of threads. Error
+// kStopped.
+Result<ReflectedError> judge_light(const LitSurroundings& lit, std::uint32_t reflector,
                                    std::span<const RadianceMap> maps, std::span<const ReflectedSample> samples,
-                                   const OutgoingRadiance& outgoing, Context& context,
-                                   std::atomic<std::uint64_t>& rays);
+                                   const Stage& stage);
 
 // Samples that were left out, and where to look for the cause.
 void tell_dropped(const Accel& accel, std::vector<std::string>& findings);

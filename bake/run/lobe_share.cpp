@@ -51,7 +51,7 @@ Result<LobeShares> lobe_shares(const BakedScene& baked, const ReflectedSurroundi
   const std::vector<bool> is_curved = curved_triangles(scene, all), is_shiny = shiny_triangles(scene, all);
   const Trial trial(context);
   LobeShares shares;
-  ORIEL_TRY_VOID(capture_maps(surroundings, with_lobes_of(is_curved, count), context, few, nullptr));
+  ORIEL_TRY_VOID(capture_maps({surroundings, with_lobes_of(is_curved, count)}, context, few));
   shares.planar = share_of(pixels);
   ORIEL_TRY_VOID(capture_surroundings(baked.accel, curved, with_lobes_of(is_shiny, count), context));
   shares.surround = share_of(texels);

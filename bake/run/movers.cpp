@@ -91,7 +91,7 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
   for (const TakenMover& t : taken) {
     ORIEL_TRY(const Accel accel, Accel::build(t.scene, {options.reproducible, context.threads}));
     const StageInputs inputs(context, SurfacesOf{t.scene}, options.transfer);
-    ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options.transfer, context, &counted));
+    ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options.transfer, {context, &counted}));
     Mover mover;
     mover.name = t.mover.name;
     mover.rest = t.mover.rest;
@@ -131,7 +131,7 @@ Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std
   const FieldBox box = field_box(scene, pack.walk_grids, taken);
   const StageInputs inputs(context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY(pack.light_field, bake_probes(baked.accel, baked.lights, box, radiance, probes, context, &counted));
+  ORIEL_TRY(pack.light_field, bake_probes(baked.accel, baked.lights, box, radiance, probes, {context, &counted}));
   rays += counted;
   return {};
 }

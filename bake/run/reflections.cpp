@@ -99,11 +99,15 @@ std::vector<ScenePart> parts_of(const Scene& scene) {
 }
 
 // The maps' pixels, those of the bake before where that is allowed; leaves what the next one may ask for.
-Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& surroundings,
-                       const OutgoingRadiance& outgoing, PlannedReflections& planned, Context& context, MapReuse& reuse,
-                       std::atomic<std::uint64_t>& rays) {
-  const Scene& scene = surroundings.accel().scene();
-  if (!context.units) return capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays);
+Result<MapReuse> capture_or_keep(const BakeOptions& options, const LitSurroundings& lit, const Stage& stage,
+                                 PlannedReflections& planned) {
+  const Scene& scene = lit.around.accel().scene();
+  Context& context = stage.context;
+  MapReuse reuse;
+  if (!context.units) {
+    ORIEL_TRY_VOID(capture_maps(lit, stage, planned.plan.maps));
+    return reuse;
+  }
   const SkyImage& sky = scene.sky_image;
   KnownReflections now{
       .parts = parts_of(scene),
@@ -111,21 +115,20 @@ Status capture_or_keep(const BakeOptions& options, const ReflectedSurroundings& 
       .captured = {},
       .inputs = context.inputs,
       .around = hash_of(scene.lower, scene.upper, scene.sky, sky.width, sky.height, sky.texels, sky.rotation_rad)};
-  for (const FoundReflector& found : surroundings.reflectors()) now.captured.push_back(identity_of(scene, found));
+  for (const FoundReflector& found : lit.around.reflectors()) now.captured.push_back(identity_of(scene, found));
   const double error = options.radiosity.reuse_error;
   if (planned.known && planned.known->around == now.around) {
-    const std::vector<Box> edited = edited_boxes(planned.known->parts, now.parts);
-    ORIEL_TRY_VOID(capture_edited_maps(surroundings, outgoing, *planned.known, edited, error, context,
-                                       planned.plan.maps, reuse, &rays));
+    const Edit edit{*planned.known, edited_boxes(planned.known->parts, now.parts), error};
+    ORIEL_TRY(reuse, capture_edited_maps(lit, edit, stage, planned.plan.maps));
   } else {
-    ORIEL_TRY_VOID(capture_maps(surroundings, outgoing, context, planned.plan.maps, &rays));
+    ORIEL_TRY_VOID(capture_maps(lit, stage, planned.plan.maps));
   }
   reuse.asked = error;
   reuse.views = planned.plan.kept;
   // What took pixels from elsewhere is not passed on: errors would add up from edit to edit.
   if (reuse.kept == 0 && reuse.views == 0 && !planned.light_reused)
     remember_reflections(context, name_of_known(options, scene, context), std::move(now));
-  return {};
+  return reuse;
 }
 
 // Of eyes that are given those that are asked one by one: the first, which are cameras, and some of the others, which
@@ -144,9 +147,10 @@ struct Judges {
   std::vector<Vec3> eyes, cameras;
 };
 
-Status judge(const ReflectedSurroundings& surroundings, std::span<const RadianceMap> maps, const Judges& judges,
-             const OutgoingRadiance& outgoing, Context& context, std::atomic<std::uint64_t>& rays,
+Status judge(const LitSurroundings& lit, std::span<const RadianceMap> maps, const Judges& judges, const Stage& stage,
              ReflectionReport& report) {
+  const ReflectedSurroundings& surroundings = lit.around;
+  Context& context = stage.context;
   for (std::uint32_t r = 0; r < surroundings.reflectors().size(); ++r) {
     const Reflector& reflector = surroundings.reflectors()[r].reflector;
     const auto own = maps.subspan(reflector.first_map, reflector.map_count);
@@ -168,14 +172,14 @@ Status judge(const ReflectedSurroundings& surroundings, std::span<const Radiance
       q = judge_maps(surroundings, own, samples, context);
       std::atomic<std::uint64_t> judging{0};
       ORIEL_TRY(q.worst, worst_seen(surroundings, r, own, judges.cameras, context));
-      ORIEL_TRY(e, judge_light(surroundings, r, own, samples, outgoing, context, judging));
+      ORIEL_TRY(e, judge_light(lit, r, own, samples, {context, &judging}));
       traced = judging;
       return {};
     };
     ORIEL_TRY_VOID(one_unit(context, "quality", inputs, compute, [&](Archive& archive) {
       archive(q.seen, q.sharp, q.residual, q.worst, e.samples, e.seen, e.relative_error, e.seen_error, traced);
     }));
-    rays += traced;
+    stage.count(traced);
     report.quality.push_back(q);
     report.errors.push_back(e);
   }
@@ -321,15 +325,18 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());
   const StageInputs inputs(context, LitScene{baked}, reflectors, options.sight, found.unplanar, paths);
   std::atomic<std::uint64_t> rays{0};
-  ORIEL_TRY_VOID(capture_or_keep(options, surroundings, to_planar, planned, context, report.reuse, rays));
-  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), context, &rays));
+  const Stage stage{context, &rays};
+  const LitSurroundings lit{surroundings, to_planar};
+  ORIEL_TRY(report.reuse, capture_or_keep(options, lit, stage, planned));
+  ORIEL_TRY_VOID(capture_surroundings(accel, curved, with_lobes_of(is_shiny, outgoing), stage));
   const Judges judges{held_out_eyes(region, kHeldOutEyes, context.seed), cameras_of(region.points)};
   if (options.view_scheme == ViewScheme::kPlanned) {
-    const ResidualOptions residual{.memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
-    ORIEL_TRY_VOID(add_residuals(surroundings, to_planar, eyes, residual, context, reflectors, plan, &rays));
+    const ResidualOptions residual{
+        .eyes = eyes, .memory_bytes = options.planned.memory_bytes, .cameras = judges.cameras};
+    ORIEL_TRY_VOID(add_residuals(lit, residual, stage, reflectors, plan));
   }
   report.omissions.insert(report.omissions.begin(), plan.omitted.begin(), plan.omitted.end());
-  ORIEL_TRY_VOID(judge(surroundings, plan.maps, judges, to_planar, context, rays, report));
+  ORIEL_TRY_VOID(judge(lit, plan.maps, judges, stage, report));
   ORIEL_TRY(pack.map_meshes, mesh_maps(surroundings, plan.maps, {}, context));
   report.rays = rays;
   pack.radiance_maps = std::move(plan.maps);

@@ -21,13 +21,13 @@ using Lattice = std::array<std::uint32_t, 3>;  // a place in units of the finest
 class FieldBake {
  public:
   FieldBake(const Accel& accel, const LightSet& lights, const SurfaceRadiance& radiance, const ProbeOptions& options,
-            Context& context, std::atomic<std::uint64_t>* rays)
+            const Stage& stage)
       : bright_(accel, lights),
-        scene_{accel, lights, bright_, radiance, context.seed},
+        scene_{accel, lights, bright_, radiance, stage.context.seed},
         options_(options),
-        net_(mix64(context.seed), options.samples),
-        context_(context),
-        rays_(rays) {}
+        net_(mix64(stage.context.seed), options.samples),
+        context_(stage.context),
+        stage_(stage) {}
 
   Result<LightField> run(const FieldBox& box) {
     lay_grid(box);
@@ -120,7 +120,7 @@ class FieldBake {
     loop.results = [&](std::size_t i, Archive& archive) {
       archive(measured[i].probe, measured[i].squared_difference, measured[i].squared_sum);
     };
-    ORIEL_TRY_VOID(parallel_units(context_, loop, rays_));
+    ORIEL_TRY_VOID(parallel_units(stage_, loop));
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (measured[i].probe.valid) {
         squared_difference_ += measured[i].squared_difference;
@@ -220,7 +220,7 @@ class FieldBake {
   ProbeOptions options_;
   ShiftedNet net_;
   Context& context_;
-  std::atomic<std::uint64_t>* rays_;
+  const Stage stage_;
   LightField field_;
   std::map<Lattice, std::uint32_t> probe_at_;
   std::vector<Lattice> cell_place_;  // by cell
@@ -230,8 +230,7 @@ class FieldBake {
 }  // namespace
 
 Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const FieldBox& box,
-                               const SurfaceRadiance& radiance, const ProbeOptions& options, Context& context,
-                               std::atomic<std::uint64_t>* rays) {
+                               const SurfaceRadiance& radiance, const ProbeOptions& options, const Stage& stage) {
   if (options.bands < 2 || options.bands > 6)
     return fail(ErrorCode::kUsage, "light field", "found {} bands of spherical harmonics, expected 2 to 6",
                 options.bands);
@@ -245,7 +244,7 @@ Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const
   if (options.levels < 0 || options.levels > kMaxFieldLevels)
     return fail(ErrorCode::kUsage, "light field", "found {} levels of refinement, expected 0 to {}", options.levels,
                 kMaxFieldLevels);
-  return FieldBake(accel, lights, radiance, options, context, rays).run(box);
+  return FieldBake(accel, lights, radiance, options, stage).run(box);
 }
 
 }  // namespace oriel

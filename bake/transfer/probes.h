@@ -26,10 +26,9 @@ struct FieldBox {
 };
 
 // A field over `box`, which has a volume. Cells whose corners differ in their harmonics' first two bands are cut into
-// eight, those that differ most first. Harmonics are windowed where they would be negative somewhere. Adds to `rays`
-// (may be null). Errors: kStopped; kUsage for options out of range.
+// eight, those that differ most first. Harmonics are windowed where they would be negative somewhere. Errors: kStopped;
+// kUsage for options out of range.
 Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const FieldBox& box,
-                               const SurfaceRadiance& radiance, const ProbeOptions& options, Context& context,
-                               std::atomic<std::uint64_t>* rays = nullptr);
+                               const SurfaceRadiance& radiance, const ProbeOptions& options, const Stage& stage);
 
 }  // namespace oriel

@@ -81,8 +81,8 @@ Vec3 exit_albedo(const Scene& scene, const Hit& hit, const Vec3& direction) {
 
 class TransferBake {
  public:
-  TransferBake(const Accel& object, const TransferOptions& options, Context& context, std::atomic<std::uint64_t>* rays)
-      : object_(object), scene_(object.scene()), options_(options), context_(context), rays_(rays) {
+  TransferBake(const Accel& object, const TransferOptions& options, const Stage& stage)
+      : object_(object), scene_(object.scene()), options_(options), stage_(stage) {
     count_ = static_cast<std::size_t>(sh_count(options.bands));
     out_.bands = options.bands;
     out_.channels = options.shadowed && coloured() ? 3 : 1;
@@ -133,7 +133,7 @@ class TransferBake {
   // the last bounce, send. Either way only rays that meet the object count, so that the rest stays exact.
   Status pass(const char* stage, std::uint32_t samples, int bounce, const VertexTransfer* last) {
     samples = std::bit_floor(samples);
-    const ShiftedNet net(mix64(context_.seed + static_cast<std::uint64_t>(bounce)), samples);
+    const ShiftedNet net(mix64(stage_.context.seed + static_cast<std::uint64_t>(bounce)), samples);
     const std::size_t vertices = scene_.positions.size(), blocks = (vertices + kBlock - 1) / kBlock;
     std::vector<DVec2> errors(blocks);  // Σ squared differences of the halves, Σ squares
     const auto end = [&](std::size_t block) { return std::min(vertices, (block + 1) * kBlock); };
@@ -149,7 +149,7 @@ class TransferBake {
       const std::size_t first = block * kBlock * out_.stride(), count = (end(block) - block * kBlock) * out_.stride();
       archive(errors[block], std::span(out_.coefficients).subspan(first, count));
     };
-    ORIEL_TRY_VOID(parallel_units(context_, loop, rays_));
+    ORIEL_TRY_VOID(parallel_units(stage_, loop));
     DVec2 sum(0);
     for (const DVec2& e : errors) sum += e;
     if (!last) out_.standard_error = sum.y > 0 ? static_cast<float>(0.5 * std::sqrt(sum.x / sum.y)) : 0;
@@ -209,21 +209,19 @@ class TransferBake {
   const Accel& object_;
   const Scene& scene_;
   TransferOptions options_;
-  Context& context_;
-  std::atomic<std::uint64_t>* rays_;
+  const Stage stage_;
   std::size_t count_;
   VertexTransfer out_;
 };
 
 }  // namespace
 
-Result<VertexTransfer> bake_transfer(const Accel& object, const TransferOptions& options, Context& context,
-                                     std::atomic<std::uint64_t>* rays) {
+Result<VertexTransfer> bake_transfer(const Accel& object, const TransferOptions& options, const Stage& stage) {
   if (options.bands < 2 || options.bands > 6)
     return fail(ErrorCode::kUsage, "transfer", "found {} bands of spherical harmonics, expected 2 to 6", options.bands);
   if (options.bounces < 0 || options.bounces > 16)
     return fail(ErrorCode::kUsage, "transfer", "found {} bounces, expected 0 to 16", options.bounces);
-  return TransferBake(object, options, context, rays).run();
+  return TransferBake(object, options, stage).run();
 }
 
 float coarse_share(const Scene& object, const VertexTransfer& transfer, float step) {

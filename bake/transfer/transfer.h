@@ -35,10 +35,9 @@ struct VertexTransfer {
 
 // One row a vertex of object.scene(), which holds nothing but the object. A ray that leaves through a triangle at its
 // own vertex, or meets a one-sided surface from behind, is free: the mesh stands for a smooth surface there, so that
-// convex objects have exactly the unshadowed transfer. Surfaces that light passes shade by their transmittance. Adds to
-// `rays` (may be null). Errors: kStopped; kUsage for options out of range.
-Result<VertexTransfer> bake_transfer(const Accel& object, const TransferOptions& options, Context& context,
-                                     std::atomic<std::uint64_t>* rays = nullptr);
+// convex objects have exactly the unshadowed transfer. Surfaces that light passes shade by their transmittance. Errors:
+// kStopped; kUsage for options out of range.
+Result<VertexTransfer> bake_transfer(const Accel& object, const TransferOptions& options, const Stage& stage);
 
 // Vertices too far apart for what shades them: the share of the object's edges over which the transfer changes by more
 // than `step` of its mean length, area-weighted. Light between such vertices is interpolated across a shadow's edge.

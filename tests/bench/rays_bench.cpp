@@ -76,8 +76,8 @@ int bench(const char* file) {
   const LightSet lights(scene);
   const Transport transport{*accel, lights, {}};
   std::atomic<std::uint64_t> rays{0};
-  const auto texels = list_texels(transport, *atlas, *map, context, rays);
-  const auto graph = find_neighbours(transport, *texels, context, rays);
+  const auto texels = list_texels(transport, *atlas, *map, {context, &rays});
+  const auto graph = find_neighbours(transport, *texels, {context, &rays});
   std::vector<std::uint32_t> order;
   for (const std::uint32_t t : coherent_order(*texels))
     if (texels->visible[t] > 0) order.push_back(t);
@@ -91,7 +91,7 @@ int bench(const char* file) {
     HalfSums sums(texels->count(), false);
     rays = 0;
     const auto start = std::chrono::steady_clock::now();
-    if (!gather(*texels, sites, around, order, kPerHalf, cached, context, sums, rays)) return 4;
+    if (!FinalGather{sites, around, cached}.run(order, kPerHalf, {context, &rays}, sums)) return 4;
     const double seconds = seconds_since(start), count = static_cast<double>(order.size()) * 2 * kPerHalf * 1e-6;
     std::printf(
         "%s: %.1f Mray, one by one %.2f Mray/s, in the gather's order %.2f Mray/s (%.1f times), the gather %.2f Mray/s "

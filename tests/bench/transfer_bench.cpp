@@ -37,7 +37,7 @@ Status run(const char* file) {
   std::atomic<std::uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t used = std::clock();
-  ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options, context, &rays));
+  ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options, {context, &rays}));
   const double seconds = seconds_since(start);
   const double processor = static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC;
   std::printf(

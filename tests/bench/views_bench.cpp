@@ -73,7 +73,7 @@ Status run_scene(const std::string& path, const Settings& settings) {
   ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, training, settings.plan, context, reflectors));
   const double planned_s = seconds();
   const auto white = [](const SeenSurface&) { return Vec3(1); };
-  ORIEL_TRY_VOID(add_residuals(surroundings, white, training, {}, context, reflectors, plan));
+  ORIEL_TRY_VOID(add_residuals({surroundings, white}, {.eyes = training}, context, reflectors, plan));
   std::printf("\n%s: %zu storeys, walk %.2f s, planned in %.2f s\n", path.c_str(), region.grids.size(), walk_s,
               planned_s - walk_s);
   for (const std::string& line : plan.omitted) std::printf("%s\n", line.c_str());

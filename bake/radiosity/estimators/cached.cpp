@@ -39,8 +39,6 @@ class CachedEstimator : public LightEstimator {
       : task_(task),
         options_(task.options),
         context_(task.context),
-        rays_(task.rays),
-        quick_rays_(task.quick_rays),
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
         sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
@@ -89,7 +87,7 @@ class CachedEstimator : public LightEstimator {
  private:
   // Direct light, its bounces on coarse patches, and the first rays that gather these.
   Status begin(const Goal& goal) {
-    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, context_, rays_));
+    ORIEL_TRY(graph_, find_neighbours(around_.transport(), texels_, task_.paths));
     beside_ = with_chart_neighbours(graph_, texels_);
     shares_ = typical_errors(beside_, frames_.shares(), context_);
     little_seen_ = little_seen(order_, shares_, kLittleSeen * goal.error * goal.error);
@@ -104,7 +102,7 @@ class CachedEstimator : public LightEstimator {
     if (around_.groups() > 0)
       booked_ = direct_.booked, booked_.add(gathered_.beside_booked[0], 0.5f),
       booked_.add(gathered_.beside_booked[1], 0.5f), how.booked = &booked_;
-    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, context_, rays_));
+    ORIEL_TRY(sweeps_, sweep(texels_, graph_, around_, irradiance_, how, task_.paths));
     for (std::size_t i = 0; i < sweeps_.gathered.size(); ++i)
       irradiance_[i] += sweeps_.gathered[i], coarse_[i] += sweeps_.gathered[i];
     cached_ = cache_light(texels_, graph_, irradiance_, context_);
@@ -112,15 +110,15 @@ class CachedEstimator : public LightEstimator {
     bright_ = BrightTexels(around_, {texels_, sites_, cached_, sweeps_.gathered, shares_}, context_.seed);
     if (!bright_.empty()) cached_.bright = &bright_;
     take_known();
-    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, context_, rays_); }));
+    ORIEL_TRY_VOID(refine([&] { return learn_survival(texels_, around_, order_, cached_, task_.paths); }));
     ORIEL_TRY_VOID(first_gather());
-    first_work_ = task_.work(), first_rays_ = rays_ + quick_rays_;
+    first_work_ = task_.work(), first_rays_ = task_.paths.traced() + task_.quick.traced();
     return {};
   }
 
   // Where time ends meanwhile, those that came count; without any, rays look for that light.
   Status follow_lamps(std::uint64_t per_half, LampLight& lamps, HalfSums& sums) {
-    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, context_, lamps, rays_); }));
+    ORIEL_TRY_VOID(refine([&] { return trace_lamps(texels_, around_, per_half, task_.paths, lamps); }));
     if (lamps.particles == 0) return {};
     put_beside(lamps, keep_beside_, sums);
     around_.leave_out_lamps();
@@ -169,12 +167,12 @@ class CachedEstimator : public LightEstimator {
     const bool few_tell = options_.directional || direct_light_.samples_lights();
     const std::uint32_t first = few_tell ? 4 * kFirstDirect : kFirstDirect;
     const double begun = seconds_left();
-    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, context_, direct_, quick_rays_));
+    ORIEL_TRY_VOID(direct_light_.estimate(order_, first, task_.quick, direct_));
     const double took = begun - seconds_left();
     // Through a gap few points see a light: none of a handful says nothing, and no neighbour tells.
     std::vector<std::uint32_t> crowded = order_;
     std::erase_if(crowded, [&](std::uint32_t i) { return !is_crowded(i); });
-    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), context_, direct_, quick_rays_));
+    ORIEL_TRY_VOID(direct_light_.estimate(crowded, std::max(first, kCrowdedDirect), task_.quick, direct_));
     known_now_.glance = direct_.value;
     if (reuse_) reuse_->give_first(known_direct_ = reuse_->same_glance(graph_, direct_.value), direct_.value);
     // Bounces start from it: what is uncertain by more than a few percent would tint them all.
@@ -192,7 +190,7 @@ class CachedEstimator : public LightEstimator {
       // Each round may be four times as long as the one before: it is not begun where it would not end in time.
       const double more = 1.0 * per_half / first * (double(list.size()) / double(order_.size()));
       if (options_.left && took * more > seconds_left() - least) break;
-      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, context_, direct_, quick_rays_));
+      ORIEL_TRY_VOID(direct_light_.estimate(list, per_half, task_.quick, direct_));
     }
     known_now_.first_direct = direct_.value;
     return {};
@@ -252,7 +250,7 @@ class CachedEstimator : public LightEstimator {
     const std::uint32_t per_half = options_.error > 0 ? std::min(most_gathered(), kFirstGather) : most_gathered();
     std::vector<std::uint32_t> list = not_kept();
     const auto gather_list = [&](std::uint32_t n) {
-      return refine([&] { return gather(texels_, sites_, around_, list, n, cached_, context_, gathered_, rays_); });
+      return refine([&] { return gather_.run(list, n, task_.paths, gathered_); });
     };
     ORIEL_TRY_VOID(gather_list(per_half));
     for (const std::uint32_t i : list)
@@ -310,23 +308,23 @@ class CachedEstimator : public LightEstimator {
   }
 
   Status refine_gathered(const std::vector<std::uint32_t>& list) {
-    const std::uint64_t before = rays_;
+    const std::uint64_t before = task_.paths.traced();
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
       const std::uint32_t per_half = std::min(most_gathered(), 2 * std::max(1u, samples));
-      return gather(texels_, sites_, around_, same, per_half, cached_, context_, gathered_, rays_);
+      return gather_.run(same, per_half, task_.paths, gathered_);
     }));
     update_estimate();
-    gather_rays_ += rays_ - before;
+    gather_rays_ += task_.paths.traced() - before;
     return {};
   }
 
   Status refine_direct(const std::vector<std::uint32_t>& list, std::uint32_t most) {
-    const std::uint64_t before = quick_rays_;
+    const std::uint64_t before = task_.quick.traced();
     ORIEL_TRY_VOID(by_samples(list, direct_.per_half, [&](const auto& same, std::uint32_t samples) {
-      return direct_light_.estimate(same, std::min(most, 2 * samples), context_, direct_, quick_rays_);
+      return direct_light_.estimate(same, std::min(most, 2 * samples), task_.quick, direct_);
     }));
     update_direct();
-    direct_rays_ += quick_rays_ - before;
+    direct_rays_ += task_.quick.traced() - before;
     return {};
   }
 
@@ -341,7 +339,7 @@ class CachedEstimator : public LightEstimator {
     LampLight lamps(texels_.count(), options_.directional, around_.groups());
     if (lamps_.particles > 0) ORIEL_TRY_VOID(follow_lamps(lamps_.particles, lamps, anew));
     ORIEL_TRY_VOID(by_samples(list, gathered_.samples, [&](const auto& same, std::uint32_t samples) {
-      return gather(texels_, sites_, around_, same, samples, cached_, context_, anew, rays_);
+      return gather_.run(same, samples, task_.paths, anew);
     }));
     if (ended_early_) {
       around_.set_near(before);
@@ -357,7 +355,6 @@ class CachedEstimator : public LightEstimator {
   const RadiosityTask& task_;
   const RadiosityOptions& options_;
   Context& context_;
-  std::atomic<std::uint64_t>&rays_, &quick_rays_;  // RadiosityTask
   const Texels texels_;
   std::vector<std::uint32_t> order_;
   MoreSites sites_;
@@ -368,12 +365,13 @@ class CachedEstimator : public LightEstimator {
   DirectSums direct_;
   HalfSums gathered_;
   LampLight lamps_;
-  std::vector<bool> keep_beside_;   // by texel: its rays have the light of other particles than now follow the lamps
-  Estimate smooth_direct_;          // of the direct light
-  Estimate estimate_;               // of the gathered light
-  std::vector<Vec3> irradiance_;    // what gather rays find at a texel
-  std::vector<Vec3> coarse_;        // of it what is no particles'
-  CachedLight cached_;              // the same, as it varies over texels
+  std::vector<bool> keep_beside_;  // by texel: its rays have the light of other particles than now follow the lamps
+  Estimate smooth_direct_;         // of the direct light
+  Estimate estimate_;              // of the gathered light
+  std::vector<Vec3> irradiance_;   // what gather rays find at a texel
+  std::vector<Vec3> coarse_;       // of it what is no particles'
+  CachedLight cached_;             // the same, as it varies over texels
+  const FinalGather gather_{sites_, around_, cached_};
   BrightTexels bright_;             // what rays are aimed at in it
   BookedLight booked_;              // irradiance_ by group of lamps, if asked
   std::optional<Reuse> reuse_;      // of the bake before
@@ -392,8 +390,7 @@ class CachedEstimator : public LightEstimator {
 }  // namespace
 
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
-  ORIEL_TRY(Texels texels,
-            list_texels(task.transport, task.atlas, task.map, task.context, task.quick_rays, {task.options.eyes}));
+  ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.quick, {task.options.eyes}));
   return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 

@@ -372,8 +372,8 @@ DirectLight::DirectLight(const Transport& transport, const Texels& texels, const
   many_punctual_ = scene.lights.size() > kMaxPunctual;
 }
 
-Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context,
-                             DirectSums& sums, std::atomic<std::uint64_t>& rays) const {
+Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,
+                             DirectSums& sums) const {
   const auto part = [&](std::size_t g) { return list.subspan(g * kGroup, std::min(kGroup, list.size() - g * kGroup)); };
   UnitLoop loop{.stage = "direct light", .count = (list.size() + kGroup - 1) / kGroup};
   const std::size_t punctual = many_punctual_ ? kPicks : t_.accel.scene().lights.size();
@@ -391,7 +391,7 @@ Status DirectLight::estimate(std::span<const std::uint32_t> list, std::uint32_t 
       if (!sums.booked.empty()) archive(sums.booked.of(t), sums.booked_difference.of(t));
     }
   };
-  return parallel_units(context, loop, &rays);
+  return parallel_units(stage, loop);
 }
 
 }  // namespace oriel

@@ -59,8 +59,8 @@ class DirectLight {
   bool samples_lights() const { return !closed_form_ || t_.lights.samples_sky() || many_punctual_; }
 
   // Estimates the listed texels anew with so many samples a half and light. Error kStopped.
-  Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, Context& context, DirectSums& sums,
-                  std::atomic<std::uint64_t>& rays) const;
+  Status estimate(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,
+                  DirectSums& sums) const;
 
  private:
   friend class DirectGroup;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -22,11 +21,11 @@ struct RadiosityTask {
   std::span<const FramePixel> pixels;  // by which the error is told (texels/frame_error.h)
   const RadiosityOptions& options;
   Context& context;
-  std::atomic<std::uint64_t>& rays;        // traced so far by paths,
-  std::atomic<std::uint64_t>& quick_rays;  // and towards lights and by probes of points
+  Stage paths;  // whose rays have been counted so far,
+  Stage quick;  // and those towards lights and by probes of points
 
   // Rays of paths that take about the time of all: measured, two and a half to four quick ones do.
-  std::uint64_t work() const { return rays + quick_rays / kQuickRays; }
+  std::uint64_t work() const { return paths.traced() + quick.traced() / kQuickRays; }
   static constexpr std::uint64_t kQuickRays = 3;
   // At which refinement ends (RadiosityOptions::most_rays); may be infinite.
   double most_work(std::size_t texels) const {

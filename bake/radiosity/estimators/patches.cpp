@@ -56,9 +56,10 @@ class Solver {
     share_rays();
   }
 
-  Status trace(Context& context, std::uint64_t seed, std::atomic<std::uint64_t>& rays) {
-    const Hash128 direct = context.units ? hash_of(direct_) : Hash128();
-    const Hash128 booked = context.units && options_.booked ? hash_of(options_.booked->light) : Hash128();
+  Status trace(const Stage& stage, std::uint64_t seed) {
+    const bool named = stage.context.units != nullptr;
+    const Hash128 direct = named ? hash_of(direct_) : Hash128();
+    const Hash128 booked = named && options_.booked ? hash_of(options_.booked->light) : Hash128();
     UnitLoop loop{.stage = "bounces", .count = (patches_.size() + kGroup - 1) / kGroup};
     loop.rays = static_cast<double>(kGroup) * options_.rays_per_patch;
     loop.inputs = [&](std::size_t g, Archive& key) {
@@ -78,19 +79,20 @@ class Solver {
         if (options_.booked) archive(patches_[p].booked);
       }
     };
-    return parallel_units(context, loop, &rays);
+    return parallel_units(stage, loop);
   }
 
   // Seconds that trace() is likely to take, from one group in so many; their links are forgotten.
-  Result<double> foretell(Context& context, std::atomic<std::uint64_t>& rays) {
+  Result<double> foretell(const Stage& stage) {
     constexpr std::size_t kOneIn = 64;
     const std::size_t groups = (patches_.size() + kGroup - 1) / kGroup;
-    const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(context)));
+    const std::size_t tried = std::min(groups, groups / kOneIn + static_cast<std::size_t>(thread_count(stage.context)));
     if (tried == 0) return 0;
     const auto begun = std::chrono::steady_clock::now();
-    const Status traced = parallel_for(context, "", tried, [&](std::size_t i) {
+    const Status traced = parallel_for(stage, "", tried, [&](std::size_t i) {
       const std::size_t g = i * groups / tried;
-      for (std::uint32_t k = 0; k < kSites; ++k) rays += trace_sample(g * kGroup, group_end(g), k, context.seed);
+      for (std::uint32_t k = 0; k < kSites; ++k)
+        stage.count(trace_sample(g * kGroup, group_end(g), k, stage.context.seed));
     });
     if (!traced) return tl::unexpected(traced.error());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
@@ -367,12 +369,11 @@ std::vector<Vec3> Solver::solve_group(Context& context, std::size_t group, int s
 
 // Options whose rays take no longer than they may, as a few groups of patches tell; patches grow and rays get fewer.
 Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                                std::span<const Vec3> direct, SweepOptions options, Context& context,
-                                std::atomic<std::uint64_t>& rays) {
+                                std::span<const Vec3> direct, SweepOptions options, const Stage& stage) {
   constexpr std::uint32_t kFewest = 2 * kSites, kLargest = 8;
   if (!std::isfinite(options.seconds)) return options;
   Solver pilot(texels, graph, around, direct, options);
-  ORIEL_TRY(double needed, pilot.foretell(context, rays));
+  ORIEL_TRY(double needed, pilot.foretell(stage));
   while (needed > options.seconds && options.rays_per_patch > kFewest) options.rays_per_patch /= 2, needed /= 2;
   while (needed > options.seconds && options.side < kLargest) options.side *= 2, needed /= 4;
   return options;
@@ -381,18 +382,17 @@ Result<SweepOptions> affordable(const Texels& texels, const TexelGraph& graph, c
 }  // namespace
 
 Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                     std::span<const Vec3> direct, const SweepOptions& options, Context& context,
-                     std::atomic<std::uint64_t>& rays) {
+                     std::span<const Vec3> direct, const SweepOptions& options, const Stage& stage) {
   Sweeps result;
-  ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, context, rays));
+  ORIEL_TRY(const SweepOptions how, affordable(texels, graph, around, direct, options, stage));
   Solver solver(texels, graph, around, direct, how);
-  ORIEL_TRY_VOID(solver.trace(context, context.seed + seeds::kBounces, rays));
-  ORIEL_TRY_VOID(solver.solve(context, result));
-  result.gathered = solver.interpolate(context, solver.solution());
+  ORIEL_TRY_VOID(solver.trace(stage, stage.context.seed + seeds::kBounces));
+  ORIEL_TRY_VOID(solver.solve(stage.context, result));
+  result.gathered = solver.interpolate(stage.context, solver.solution());
   if (!how.booked) return result;
   result.booked = BookedLight(texels.count(), how.booked->groups);
   for (std::size_t g = 0; g < how.booked->groups; ++g)
-    result.booked.set_group(g, solver.interpolate(context, solver.solve_group(context, g, result.count)));
+    result.booked.set_group(g, solver.interpolate(stage.context, solver.solve_group(stage.context, g, result.count)));
   for (std::size_t i = 0; i < texels.count(); ++i) share_out(result.booked.of(i), result.gathered[i]);
   return result;
 }

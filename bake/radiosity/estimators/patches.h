@@ -61,7 +61,6 @@ struct Sweeps {
 // scene that absorbs nothing) as many bounces are added up as paths follow, and a warning tells the energy balance.
 // Error kStopped.
 Result<Sweeps> sweep(const Texels& texels, const TexelGraph& graph, const Surroundings& around,
-                     std::span<const Vec3> direct, const SweepOptions& options, Context& context,
-                     std::atomic<std::uint64_t>& rays);
+                     std::span<const Vec3> direct, const SweepOptions& options, const Stage& stage);
 
 }  // namespace oriel

@@ -91,7 +91,7 @@ class PathEstimator : public LightEstimator {
       return traced;
     };
     loop.results = sums_of;
-    ORIEL_TRY_VOID(parallel_units(task_.context, loop, &task_.rays));
+    ORIEL_TRY_VOID(parallel_units(task_.paths, loop));
     taken_ = until;
     return {};
   }

@@ -49,7 +49,7 @@ Status light_directly(const RadiosityTask& task, const Texels& texels, const Mor
   const DirectLight light(task.transport, texels, sites, task.context.seed);
   std::vector<std::uint32_t> list = order;
   for (std::uint32_t per_half = kFirstDirect; per_half <= kMostDirect; per_half *= 4) {
-    ORIEL_TRY_VOID(light.estimate(list, per_half, task.context, sums, task.quick_rays));
+    ORIEL_TRY_VOID(light.estimate(list, per_half, task.quick, sums));
     keep_uncertain(sums, graph, per_half == kFirstDirect ? 0 : kUncertain, task.context, list);
   }
   return {};
@@ -158,14 +158,14 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   Context& context = task.context;
   const OwnNumbers own(context, points);
   PointLight result;
-  ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, context, task.quick_rays,
+  ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, task.quick,
                                        {.eyes = known.texels.eyes, .met = false, .fewer = kFewerSites}));
   leave_out_parted(known, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
   const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
-  ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, context, task.rays));
+  ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
   DirectSums direct(n, false, known.around.groups());
   ORIEL_TRY_VOID(light_directly(task, texels, sites, order, graph, direct));
   HalfSums gathered(n, false, known.around.groups());
@@ -174,9 +174,10 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
   assume_known(known, texels, points.side, which, gathered);
   std::vector<std::uint32_t> list = order;
   std::erase_if(list, [&](std::uint32_t i) { return !which[i]; });
+  const FinalGather final_gather{sites, known.around, known.cached};
   const std::uint32_t first = gathered_rays(task.options);
   for (std::uint32_t rays = first; rays <= kNoisyGather * first; rays *= kNoisyGather) {
-    ORIEL_TRY_VOID(gather(texels, sites, known.around, list, rays, known.cached, context, gathered, task.rays));
+    ORIEL_TRY_VOID(final_gather.run(list, rays, task.paths, gathered));
     indirect = filter(texels, graph, halves_of(gathered, context), task.options.filter, context);
     leave_noisy(indirect, direct.value, list);
     if (list.empty()) break;

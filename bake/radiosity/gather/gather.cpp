@@ -16,14 +16,18 @@ constexpr std::size_t kGroup = 64;  // texels whose rays of one number are trace
 // One group of texels, in its thread's memory: what every ray needs of its texel is fetched once.
 class GroupGather {
  public:
-  GroupGather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
-              std::span<const std::uint32_t> list, const CachedLight& cached, const ShiftedNet& net, bool moments)
-      : texels_(texels), sites_(sites), around_(around), cached_(cached), net_(net), moments_(moments) {
+  GroupGather(const FinalGather& scene, std::span<const std::uint32_t> list, const ShiftedNet& net, bool moments)
+      : texels_(scene.sites.texels()),
+        sites_(scene.sites),
+        around_(scene.around),
+        cached_(scene.cached),
+        net_(net),
+        moments_(moments) {
     for (const std::uint32_t t : list) {
-      if (texels.visible[t] == 0) continue;
+      if (texels_.visible[t] == 0) continue;
       members_.emplace_back();
       members_.back().texel = t;
-      if (cached.bright) members_.back().aim = cached.bright->aim(texels.site_for(t, 0, 0));
+      if (cached_.bright) members_.back().aim = cached_.bright->aim(texels_.site_for(t, 0, 0));
     }
   }
 
@@ -179,9 +183,9 @@ class GroupGather {
 
 }  // namespace
 
-Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
-              std::span<const std::uint32_t> list, std::uint32_t per_half, const CachedLight& cached, Context& context,
-              HalfSums& sums, std::atomic<std::uint64_t>& rays) {
+Status FinalGather::run(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage,
+                        HalfSums& sums) const {
+  const Context& context = stage.context;
   const ShiftedNet net(context.seed + seeds::kGather, per_half);
   const Hash128 light = context.units ? hash_of(cached.irradiance) : Hash128();
   const Hash128 booked_light = context.units && cached.booked ? hash_of(cached.booked->light) : Hash128();
@@ -198,18 +202,18 @@ Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& 
   UnitLoop loop{.stage = "gather", .count = (list.size() + kGroup - 1) / kGroup};
   loop.rays = static_cast<double>(kGroup * kHalves) * per_half;
   loop.inputs = [&](std::size_t g, Archive& key) {
-    key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), texels.eyes);
+    key(light, part(g), per_half, around.near(), around.lamps(), around.survival(), sites.texels().eyes);
     if (cached.booked) key(booked_light);
     if (cached.bright) key(cached.bright->name());
     sums_of(g, key);  // samples are added to them
   };
   loop.compute = [&](std::size_t g) {
-    GroupGather group(texels, sites, around, part(g), cached, net, !sums.moments.empty());
+    GroupGather group(*this, part(g), net, !sums.moments.empty());
     group.run(per_half, sums);
     return group.rays();
   };
   loop.results = sums_of;
-  return parallel_units(context, loop, &rays);
+  return parallel_units(stage, loop);
 }
 
 }  // namespace oriel

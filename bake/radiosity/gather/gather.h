@@ -68,10 +68,15 @@ struct HalfSums {
   }
 };
 
-// Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. Directions are
-// a net (ShiftedNet) of each texel's and half's own. Error kStopped.
-Status gather(const Texels& texels, const MoreSites& sites, const Surroundings& around,
-              std::span<const std::uint32_t> list, std::uint32_t per_half, const CachedLight& cached, Context& context,
-              HalfSums& sums, std::atomic<std::uint64_t>& rays);
+// From where rays leave, what they meet, and the light that is there.
+struct FinalGather {
+  const MoreSites& sites;
+  const Surroundings& around;
+  const CachedLight& cached;
+
+  // Adds samples to the listed texels (in coherent_order) until each half has `per_half` of them. Directions are
+  // a net (ShiftedNet) of each texel's and half's own. Error kStopped.
+  Status run(std::span<const std::uint32_t> list, std::uint32_t per_half, const Stage& stage, HalfSums& sums) const;
+};
 
 }  // namespace oriel

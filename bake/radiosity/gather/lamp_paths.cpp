@@ -232,8 +232,9 @@ class LampWalk {
 
 }  // namespace
 
-Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, Context& context,
-                   LampLight& light, std::atomic<std::uint64_t>& rays) {
+Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, const Stage& stage,
+                   LampLight& light) {
+  const Context& context = stage.context;
   const Transport& t = around.transport();
   const Sources sources(t.accel.scene(), t.lights);
   if (std::ranges::find(sources.kinds(), SourceKind::kNear) == sources.kinds().end()) return {};
@@ -261,7 +262,7 @@ Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64
       archive(arrivals[u]);
       if (!light.booked[0].empty()) archive(booked[u]);
     };
-    ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+    ORIEL_TRY_VOID(parallel_units(stage, loop));
     for (std::size_t u = 0; u < booked.size(); ++u)
       for (const BookedArrival& a : booked[u]) light.booked[u % kHalves].of(a.texel)[a.group] += a.light;
     for (std::size_t u = 0; u < arrivals.size(); ++u)

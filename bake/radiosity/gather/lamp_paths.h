@@ -29,7 +29,7 @@ struct LampLight {
 //
 // Adds particles until each half has `per_half` of them. Does nothing where no lamp is near (LightSample::near): the
 // sun's and the sky's particles rarely come into a room. Error kStopped.
-Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, Context& context,
-                   LampLight& light, std::atomic<std::uint64_t>& rays);
+Status trace_lamps(const Texels& texels, const Surroundings& around, std::uint64_t per_half, const Stage& stage,
+                   LampLight& light);
 
 }  // namespace oriel

@@ -91,15 +91,15 @@ class Pilot {
 }  // namespace
 
 Status learn_survival(const Texels& texels, Surroundings& around, std::span<const std::uint32_t> order,
-                      const CachedLight& cached, Context& context, std::atomic<std::uint64_t>& rays) {
+                      const CachedLight& cached, const Stage& stage) {
   const std::size_t materials = around.transport().accel.scene().materials.size();
   const std::size_t count = std::min(kTexels, order.size());
   std::vector<Noise> by_texel(count, Noise(0));
   const Pilot pilot(texels, around, cached);
-  ORIEL_TRY_VOID(parallel_for(context, "", count, [&](std::size_t i) {
+  ORIEL_TRY_VOID(parallel_for(stage, "", count, [&](std::size_t i) {
     std::uint64_t traced = 0;
-    by_texel[i] = pilot.measure(order[i * order.size() / count], context.seed + seeds::kSurvival, traced);
-    rays += traced;
+    by_texel[i] = pilot.measure(order[i * order.size() / count], stage.context.seed + seeds::kSurvival, traced);
+    stage.count(traced);
   }));
   Noise all(materials);
   for (const Noise& noise : by_texel) all.add(noise);

@@ -11,6 +11,6 @@ namespace oriel {
 // worth a path each time, those of a matte wall hardly any. Powers of two: a small edit of the scene changes none.
 // Error kStopped, and nothing is told.
 Status learn_survival(const Texels& texels, Surroundings& around, std::span<const std::uint32_t> order,
-                      const CachedLight& cached, Context& context, std::atomic<std::uint64_t>& rays);
+                      const CachedLight& cached, const Stage& stage);
 
 }  // namespace oriel

@@ -20,6 +20,7 @@ class MoreSites {
             std::uint64_t seed)
       : t_(transport), atlas_(atlas), maps_(maps), texels_(texels), seed_(seed) {}
 
+  const Texels& texels() const { return texels_; }
   // The k-th site of a half, of as many as are asked for. The texel must be visible. Adds to rays.
   TexelSite at(std::uint32_t i, int half, std::uint32_t k, std::uint64_t& rays) const;
   // So many of a half take no rays to find.

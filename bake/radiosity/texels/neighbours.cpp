@@ -132,13 +132,12 @@ void link(TexelGraph& graph, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, Context& context,
-                                   std::atomic<std::uint64_t>& rays) {
+Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, const Stage& stage) {
   constexpr std::size_t kRun = 256;
   const NeighbourFinder finder(transport, texels);
   const std::size_t runs = (texels.count() + kRun - 1) / kRun;
   std::vector<std::vector<Candidate>> free(runs);
-  ORIEL_TRY_VOID(parallel_for(context, "neighbours", runs, [&](std::size_t run) {
+  ORIEL_TRY_VOID(parallel_for(stage, "neighbours", runs, [&](std::size_t run) {
     std::vector<Candidate> pairs;
     for (std::size_t i = run * kRun; i < std::min(texels.count(), (run + 1) * kRun); ++i)
       for (const Candidate& c : finder.candidates(static_cast<std::uint32_t>(i)))
@@ -147,7 +146,7 @@ Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& tex
     for (const Candidate& c : pairs) bridges.push_back(finder.bridge(c));
     std::vector<Vec3> passed(pairs.size());
     transport.accel.transmittance(bridges, passed);
-    rays += bridges.size();
+    stage.count(bridges.size());
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (max_component(passed[i]) > 0) free[run].push_back(pairs[i]);
   }));

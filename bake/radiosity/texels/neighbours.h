@@ -17,8 +17,7 @@ struct TexelGraph {
 // Neighbours lie within about one and a half texels of each other, look the same way (within about 25°), lie in each
 // other's plane, and see each other just above the surface: a thin wall standing between them parts them. Charts' edges
 // are joined to what continues the surface. Error kStopped.
-Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, Context& context,
-                                   std::atomic<std::uint64_t>& rays);
+Result<TexelGraph> find_neighbours(const Transport& transport, const Texels& texels, const Stage& stage);
 
 // And those that lie beside a texel on its chart, whichever way they look, where it has places left: the flutes of a
 // column, whose light differs, though not who sees them and what it takes to light them.

@@ -225,7 +225,7 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
 }
 
 Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays, const TexelUse& use) {
+                           const Stage& stage, const TexelUse& use) {
   Texels texels;
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
@@ -251,7 +251,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met, use.fewer}, context.seed);
+  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met, use.fewer}, stage.context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};
@@ -276,7 +276,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
       hidden[run].push_back({0, {TexelPart(t.accel), {}}});
     for (auto& [i, found] : hidden[run]) archive(i, found.part, found.many);
   };
-  ORIEL_TRY_VOID(parallel_units(context, loop, &rays));
+  ORIEL_TRY_VOID(parallel_units(stage, loop));
   for (auto& run : hidden)
     for (auto& [i, found] : run) {
       if (!found.part.whole()) {

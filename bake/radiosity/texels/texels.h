@@ -127,7 +127,7 @@ struct TexelUse {
   std::uint32_t fewer = 1;       // times as few points are tried of a texel that is partly hidden: small ones need few
 };
 Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           Context& context, std::atomic<std::uint64_t>& rays, const TexelUse& use = {});
+                           const Stage& stage, const TexelUse& use = {});
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

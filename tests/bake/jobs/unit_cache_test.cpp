@@ -205,7 +205,7 @@ struct Squares {
       return i;
     };
     loop.results = [&](std::size_t i, Archive& archive) { archive(of[i]); };
-    return parallel_units(context, loop, &rays);
+    return parallel_units({context, &rays}, loop);
   }
 };
 

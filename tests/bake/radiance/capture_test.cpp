@@ -79,12 +79,13 @@ TEST(Capture, StopsWhenAskedAndCountsItsRays) {
   ViewPlan plan = plan_views(room.scene, reflectors, small_maps());
   Context context;
   std::atomic<std::uint64_t> rays{0};
-  ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps, &rays));
+  ASSERT_TRUE(
+      capture_maps({ReflectedSurroundings(*accel, reflectors, {}), room.outgoing()}, {context, &rays}, plan.maps));
   EXPECT_GE(rays.load(), 16u * 32 * 24);
   EXPECT_LE(rays.load(), 16u * 32 * 24 + 10);
   context.stop = true;
   const Status stopped =
-      capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps);
+      capture_maps({ReflectedSurroundings(*accel, reflectors, {}), room.outgoing()}, context, plan.maps);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }
@@ -116,7 +117,7 @@ RadianceMap one_map(const std::function<void(test::SceneParts&)>& furnish, const
   EXPECT_EQ(plan.maps.size(), 1u);
   Context context;
   context.threads = 1;  // `outgoing` may count
-  EXPECT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), outgoing, context, plan.maps));
+  EXPECT_TRUE(capture_maps({ReflectedSurroundings(*accel, reflectors, {}), outgoing}, context, plan.maps));
   return plan.maps[0];
 }
 
@@ -283,7 +284,7 @@ TEST(Orders, AMirrorInAMirrorShowsItsImageWhereItIs) {
   options.views_per_element = 8;
   ViewPlan plan = plan_views(room.scene, reflectors, options);
   Context context;
-  ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, reflectors, {}), room.outgoing(), context, plan.maps));
+  ASSERT_TRUE(capture_maps({ReflectedSurroundings(*accel, reflectors, {}), room.outgoing()}, context, plan.maps));
   std::size_t mirrored_pixels = 0, wrong = 0;
   double worst = 0;
   for (const RadianceMap& map : plan.maps) {

@@ -171,7 +171,7 @@ TEST(Emitters, TheMapsOfTheReflectorDoNotShowThem) {
     options.map_resolution = 32;
     options.element_m = 10;
     ViewPlan plan = plan_views(room.scene, room.reflectors, options);
-    ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, room.reflectors, {}), shown, context, plan.maps));
+    ASSERT_TRUE(capture_maps({ReflectedSurroundings(*accel, room.reflectors, {}), shown}, context, plan.maps));
     const RadianceMap& map = plan.maps.at(0);
     EXPECT_EQ(map.has_emission, !glossy);
     std::size_t dark = 0;
@@ -205,7 +205,7 @@ TEST(Emitters, TheirImagesInOtherMirrorsStayInTheMaps) {
     options.element_m = 10;
     ViewPlan plan = plan_views(room.scene, room.reflectors, options);
     Context context;
-    ASSERT_TRUE(capture_maps(ReflectedSurroundings(*accel, room.reflectors, {}), lamp, context, plan.maps));
+    ASSERT_TRUE(capture_maps({ReflectedSurroundings(*accel, room.reflectors, {}), lamp}, context, plan.maps));
     std::size_t lit = 0;
     for (const RadianceMap& map : plan.maps)
       for (const Vec3& c : map.radiance) lit += map.reflector == 0 && c != Vec3(0);

@@ -92,12 +92,11 @@ class KeptMaps : public testing::Test {
     const ReflectedSurroundings surroundings(*accel, out.reflectors, {});
     const std::vector<ScenePart> parts = {f.part()};
     out.known = {parts, {}, {identity_of(f.room.scene, out.reflectors[0])}, context.inputs, {}};
-    std::atomic<std::uint64_t> rays{0};
     if (before) {
-      EXPECT_TRUE(capture_edited_maps(surroundings, outgoing, *before, edited_boxes(before->parts, parts), error,
-                                      context, out.maps, out.reuse, &rays));
+      const Edit edit{*before, edited_boxes(before->parts, parts), error};
+      out.reuse = *capture_edited_maps({surroundings, outgoing}, edit, context, out.maps);
     } else {
-      EXPECT_TRUE(capture_maps(surroundings, outgoing, context, out.maps));
+      EXPECT_TRUE(capture_maps({surroundings, outgoing}, context, out.maps));
     }
     return out;
   }

@@ -88,7 +88,7 @@ inline Captured capture(const Accel& accel, const MirrorRoom& room, const ViewOp
   out.plan = plan_views(room.scene, out.reflectors, options);
   Context context;
   context.threads = threads;
-  if (!capture_maps(ReflectedSurroundings(accel, out.reflectors, {}), room.outgoing(), context, out.plan.maps))
+  if (!capture_maps({ReflectedSurroundings(accel, out.reflectors, {}), room.outgoing()}, context, out.plan.maps))
     out.plan.maps.clear();
   return out;
 }

@@ -208,10 +208,11 @@ TEST(Residuals, ShowWhatNoMapSees) {
     const ReflectedSurroundings surroundings(*accel, as_planned, {});
     Context context;
     std::vector<RadianceMap>& maps = planned.plan.maps;
-    ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, maps));
+    ASSERT_TRUE(capture_maps({surroundings, room.outgoing()}, context, maps));
     const auto held_out = eyes_in_room(60, 1000);
     const ViewQuality before = judge(*accel, planned, maps, held_out);
-    ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes, {}, context, planned.reflectors, planned.plan));
+    ASSERT_TRUE(
+        add_residuals({surroundings, room.outgoing()}, {.eyes = eyes}, context, planned.reflectors, planned.plan));
     const ViewQuality after = judge(*accel, planned, maps, held_out);
     EXPECT_EQ(maps.size(), has_furniture ? 2u : 1u);
     EXPECT_EQ(planned.reflectors[0].reflector.map_count, maps.size());
@@ -256,8 +257,8 @@ TEST(Residuals, StandBesideTheMapsOfTheirElement) {
   const auto as_planned = reflectors;
   const ReflectedSurroundings surroundings(*accel, as_planned, {});
   Context context;
-  ASSERT_TRUE(capture_maps(surroundings, room.outgoing(), context, plan.maps));
-  ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes_in_room(1000), {}, context, reflectors, plan));
+  ASSERT_TRUE(capture_maps({surroundings, room.outgoing()}, context, plan.maps));
+  ASSERT_TRUE(add_residuals({surroundings, room.outgoing()}, {.eyes = eyes_in_room(1000)}, context, reflectors, plan));
   ASSERT_EQ(plan.maps.size(), 5u);
   EXPECT_EQ(reflectors[0].reflector.map_count, 5u);
   const auto residual =
@@ -286,10 +287,10 @@ TEST(Residuals, KeepTheMemory) {
   for (const std::uint64_t over : {std::uint64_t{0}, map / 4, map}) {
     ViewPlan with = plan;
     auto found = reflectors;
-    ResidualOptions options;
-    options.memory_bytes = map + over;
+    const std::vector<Vec3> eyes = eyes_in_room(200);
+    const ResidualOptions options{.eyes = eyes, .memory_bytes = map + over};
     std::atomic<std::uint64_t> rays{0};
-    ASSERT_TRUE(add_residuals(surroundings, room.outgoing(), eyes_in_room(200), options, context, found, with, &rays));
+    ASSERT_TRUE(add_residuals({surroundings, room.outgoing()}, options, {context, &rays}, found, with));
     ASSERT_EQ(with.maps.size(), over > 0 ? 2u : 1u);
     EXPECT_EQ(rays > 0, over > 0);
     ASSERT_EQ(with.omitted.size(), over < map ? 1u : 0u);

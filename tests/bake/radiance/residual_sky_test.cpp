@@ -73,7 +73,7 @@ TEST(SkySamples, ResidualsHoldTheSkyBehindThings) {
     const ReflectedSurroundings surroundings(*accel, as_planned, {});
     const OutgoingRadiance outgoing = [](const SeenSurface&) { return Vec3(100); };
     Context context;
-    ASSERT_TRUE(capture_maps(surroundings, outgoing, context, plan.maps));
+    ASSERT_TRUE(capture_maps({surroundings, outgoing}, context, plan.maps));
     const auto eyes = eyes_before();
     const auto samples = sample_reflections(surroundings, 0, eyes, 2000, 7, context);
     ASSERT_TRUE(samples);
@@ -89,7 +89,7 @@ TEST(SkySamples, ResidualsHoldTheSkyBehindThings) {
       total += s.weight;
       if (in_window && judge_maps(surroundings, plan.maps, {&s, 1}, context).seen == 0) hidden += s.weight;
     }
-    ASSERT_TRUE(add_residuals(surroundings, outgoing, eyes, {}, context, reflectors, plan));
+    ASSERT_TRUE(add_residuals({surroundings, outgoing}, {.eyes = eyes}, context, reflectors, plan));
     ASSERT_EQ(plan.maps.size(), 2u);
     const ViewQuality after = judge_maps(surroundings, plan.maps, skies, context);
     EXPECT_GT(hidden, 0.05 * total);

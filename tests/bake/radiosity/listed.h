@@ -24,8 +24,7 @@ struct Listed {
     map = *build_texel_map(atlas, context);
     accel.emplace(*Accel::build(scene));
     lights.emplace(scene);
-    std::atomic<std::uint64_t> rays{0};
-    texels = *list_texels(transport(), atlas, map, context, rays);
+    texels = *list_texels(transport(), atlas, map, context);
     for (std::uint32_t i = 0; i < texels.count(); ++i) {
       const TexelMapPage& page = map[texels.page[i]];
       if (scene.triangle_surface[page.fragments[page.first[texels.index[i]]].triangle] == 0) floor.push_back(i);

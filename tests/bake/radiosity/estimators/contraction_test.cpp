@@ -20,11 +20,10 @@ struct Swept {
     Transport transport = scene.transport();
     transport.options.max_bounces = max_bounces;
     scene.context.warn = [this](const Warning& said) { warnings.push_back(said.text); };
-    std::atomic<std::uint64_t> rays{0};
-    const TexelGraph graph = *find_neighbours(transport, scene.texels, scene.context, rays);
+    const TexelGraph graph = *find_neighbours(transport, scene.texels, scene.context);
     const Surroundings around(transport, scene.texels, true, scene.context.seed);
     const std::vector<Vec3> light(scene.texels.count(), Vec3(direct));
-    sweeps = *sweep(scene.texels, graph, around, light, options, scene.context, rays);
+    sweeps = *sweep(scene.texels, graph, around, light, options, scene.context);
   }
   float largest() const {
     float most = 0;

@@ -153,9 +153,8 @@ TEST(DetailCells, LeaveStitchedSeamsAsTheyAre) {
 PointLight any_light(const Listed& floor, const CellLevels& levels, std::uint8_t level) {
   Context context;
   const DetailPoints points = *list_points(floor.atlas, levels, level, context);
-  std::atomic<std::uint64_t> rays{0};
   PointLight lit;
-  lit.texels = *list_texels(floor.transport(), points.atlas, points.map, context, rays);
+  lit.texels = *list_texels(floor.transport(), points.atlas, points.map, context);
   lit.variance.resize(lit.texels.count());
   for (std::uint32_t i = 0; i < lit.texels.count(); ++i)
     lit.light.push_back(Vec3(static_cast<float>(mix64(i * 7 + level) % 1000)));

@@ -27,15 +27,14 @@ Scene shadows() {
 
 struct Shadows {
   Listed listed{shadows(), 0.05f};
-  std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
   const MoreSites sites = listed.sites(transport);
-  const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context, rays);
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context);
 
   DirectSums direct(std::uint32_t per_half, std::uint64_t seed) {
     DirectSums sums(listed.texels.count(), false);
     const DirectLight light(transport, listed.texels, sites, seed);
-    EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums, rays));
+    EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums));
     return sums;
   }
 };

@@ -27,7 +27,7 @@ struct Lit {
     DirectSums sums(listed.texels.count(), false);
     rays = 0;
     const DirectLight light(transport, listed.texels, sites, 1);
-    EXPECT_TRUE(light.estimate(listed.floor, per_half, listed.context, sums, rays));
+    EXPECT_TRUE(light.estimate(listed.floor, per_half, {listed.context, &rays}, sums));
     return sums;
   }
 

@@ -61,8 +61,7 @@ TEST(ChartNeighbours, AreThereHoweverASurfaceBends) {
   parts.sphere("ball", parts.diffuse(Vec3(0.5f)), Vec3(0), 1, 3);
   const test::Listed ball(parts.finish(), 0.6f);
   Context context;
-  std::atomic<std::uint64_t> rays{0};
-  const TexelGraph graph = *find_neighbours(ball.transport(), ball.texels, context, rays);
+  const TexelGraph graph = *find_neighbours(ball.transport(), ball.texels, context);
   const TexelGraph beside = with_chart_neighbours(graph, ball.texels);
   std::size_t alone = 0, alone_beside = 0;
   for (std::uint32_t i = 0; i < ball.texels.count(); ++i) {

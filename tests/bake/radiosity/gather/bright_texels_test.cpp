@@ -18,11 +18,10 @@ Gathered gather_all(const Listed& listed, const CachedLight& cached, std::uint64
   const Transport transport = listed.transport();
   Context context;
   context.seed = seed;
-  std::atomic<std::uint64_t> rays{0};
   const Surroundings around(transport, listed.texels, true, seed);
   const MoreSites sites(transport, listed.atlas, listed.map, listed.texels, seed);
   HalfSums sums(listed.texels.count(), false);
-  EXPECT_TRUE(gather(listed.texels, sites, around, coherent_order(listed.texels), 256, cached, context, sums, rays));
+  EXPECT_TRUE((FinalGather{sites, around, cached}.run(coherent_order(listed.texels), 256, context, sums)));
   Gathered all;
   double m2 = 0;
   for (std::size_t i = 0; i < listed.texels.count(); ++i) {
@@ -43,8 +42,7 @@ void expect_same_light(bool behind_box) {
   const Listed listed(parts.finish(), 0.2f);
   const Transport transport = listed.transport();
   Context context;
-  std::atomic<std::uint64_t> rays{0};
-  const TexelGraph graph = *find_neighbours(transport, listed.texels, context, rays);
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, context);
   std::vector<Vec3> light(listed.texels.count(), Vec3(1));
   int bright_ones = 0;
   for (std::size_t i = 0; i < light.size(); ++i) {

@@ -21,8 +21,7 @@ struct Floor : Listed {
   std::vector<Vec3> irradiance;
 
   explicit Floor(const std::function<Vec3(const Vec3&)>& light) : Listed(plain_floor(), 0.1f) {
-    std::atomic<std::uint64_t> rays{0};
-    graph = *find_neighbours(transport(), texels, context, rays);
+    graph = *find_neighbours(transport(), texels, context);
     for (std::size_t i = 0; i < texels.count(); ++i) {
       Vec3 centre(0);
       for (const TexelSite& site : texels.site[i]) centre += site.origin / static_cast<float>(kSites);

@@ -60,7 +60,7 @@ TEST(LampPaths, AMirrorShowsTheLampWhereItsImageIs) {
   const Transport transport = listed.transport();
   const Surroundings around(transport, listed.texels, true, 1);
   LampLight light(listed.texels.count(), true);
-  ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 19, listed.context, light, rays));
+  ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 19, {listed.context, &rays}, light));
   EXPECT_EQ(light.particles, 1u << 19);
   EXPECT_NEAR(mean_of(listed, listed.floor, light) / expected, 1, 0.01);
   // From the lamp's image: down, and towards it.
@@ -79,11 +79,10 @@ TEST(LampPaths, PointsInMirrorsAreLeftOutAsPathsMissThem) {
     lamp.intensity = Vec3(100);
     scene.lights = {lamp};
     Listed listed(std::move(scene), 0.5f);
-    std::atomic<std::uint64_t> rays{0};
     const Transport transport = listed.transport();
     const Surroundings around(transport, listed.texels, true, 1);
     LampLight light(listed.texels.count(), false);
-    ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 14, listed.context, light, rays));
+    ASSERT_TRUE(trace_lamps(listed.texels, around, 1u << 14, listed.context, light));
     EXPECT_EQ(mean_of(listed, listed.floor, light) > 0, roughness > 0);
   }
 }
@@ -93,8 +92,8 @@ TEST(LampPaths, CostNothingWhereNoLampIsNear) {
   std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
   LampLight light(listed.texels.count(), false);
-  ASSERT_TRUE(trace_lamps(listed.texels, Surroundings(transport, listed.texels, true, 1), 1u << 14, listed.context,
-                          light, rays));
+  ASSERT_TRUE(trace_lamps(listed.texels, Surroundings(transport, listed.texels, true, 1), 1u << 14,
+                          {listed.context, &rays}, light));
   EXPECT_EQ(light.particles, 0u);
   EXPECT_EQ(rays, 0u);
 }
@@ -130,7 +129,7 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
   Listed listed(parts.finish(), 0.1f);
   const Transport transport = listed.transport();
   std::atomic<std::uint64_t> rays{0};
-  const TexelGraph graph = *find_neighbours(transport, listed.texels, listed.context, rays);
+  const TexelGraph graph = *find_neighbours(transport, listed.texels, {listed.context, &rays});
   const std::vector<Vec3> dark(listed.texels.count(), Vec3(0));
   const CachedLight cached = cache_light(listed.texels, graph, dark, listed.context);
   const auto order = coherent_order(listed.texels);
@@ -141,12 +140,12 @@ TEST_P(LampPathsBesideGlass, AddUpWithRaysToAllLight) {
     around.set_survival(std::vector<float>(listed.scene.materials.size(), 64.0f));
     HalfSums sums(listed.texels.count(), false);
     if (by_particles) {
-      EXPECT_TRUE(trace_lamps(listed.texels, around, 1u << 18, listed.context, light, rays));
+      EXPECT_TRUE(trace_lamps(listed.texels, around, 1u << 18, {listed.context, &rays}, light));
       around.leave_out_lamps();
       for (int h = 0; h < kHalves; ++h)
         for (std::size_t i = 0; i < dark.size(); ++i) sums.beside[h][i] = light.half(h, i);
     }
-    EXPECT_TRUE(gather(listed.texels, listed.sites(transport), around, order, 512, cached, listed.context, sums, rays));
+    EXPECT_TRUE((FinalGather{listed.sites(transport), around, cached}.run(order, 512, {listed.context, &rays}, sums)));
     double total = 0, beside = 0;
     for (std::size_t i = 0; i < dark.size(); ++i) {
       const double lit_m2 = listed.texels.area_m2[i] * listed.texels.visible[i];
@@ -171,12 +170,11 @@ TEST(LampPaths, FillABoxOfMetal) {
   parts.box("room", parts.add(polished(Vec3(1), 1, 0.6f)), Vec3(-kRoom), Vec3(kRoom), true);
   parts.box("lamp", parts.diffuse(Vec3(0), Vec3(kLuminance)), Vec3(-kLamp), Vec3(kLamp));
   const Listed listed(parts.finish(), 0.5f);
-  std::atomic<std::uint64_t> rays{0};
   const Transport transport = listed.transport();
   const Surroundings around(transport, listed.texels, true, 1);
   LampLight light(listed.texels.count(), false);
   Context context;
-  ASSERT_TRUE(trace_lamps(listed.texels, around, 4096, context, light, rays));
+  ASSERT_TRUE(trace_lamps(listed.texels, around, 4096, context, light));
   std::vector<std::uint32_t> walls;
   for (std::uint32_t i = 0; i < listed.texels.count(); ++i)
     if (max_component(glm::abs(listed.texels.site[i][0].origin)) > 0.9f * kRoom) walls.push_back(i);

@@ -94,13 +94,12 @@ TEST(Survival, IsHigherWhereLayersReflectBrightThings) {
     parts.quad("window", parts.diffuse(Vec3(0), Vec3(window)), {3, 1, 0}, {0.6f, 0, 0}, {0, 1, 0});
     Listed room(parts.finish(), 0.25f);
     const Transport transport = room.transport();
-    std::atomic<std::uint64_t> rays{0};
-    const TexelGraph graph = *find_neighbours(transport, room.texels, room.context, rays);
+    const TexelGraph graph = *find_neighbours(transport, room.texels, room.context);
     Surroundings around(transport, room.texels, true, 1);
     std::vector<std::uint32_t> order = coherent_order(room.texels);
     const std::vector<Vec3> irradiance(room.texels.count(), Vec3(1));
     const CachedLight cached = cache_light(room.texels, graph, irradiance, room.context);
-    EXPECT_TRUE(learn_survival(room.texels, around, order, cached, room.context, rays));
+    EXPECT_TRUE(learn_survival(room.texels, around, order, cached, room.context));
     return around.survival();
   };
   const std::vector<float> bright = learnt(1000), dull = learnt(0.01f);

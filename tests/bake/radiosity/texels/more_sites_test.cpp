@@ -64,9 +64,8 @@ Scene hollow_plinth() {
 TEST(TexelPart, IsTheSideThatEyesSee) {
   Listed listed(hollow_plinth(), 1);
   const std::uint32_t floor = listed.floor.back();
-  std::atomic<std::uint64_t> rays{0};
   const std::vector<Vec3> eyes = {{4, 1.6f, 0.5f}, {5, 1.6f, 1}};
-  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, rays, {eyes});
+  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, {eyes});
   ASSERT_GT(listed.texels.visible[floor], 0);
   ASSERT_GT(seen.visible[floor], 0);
   for (const TexelSite& site : listed.texels.site[floor]) EXPECT_LT(site.origin.x, 0.8f) << "most of it";
@@ -124,9 +123,7 @@ TEST(MoreSites, AreDrawnWhereRaysAreMany) {
     const std::vector<Vec3> dark(n);
     const CachedLight cached{dark, std::vector<CachedTexel>(n)};
     HalfSums sums(n, false);
-    std::atomic<std::uint64_t> rays{0};
-    ASSERT_TRUE(gather(listed.texels, listed.sites(transport), around, listed.floor, kRays, cached, listed.context,
-                       sums, rays));
+    ASSERT_TRUE((FinalGather{listed.sites(transport), around, cached}.run(listed.floor, kRays, listed.context, sums)));
     double light = 0, area = 0;
     for (const std::uint32_t i : listed.floor) {
       ASSERT_FALSE(listed.texels.has_many[i]);
