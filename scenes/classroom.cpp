@@ -19,12 +19,12 @@ SampleMesh mesh_of(std::string name, std::uint32_t material) {
 void add_room(SampleScene& scene) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   const std::uint32_t plaster = add_diffuse(scene, "plaster", {0.72f, 0.70f, 0.62f});
-  place_quad(scene, "floor", add_diffuse(scene, "linoleum", {0.33f, 0.20f, 0.14f}), Vec3(0), z, x);
-  place_quad(scene, "ceiling", add_diffuse(scene, "ceiling", Vec3(0.8f)), y, x, z);
-  place_quad(scene, "front wall", plaster, Vec3(0), x, y);
-  place_quad(scene, "back wall", plaster, z, y, x);
-  place_quad(scene, "window wall", plaster, Vec3(0), y, z);
-  place_quad(scene, "door wall", plaster, x, z, y);
+  place_quad(scene, "floor", add_diffuse(scene, "linoleum", {0.33f, 0.20f, 0.14f}), {Vec3(0), z, x});
+  place_quad(scene, "ceiling", add_diffuse(scene, "ceiling", Vec3(0.8f)), {y, x, z});
+  place_quad(scene, "front wall", plaster, {Vec3(0), x, y});
+  place_quad(scene, "back wall", plaster, {z, y, x});
+  place_quad(scene, "window wall", plaster, {Vec3(0), y, z});
+  place_quad(scene, "door wall", plaster, {x, z, y});
 }
 
 // Its middle is at x = z = 0, its pupil sits at +z.
@@ -76,8 +76,8 @@ void add_teachers_table(SampleScene& scene, const Materials& m) {
   add_box(legs, {lower.x + 0.1f, 0.2f, lower.z + 0.62f}, {upper.x - 0.1f, 0.72f, lower.z + 0.64f});  // its front
   place(scene, std::move(slab));
   place(scene, std::move(legs));
-  place_quad(scene, "teacher's table top", add_material(scene, std::move(polish)), {lower.x, upper.y, upper.z},
-             {upper.x - lower.x, 0, 0}, {0, 0, lower.z - upper.z});
+  place_quad(scene, "teacher's table top", add_material(scene, std::move(polish)),
+             {{lower.x, upper.y, upper.z}, {upper.x - lower.x, 0, 0}, {0, 0, lower.z - upper.z}});
 }
 
 // Four bars around x0..x1, y0..y1 that stand proud of a wall at z = 0 by `deep`.
@@ -96,8 +96,8 @@ void add_blackboard(SampleScene& scene, const Materials& m) {
   add_bars(frame, low, high, 0.06f, 0.03f);
   add_box(frame, {3, 0.83f, 0}, {6, 0.86f, 0.1f}, kAllFaces & ~kBack);  // for chalk
   place(scene, std::move(frame));
-  place_quad(scene, "blackboard", add_diffuse(scene, "slate", {0.03f, 0.06f, 0.045f}), {low, 0.01f},
-             {high.x - low.x, 0, 0}, {0, high.y - low.y, 0});
+  place_quad(scene, "blackboard", add_diffuse(scene, "slate", {0.03f, 0.06f, 0.045f}),
+             {{low, 0.01f}, {high.x - low.x, 0, 0}, {0, high.y - low.y, 0}});
   SampleMesh sponge = mesh_of("sponge", add_diffuse(scene, "sponge", {0.7f, 0.55f, 0.2f}));
   add_box(sponge, {3.3f, 0.861f, 0.035f}, {3.45f, 0.91f, 0.09f}, kSides | kTop);
   place(scene, std::move(sponge));
@@ -131,7 +131,7 @@ void add_lamps(SampleScene& scene) {
     SampleMesh sides = mesh_of(name + " housing", housing);
     add_box(sides, middle - half, middle + half, kSides);
     place(scene, std::move(sides));
-    place_quad(scene, name, glow, middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z});
+    place_quad(scene, name, glow, {middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z}});
   }
 }
 

@@ -15,7 +15,7 @@ void add_hall(SampleScene& scene) {
   const std::uint32_t plaster = add_diffuse(scene, "plaster", Vec3(0.7f));
   const auto side = [&](std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
     SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
-    add_quad(mesh, origin, u, v);
+    add_quad(mesh, {origin, u, v});
     place(scene, std::move(mesh));
   };
   side("floor", add_diffuse(scene, "flags", Vec3(0.4f, 0.36f, 0.3f)), Vec3(0), z, x);
@@ -55,7 +55,7 @@ SampleScene make_colonnade() {
   for (int k = 0; k < 8; ++k) {
     SampleMesh mesh{"lamp " + std::to_string(k + 1), lamp, {}, {}, {}, {}};
     const Vec3 middle(static_cast<float>(k % 4) * 10 + 5, kHall.y - 0.05f, static_cast<float>(k / 4) * 10 + 5);
-    add_quad(mesh, middle - 0.5f * Vec3(kPanel.x, 0, kPanel.y), Vec3(kPanel.x, 0, 0), Vec3(0, 0, kPanel.y));
+    add_quad(mesh, {middle - 0.5f * Vec3(kPanel.x, 0, kPanel.y), Vec3(kPanel.x, 0, 0), Vec3(0, 0, kPanel.y)});
     place(scene, std::move(mesh));
   }
   scene.cameras.push_back({"aisle", Vec3(2, 1.7f, 10), Vec3(30, 1.2f, 9), 0.9f});

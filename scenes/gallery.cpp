@@ -143,7 +143,7 @@ void add_lights(SampleScene& scene) {
   SampleMesh housing{"luminaire housing", metal, {}, {}, {}, {}};
   add_box(housing, Vec3(-half.x, below, -half.y), Vec3(half.x, above, half.y), kSides);
   SampleMesh light{"luminaire panel", glow, {}, {}, {}, {}};
-  add_quad(light, Vec3(-half.x, below, -half.y), Vec3(2 * half.x, 0, 0), Vec3(0, 0, 2 * half.y));
+  add_quad(light, {Vec3(-half.x, below, -half.y), Vec3(2 * half.x, 0, 0), Vec3(0, 0, 2 * half.y)});
   const std::uint32_t housing_mesh = add_mesh(scene, std::move(housing)),
                       light_mesh = add_mesh(scene, std::move(light));
   const std::array<std::pair<const char*, Vec3>, 5> places{{{"A luminaire 1", Vec3(3, kHeight, 1.4f)},
@@ -164,7 +164,7 @@ void add_window(SampleScene& scene) {
   sky.base_color = Vec3(0);
   sky.emission = 1400.0f * Vec3(0.80f, 0.92f, 1);
   SampleMesh panel{"window sky", add_material(scene, std::move(sky)), {}, {}, {}, {}};
-  add_quad(panel, Vec3(12.38f, 0.89f, 0.99f), Vec3(0, 0, 2.42f), Vec3(0, 1.62f, 0));
+  add_quad(panel, {Vec3(12.38f, 0.89f, 0.99f), Vec3(0, 0, 2.42f), Vec3(0, 1.62f, 0)});
   place(scene, std::move(panel));
   SampleMesh bars{"window bars", add_diffuse(scene, "window frame", Vec3(0.75f)), {}, {}, {}, {}};
   for (const float z : {1.8f, 2.6f}) {

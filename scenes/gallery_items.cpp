@@ -75,13 +75,13 @@ void add_pictures(SampleScene& scene, std::uint32_t frame) {
     const Vec2 size = kSizes[i];
     SampleMesh canvas = empty_mesh(std::string("canvas ") + kTitles[i], add_material(scene, std::move(paint)));
     // A little before the wall, and 5 mm into the frame's inner sides.
-    add_quad(canvas, Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
-             Vec3(0, size.y + 0.01f, 0));
+    add_quad(canvas, {Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
+                      Vec3(0, size.y + 0.01f, 0)});
     project_uvs(canvas, Vec3(-size.x / 2 - 0.005f, size.y / 2 + 0.005f, 0), Vec3(1 / (size.x + 0.01f), 0, 0),
                 Vec3(0, -1 / (size.y + 0.01f), 0));
     canvases[i] = add_mesh(scene, std::move(canvas));
     SampleMesh border = empty_mesh(std::string("frame ") + kTitles[i], frame);
-    add_frame(border, size.x, size.y, 0.06f, 0.045f, kSunk);
+    add_frame(border, size, 0.06f, 0.045f, kSunk);
     frames[i] = add_mesh(scene, std::move(border));
   }
   struct Hung {
@@ -114,12 +114,12 @@ void add_mirror_and_panel(SampleScene& scene, std::uint32_t frame) {
   silver.specular = 1;
   SampleMesh mirror = empty_mesh("mirror", add_material(scene, std::move(silver)));
   const Vec2 size(2.4f, 1.8f);
-  add_quad(mirror, Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
-           Vec3(0, size.y + 0.01f, 0));
+  add_quad(mirror, {Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
+                    Vec3(0, size.y + 0.01f, 0)});
   const Vec3 at(7.9f, 1.4f, 8);
   place(scene, std::move(mirror), at, kHalfTurn);
   SampleMesh border = empty_mesh("mirror frame", frame);
-  add_frame(border, size.x, size.y, 0.05f, 0.03f, kSunk);
+  add_frame(border, size, 0.05f, 0.03f, kSunk);
   place(scene, std::move(border), at, kHalfTurn);
 
   SampleMaterial steel;

@@ -150,14 +150,14 @@ void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
   const Vec3 size(kDoorX1 - kDoorX0, kDoorY - kSillY, kDoorZ1 - kDoorZ0);
   const float reach = 0.01f;  // into the reveals
   // Both about the middle of the opening's lower edge, facing +z; the second as wide as z openings.
-  add_quad(x_pane, Vec3(-size.x / 2 - reach, -reach, 0), Vec3(size.x + 2 * reach, 0, 0),
-           Vec3(0, size.y + 2 * reach, 0));
-  add_quad(z_pane, Vec3(-size.z / 2 - reach, -reach, 0), Vec3(size.z + 2 * reach, 0, 0),
-           Vec3(0, size.y + 2 * reach, 0));
+  add_quad(x_pane,
+           {Vec3(-size.x / 2 - reach, -reach, 0), Vec3(size.x + 2 * reach, 0, 0), Vec3(0, size.y + 2 * reach, 0)});
+  add_quad(z_pane,
+           {Vec3(-size.z / 2 - reach, -reach, 0), Vec3(size.z + 2 * reach, 0, 0), Vec3(0, size.y + 2 * reach, 0)});
   const std::uint32_t on_z = add_mesh(scene, std::move(x_pane)), on_x = add_mesh(scene, std::move(z_pane));
   SampleMesh panel{"ceiling panel", palette.panel, {}, {}, {}, {}},
       housing{"panel housing", palette.trim, {}, {}, {}, {}};
-  add_quad(panel, Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.9f, 0, 0), Vec3(0, 0, 0.9f));
+  add_quad(panel, {Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.9f, 0, 0), Vec3(0, 0, 0.9f)});
   add_box(housing, Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.45f, 0.01f, 0.45f), kSides);
   const std::uint32_t panel_mesh = add_mesh(scene, std::move(panel)),
                       housing_mesh = add_mesh(scene, std::move(housing));
@@ -188,12 +188,12 @@ void add_stairs(SampleScene& scene, const Palette& palette) {
   for (int i = 0; i + 1 < kRisers; ++i) {
     const float x0 = kStairX0 + kTread * static_cast<float>(i), x1 = x0 + kTread + (i + 2 == kRisers ? reach : 0);
     const float y0 = i == 0 ? -reach : rise * static_cast<float>(i), y1 = rise * static_cast<float>(i + 1);
-    add_quad(stairs, c + Vec3(x0, y0, near), Vec3(0, 0, far - near), Vec3(0, y1 - y0, 0));
-    add_quad(stairs, c + Vec3(x0, y1, far), Vec3(x1 - x0, 0, 0), Vec3(0, 0, near - far));
-    add_quad(stairs, c + Vec3(x1, -reach, near), Vec3(x0 - x1, 0, 0), Vec3(0, y1 + reach, 0));
+    add_quad(stairs, {c + Vec3(x0, y0, near), Vec3(0, 0, far - near), Vec3(0, y1 - y0, 0)});
+    add_quad(stairs, {c + Vec3(x0, y1, far), Vec3(x1 - x0, 0, 0), Vec3(0, 0, near - far)});
+    add_quad(stairs, {c + Vec3(x1, -reach, near), Vec3(x0 - x1, 0, 0), Vec3(0, y1 + reach, 0)});
   }
   const float top = rise * static_cast<float>(kRisers - 1);
-  add_quad(stairs, c + Vec3(kStairX1 + reach, -reach, far), Vec3(0, 0, near - far), Vec3(0, top + reach, 0));
+  add_quad(stairs, {c + Vec3(kStairX1 + reach, -reach, far), Vec3(0, 0, near - far), Vec3(0, top + reach, 0)});
   place(scene, std::move(stairs));
   // The parapet around the opening above.
   SampleMesh parapet{"parapet", palette.trim, {}, {}, {}, {}};
@@ -243,8 +243,8 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
   }
   const auto add_top = [&](std::string name, std::uint32_t material) {
     SampleMesh top{std::move(name), material, {}, {}, {}, {}};
-    add_quad(top, Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
-             Vec3(0, 0, -2 * kTableHalfWidth));
+    add_quad(top, {Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
+                   Vec3(0, 0, -2 * kTableHalfWidth)});
     return add_mesh(scene, std::move(top));
   };
   const std::uint32_t plain = add_top("table top", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)]);
@@ -264,8 +264,8 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
 // On the -z wall, to the right of its opening.
 void add_mirrors(SampleScene& scene, const Palette& palette, int reflectors) {
   SampleMesh glass{"mirror", palette.mirror, {}, {}, {}, {}}, frame{"mirror frame", palette.trim, {}, {}, {}, {}};
-  add_quad(glass, Vec3(-0.455f, -0.655f, 0.01f), Vec3(0.91f, 0, 0), Vec3(0, 1.31f, 0));
-  add_frame(frame, 0.9f, 1.3f, 0.05f, 0.03f, 0.01f);
+  add_quad(glass, {Vec3(-0.455f, -0.655f, 0.01f), Vec3(0.91f, 0, 0), Vec3(0, 1.31f, 0)});
+  add_frame(frame, {0.9f, 1.3f}, 0.05f, 0.03f, 0.01f);
   const std::uint32_t glass_mesh = add_mesh(scene, std::move(glass)), frame_mesh = add_mesh(scene, std::move(frame));
   for (int index = 0; index < kRooms; ++index) {
     const Vec3 at = room_at(index).corner() + Vec3(0.74f, 1.62f, 0);
@@ -309,7 +309,7 @@ void add_lawn(SampleScene& scene, double area_m2) {
   const auto side = static_cast<float>(std::sqrt(area_m2));
   const Vec3 middle(kRoomsX * (kRoomX + kWall) / 2, -kSlab / 2, kRoomsZ * (kRoomZ + kWall) / 2);
   SampleMesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f)), {}, {}, {}, {}};
-  add_quad(lawn, middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side));
+  add_quad(lawn, {middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side)});
   place(scene, std::move(lawn));
 }
 

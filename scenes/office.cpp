@@ -18,12 +18,12 @@ SampleMesh mesh_of(std::string name, std::uint32_t material) {
 
 void add_room(SampleScene& scene, std::uint32_t plaster) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
-  place_quad(scene, "floor", add_diffuse(scene, "carpet", {0.16f, 0.19f, 0.26f}), Vec3(0), z, x);
-  place_quad(scene, "ceiling", add_diffuse(scene, "ceiling", Vec3(0.8f)), y, x, z);
-  place_quad(scene, "north wall", plaster, Vec3(0), x, y);
-  place_quad(scene, "south wall", plaster, z, y, x);
-  place_quad(scene, "west wall", add_diffuse(scene, "ochre wall", {0.66f, 0.48f, 0.26f}), Vec3(0), y, z);
-  place_quad(scene, "east wall", plaster, x, z, y);
+  place_quad(scene, "floor", add_diffuse(scene, "carpet", {0.16f, 0.19f, 0.26f}), {Vec3(0), z, x});
+  place_quad(scene, "ceiling", add_diffuse(scene, "ceiling", Vec3(0.8f)), {y, x, z});
+  place_quad(scene, "north wall", plaster, {Vec3(0), x, y});
+  place_quad(scene, "south wall", plaster, {z, y, x});
+  place_quad(scene, "west wall", add_diffuse(scene, "ochre wall", {0.66f, 0.48f, 0.26f}), {Vec3(0), y, z});
+  place_quad(scene, "east wall", plaster, {x, z, y});
 }
 
 void add_lamps(SampleScene& scene) {
@@ -36,7 +36,7 @@ void add_lamps(SampleScene& scene) {
     SampleMesh sides = mesh_of(name + " housing", housing);
     add_box(sides, middle - half, middle + half, kSides);
     place(scene, std::move(sides));
-    place_quad(scene, name, glow, middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z});
+    place_quad(scene, name, glow, {middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z}});
   }
 }
 
@@ -68,7 +68,7 @@ void add_monitor(Workplace& w) {
   for (std::size_t i = 0; i < 4; ++i) add_corners(w.cream, near[i], far[i], far[(i + 1) % 4], near[(i + 1) % 4]);
   add_corners(w.cream, far[1], far[0], far[3], far[2]);
   add_box(w.cream, {-0.1f, kDesk, -0.25f}, {0.1f, low.y, -0.09f}, kSides);
-  add_quad(w.screen, {low.x + 0.03f, low.y + 0.04f, high.z + 0.001f}, {0.38f, 0, 0}, {0, 0.29f, 0});
+  add_quad(w.screen, {{low.x + 0.03f, low.y + 0.04f, high.z + 0.001f}, {0.38f, 0, 0}, {0, 0.29f, 0}});
 }
 
 void add_keyboard(Workplace& w) {
@@ -175,12 +175,12 @@ void add_books(SampleScene& scene, std::uint32_t wood) {
 
 void add_wall_things(SampleScene& scene, std::uint32_t grey, std::uint32_t wood) {
   SampleMesh frame = mesh_of("whiteboard frame", grey);
-  add_frame(frame, 2, 1, 0.03f, 0.02f, 0);
+  add_frame(frame, {2, 1}, 0.03f, 0.02f, 0);
   add_box(frame, {-0.8f, -0.56f, 0}, {0.8f, -0.54f, 0.08f}, kAllFaces & ~kBack);  // for pens
   const Vec3 middle(2.9f, 1.6f, 0);
   place(scene, std::move(frame), middle);
-  place_quad(scene, "whiteboard", add_diffuse(scene, "enamel", Vec3(0.82f)), middle + Vec3(-1, -0.5f, 0.005f),
-             {2, 0, 0}, {0, 1, 0});
+  place_quad(scene, "whiteboard", add_diffuse(scene, "enamel", Vec3(0.82f)),
+             {middle + Vec3(-1, -0.5f, 0.005f), {2, 0, 0}, {0, 1, 0}});
   SampleMesh door = mesh_of("door", wood), handle = mesh_of("door handle", grey);
   add_box(door, {4.6f, 0, kRoom.z - 0.03f}, {5.5f, 2.05f, kRoom.z}, kLeft | kRight | kTop | kBack);
   add_box(handle, {4.68f, 1.02f, kRoom.z - 0.09f}, {4.82f, 1.04f, kRoom.z - 0.03f}, kAllFaces & ~kFront);
@@ -225,7 +225,7 @@ void add_paper(SampleScene& scene, int sheets) {
     const float turn = 1.9f * static_cast<float>(i), at = 0.06f * static_cast<float>(i % 5);
     const Vec3 u = 0.21f * Vec3(std::cos(turn), 0, std::sin(turn)), v = 0.297f * Vec3(u.z, 0, -u.x) / 0.21f;
     const Vec3 middle(i % 2 ? 4.35f + at : 0.85f + at, kDesk + 0.0015f * static_cast<float>(i + 1), 0.68f);
-    add_quad(paper, middle - 0.5f * (u + v), u, v);
+    add_quad(paper, {middle - 0.5f * (u + v), u, v});
   }
   place(scene, std::move(paper));
 }

@@ -27,31 +27,32 @@ std::uint32_t add_glow(SampleScene& scene, std::string name, const Vec3& luminan
 }
 
 // A rectangle around a hole that glows.
-void place_around_light(SampleScene& scene, std::string name, std::uint32_t material, std::string light_name,
-                        std::uint32_t light, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
-                        const Vec2& high) {
-  SampleMesh mesh = empty(std::move(name), material), glow = empty(std::move(light_name), light);
-  add_quad_around(mesh, origin, u, v, low, high);
-  add_quad(glow, origin + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v);
-  place(scene, std::move(mesh));
-  place(scene, std::move(glow));
+void place_around_light(SampleScene& scene, SampleMesh wall, SampleMesh light, const Quad& quad, const Hole& hole) {
+  const auto& [origin, u, v] = quad;
+  const Vec2 size = hole.high - hole.low;
+  add_quad_around(wall, quad, hole);
+  add_quad(light, {origin + hole.low.x * u + hole.low.y * v, size.x * u, size.y * v});
+  place(scene, std::move(wall));
+  place(scene, std::move(light));
 }
 
 void add_walls(SampleScene& scene, const Paints& paints) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   const auto wall = [&](const char* name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
     SampleMesh mesh = empty(name, material);
-    add_quad(mesh, origin, u, v);
+    add_quad(mesh, {origin, u, v});
     place(scene, std::move(mesh));
   };
   wall("floor", paints.floor, Vec3(0), z, x);
   wall("north wall", paints.wall, Vec3(0), x, y);
   wall("west wall", paints.wall, z, -z, y);
   wall("east wall", paints.wall, x, z, y);
-  place_around_light(scene, "south wall", paints.wall, "window", add_glow(scene, "daylight", Vec3(900, 960, 1000)),
-                     x + z, -x, y, Vec2(0.1f, 0.3f), Vec2(0.9f, 0.8f));
-  place_around_light(scene, "ceiling", paints.wall, "lamp", add_glow(scene, "lamp", Vec3(1500, 1400, 1250)), y, x, z,
-                     Vec2(0.2f, 0.4f), Vec2(0.8f, 0.6f));
+  SampleMesh window = empty("window", add_glow(scene, "daylight", Vec3(900, 960, 1000)));
+  place_around_light(scene, empty("south wall", paints.wall), std::move(window), {x + z, -x, y},
+                     {Vec2(0.1f, 0.3f), Vec2(0.9f, 0.8f)});
+  SampleMesh lamp = empty("lamp", add_glow(scene, "lamp", Vec3(1500, 1400, 1250)));
+  place_around_light(scene, empty("ceiling", paints.wall), std::move(lamp), {y, x, z},
+                     {Vec2(0.2f, 0.4f), Vec2(0.8f, 0.6f)});
 }
 
 // Faces that lie on wall or floor are left out, as in models made by hand; the board's are all there.
@@ -83,10 +84,10 @@ void add_things(SampleScene& scene, const Paints& paints) {
        {std::tuple{"picture 1", Vec2(0.9f, 0.6f), 1.3f}, {"picture 2", Vec2(0.5f, 0.7f), 2.7f}}) {
     SampleMesh frame = empty(std::string(name) + " frame", paints.wood),
                canvas = empty(std::string(name) + " canvas", paints.canvas);
-    add_frame(frame, size.x, size.y, 0.05f, 0.025f, 0.01f);
+    add_frame(frame, size, 0.05f, 0.025f, 0.01f);
     // Before the wall, and a little into the frame's inner sides.
     const Vec2 half = 0.5f * size + 0.004f;
-    add_quad(canvas, Vec3(-half.x, -half.y, 0.008f), Vec3(2 * half.x, 0, 0), Vec3(0, 2 * half.y, 0));
+    add_quad(canvas, {Vec3(-half.x, -half.y, 0.008f), Vec3(2 * half.x, 0, 0), Vec3(0, 2 * half.y, 0)});
     const Vec3 at(0, 1.5f, z);
     place(scene, std::move(frame), at, kPi / 2);
     place(scene, std::move(canvas), at, kPi / 2);

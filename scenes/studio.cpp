@@ -23,24 +23,24 @@ void add_walls(SampleScene& scene) {
   const std::uint32_t white = add_diffuse(scene, "white", Vec3(0.75f));
   const std::uint32_t floor = add_diffuse(scene, "oak", Vec3(0.42f, 0.28f, 0.16f));
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
-  place_quad(scene, "floor", floor, Vec3(0), z, x);
-  place_quad(scene, "north wall", white, Vec3(0), x, y);
-  place_quad(scene, "south wall", add_diffuse(scene, "yellow", Vec3(0.7f, 0.55f, 0.15f)), z, y, x);
-  place_quad(scene, "west wall", add_diffuse(scene, "red", Vec3(0.6f, 0.1f, 0.08f)), Vec3(0), y, z);
-  place_quad(scene, "east wall", add_diffuse(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), x, z, y);
+  place_quad(scene, "floor", floor, {Vec3(0), z, x});
+  place_quad(scene, "north wall", white, {Vec3(0), x, y});
+  place_quad(scene, "south wall", add_diffuse(scene, "yellow", Vec3(0.7f, 0.55f, 0.15f)), {z, y, x});
+  place_quad(scene, "west wall", add_diffuse(scene, "red", Vec3(0.6f, 0.1f, 0.08f)), {Vec3(0), y, z});
+  place_quad(scene, "east wall", add_diffuse(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), {x, z, y});
   // The ceiling around its panel: four strips, and the panel in the hole.
   const Vec3 low = 0.5f * (kRoom - kPanel), high = low + kPanel;
   SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
   const auto strip = [&](float x0, float z0, float x1, float z1) {
-    add_quad(ceiling, Vec3(x0, kRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0));
+    add_quad(ceiling, {Vec3(x0, kRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0)});
   };
   strip(0, 0, kRoom.x, low.z);
   strip(0, high.z, kRoom.x, kRoom.z);
   strip(0, low.z, low.x, high.z);
   strip(high.x, low.z, kRoom.x, high.z);
   place(scene, std::move(ceiling));
-  place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(2500)), Vec3(low.x, kRoom.y, low.z),
-             Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel));
+  place_quad(scene, "panel", add_diffuse(scene, "panel", Vec3(0.8f), Vec3(2500)),
+             {Vec3(low.x, kRoom.y, low.z), Vec3(kPanel, 0, 0), Vec3(0, 0, kPanel)});
 }
 
 void add_balls(SampleScene& scene) {

@@ -54,7 +54,8 @@ void join_rings(SampleMesh& mesh, const Ring& below, const Ring& above, int arou
 
 }  // namespace
 
-void add_quad(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v) {
+void add_quad(SampleMesh& mesh, const Quad& quad) {
+  const auto& [origin, u, v] = quad;
   add_corners(mesh, origin, origin + u, origin + u + v, origin + v);
 }
 
@@ -74,16 +75,15 @@ void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, 
   add_triangle(mesh, j, j + 1, j + 2);
 }
 
-void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
-                const Vec3& v) {
+void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Quad& quad) {
   SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
-  add_quad(mesh, origin, u, v);
+  add_quad(mesh, quad);
   place(scene, std::move(mesh));
 }
 
-void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
-                     const Vec2& high) {
-  const auto at = [&](float s, float t) { return origin + s * u + t * v; };
+void add_quad_around(SampleMesh& mesh, const Quad& quad, const Hole& hole) {
+  const auto& [low, high] = hole;
+  const auto at = [&](float s, float t) { return quad.origin + s * quad.u + t * quad.v; };
   const std::array<Vec3, 4> outer{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
   const std::array<Vec3, 4> inner{at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -95,12 +95,12 @@ void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const 
 void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces) {
   const Vec3 size = upper - lower;
   const Vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
-  if (faces & kLeft) add_quad(mesh, lower, z, y);
-  if (faces & kRight) add_quad(mesh, lower + x + z, -z, y);
-  if (faces & kBottom) add_quad(mesh, lower, x, z);
-  if (faces & kTop) add_quad(mesh, lower + y + z, x, -z);
-  if (faces & kBack) add_quad(mesh, lower + x, -x, y);
-  if (faces & kFront) add_quad(mesh, lower + z, x, y);
+  if (faces & kLeft) add_quad(mesh, {lower, z, y});
+  if (faces & kRight) add_quad(mesh, {lower + x + z, -z, y});
+  if (faces & kBottom) add_quad(mesh, {lower, x, z});
+  if (faces & kTop) add_quad(mesh, {lower + y + z, x, -z});
+  if (faces & kBack) add_quad(mesh, {lower + x, -x, y});
+  if (faces & kFront) add_quad(mesh, {lower + z, x, y});
 }
 
 void add_slab(SampleMesh& slab, SampleMesh& legs, const Vec3& lower, const Vec3& upper, float leg) {
@@ -205,8 +205,8 @@ void add_fluted_shaft(SampleMesh& mesh, const Vec3& base, const FlutedShaft& sha
   }
 }
 
-void add_frame(SampleMesh& mesh, float width, float height, float border, float depth, float sunk) {
-  const Vec2 inner(0.5f * width, 0.5f * height), outer = inner + Vec2(border);
+void add_frame(SampleMesh& mesh, const Vec2& size, float border, float depth, float sunk) {
+  const Vec2 inner = 0.5f * size, outer = inner + Vec2(border);
   const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 here = corner[i], next = corner[(i + 1) % 4];

@@ -21,16 +21,20 @@ enum BoxFace : unsigned {
 };
 
 // The rectangle origin, +u, +u+v, +v; its front is the side that u × v points to.
-void add_quad(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);
+struct Quad {
+  Vec3 origin, u, v;
+};
+void add_quad(SampleMesh& mesh, const Quad& quad);
 // One alone, as a mesh used once.
-void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u,
-                const Vec3& v);
+void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Quad& quad);
 // Four corners, counter-clockwise from the front; flat shaded, also where they are not quite in a plane.
 void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-// The rectangle of add_quad around a hole from low to high, both shares of u and v in (0, 1); four faces without
-// T-junctions.
-void add_quad_around(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v, const Vec2& low,
-                     const Vec2& high);
+// Shares of a rectangle's u and v in (0, 1).
+struct Hole {
+  Vec2 low, high;
+};
+// The rectangle around a hole: four faces without T-junctions.
+void add_quad_around(SampleMesh& mesh, const Quad& quad, const Hole& hole);
 // Axis-aligned, lower < upper in each axis.
 void add_box(SampleMesh& mesh, const Vec3& lower, const Vec3& upper, unsigned faces = kAllFaces);
 // Tables and seats: a box from lower to upper on four legs down to y = 0, square in section and flush with its corners.
@@ -53,9 +57,9 @@ struct FlutedShaft {
 };
 void add_fluted_shaft(SampleMesh& mesh, const Vec3& base, const FlutedShaft& shaft);
 
-// A picture frame about the rectangle |x| <= width/2, |y| <= height/2 in the plane z = 0, facing +z: border wide, from
+// A picture frame about the rectangle |x| <= size.x/2, |y| <= size.y/2 in the plane z = 0, facing +z: border wide, from
 // z = -sunk to z = depth, its inner sides down to z = 0. No back.
-void add_frame(SampleMesh& mesh, float width, float height, float border, float depth, float sunk);
+void add_frame(SampleMesh& mesh, const Vec2& size, float border, float depth, float sunk);
 
 // uv = (dot(p - origin, u), dot(p - origin, v)) for all vertices: u and v in 1/m.
 void project_uvs(SampleMesh& mesh, const Vec3& origin, const Vec3& u, const Vec3& v);

@@ -102,7 +102,7 @@ SampleScene one_quad() {
   scene.name = "quad";
   add_material(scene, SampleMaterial{});
   SampleMesh mesh{"quad", 0, {}, {}, {}, {}};
-  add_quad(mesh, Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  add_quad(mesh, {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   place(scene, std::move(mesh));
   return scene;
 }

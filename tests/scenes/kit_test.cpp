@@ -43,12 +43,12 @@ TEST(Probe, SeesEachFault) {
   SampleScene scene;
   add_material(scene, SampleMaterial{});
   SampleMesh a{"a", 0, {}, {}, {}, {}}, b{"b", 0, {}, {}, {}, {}}, c{"c", 0, {}, {}, {}, {}};
-  add_quad(a, Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
-  add_quad(b, Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  add_quad(a, {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
+  add_quad(b, {Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   place(scene, a);
   place(scene, b);
   EXPECT_TRUE(coplanar_overlaps(scene).empty());
-  add_quad(c, Vec3(1.9f, 0.5f, 0.00004f), Vec3(0, 0.3f, 0), Vec3(1, 0, 0));  // from the other side
+  add_quad(c, {Vec3(1.9f, 0.5f, 0.00004f), Vec3(0, 0.3f, 0), Vec3(1, 0, 0)});  // from the other side
   place(scene, c);
   EXPECT_EQ(coplanar_overlaps(scene), (std::vector<std::string>{"b / c"}));
 }
@@ -72,7 +72,7 @@ TEST(Shapes, AreSoundAndFaceOutwards) {
   add_fluted_shaft(shaft, Vec3(0), {});
   expect_sound(shaft);
   SampleMesh frame{"frame", 0, {}, {}, {}, {}};
-  add_frame(frame, 1, 0.7f, 0.05f, 0.03f, 0.01f);
+  add_frame(frame, {1, 0.7f}, 0.05f, 0.03f, 0.01f);
   expect_sound(frame);
 }
 
