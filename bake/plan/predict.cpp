@@ -67,8 +67,8 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context, in.prepared.demand));
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
   const WallClock clock;
-  ORIEL_TRY(pilot.radiosity, bake_radiosity({*in.prepared.accel, in.lights, path_options(in.options)}, pilot.atlas,
-                                            texel_map, pilot_options(in), context));
+  const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
+  ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, pilot_options(in), context));
   pilot.seconds = clock.seconds();
   pilot.texels = texels_of(texel_map);
   ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));

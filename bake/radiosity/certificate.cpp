@@ -79,12 +79,11 @@ std::vector<HeldOut> hold_out(std::span<const TexelMapPage> map, std::span<const
 
 class Verifier {
  public:
-  Verifier(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> map, Ask what,
-           std::span<const Vec3> eyes, double asked, std::uint64_t rays_at_most, Context& context)
-      : t_(transport), map_(map), what_(what), asked2_(asked * asked), rays_at_most_(rays_at_most), context_(context) {
+  Verifier(const LightmapScene& scene, const Question& question, Context& context)
+      : t_(scene.transport), question_(question), asked2_(question.error * question.error), context_(context) {
     of_texels_.reserve(seeds_.size());
     for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + seeds::kCertificate + k);
-    for (const Context& own : seeds_) of_texels_.emplace_back(transport, atlas, eyes, false, own);
+    for (const Context& own : seeds_) of_texels_.emplace_back(scene, question.eyes, false, own);
   }
 
   // How many paths an estimate may have, so that a batch stays within the rays.
@@ -93,7 +92,8 @@ class Verifier {
     std::uint64_t paths = 0;
     for (const HeldOut& h : first) paths += h.paths;
     const double rays_a_path = static_cast<double>(rays_) / static_cast<double>(std::max<std::uint64_t>(paths, 1));
-    const double fit = static_cast<double>(rays_at_most_) / (rays_a_path * kEstimates * static_cast<double>(kBatch));
+    const double fit =
+        static_cast<double>(question_.rays_at_most) / (rays_a_path * kEstimates * static_cast<double>(kBatch));
     most_paths_ = static_cast<std::uint32_t>(std::clamp(fit, double{kPilotPaths}, double{kMostPaths}));
     return {};
   }
@@ -106,7 +106,7 @@ class Verifier {
     UnitLoop loop{.stage = "certificate", .count = batch.size(), .rays = kRaysAPath * kPilotPaths};
     loop.inputs = [&](std::size_t k, Archive& key) {
       FramePixel pixel = *batch[k].pixel;
-      key(pixel, batch[k].number, batch[k].index, batch[k].baked, batch[k].floor2, what_, asked2_, most);
+      key(pixel, batch[k].number, batch[k].index, batch[k].baked, batch[k].floor2, question_.what, asked2_, most);
     };
     loop.compute = [&](std::size_t k) {
       HeldOut& h = batch[k];
@@ -128,8 +128,8 @@ class Verifier {
   // which: one of the estimates, or kEstimates for the foretelling.
   TexelSums sums(std::size_t which, const HeldOut& h, std::uint32_t paths, std::uint64_t& traced) const {
     TexelSums own;
-    if (what_ == Ask::kTexels) {
-      of_texels_[which].add(map_[h.pixel->page], h.pixel->page, h.index, 0, paths, own, traced);
+    if (question_.what == Ask::kTexels) {
+      of_texels_[which].add({h.pixel->page, h.index}, {0, paths}, own, traced);
       return own;
     }
     const SurfacePoint point = point_on_side(t_.accel.scene(), h.pixel->triangle, h.pixel->barycentric);
@@ -152,10 +152,8 @@ class Verifier {
   }
 
   const Transport& t_;
-  std::span<const TexelMapPage> map_;
-  Ask what_;
+  const Question question_;
   double asked2_;
-  std::uint64_t rays_at_most_;
   Context& context_;
   std::array<Context, kEstimates + 1> seeds_;  // of the estimates and the foretelling
   std::vector<TexelPaths> of_texels_;          // likewise
@@ -219,12 +217,11 @@ double squared_error(const DVec3& baked, const std::array<DVec3, kEstimates>& es
   return sum / kEstimates;
 }
 
-Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                            std::span<const LightmapPage> pages, std::span<const FramePixel> pixels, Ask what,
-                            double asked, std::uint64_t rays_at_most, Context& context, std::span<const Vec3> eyes) {
+Result<Certificate> certify(const LightmapScene& scene, std::span<const LightmapPage> pages,
+                            std::span<const FramePixel> pixels, const Question& question, Context& context) {
   Certificate c;
-  std::vector<HeldOut> held_out = hold_out(texel_map, pages, pixels, what);
-  Verifier verifier(transport, atlas, texel_map, what, eyes, asked, rays_at_most, context);
+  std::vector<HeldOut> held_out = hold_out(scene.map, pages, pixels, question.what);
+  Verifier verifier(scene, question, context);
   std::span<const HeldOut> compared;
   while (compared.size() < held_out.size()) {
     const auto batch =
@@ -233,8 +230,10 @@ Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std:
     ORIEL_TRY_VOID(verifier.ask(batch));
     for (const HeldOut& h : batch) c.paths += h.paths;
     compared = std::span(held_out).first(compared.size() + batch.size());
-    if (verifier.rays() >= rays_at_most) break;
-    if (compared.size() >= kLeastCompared && mean_square(compared).interval <= kWellKnown * asked * asked) break;
+    if (verifier.rays() >= question.rays_at_most) break;
+    if (compared.size() >= kLeastCompared &&
+        mean_square(compared).interval <= kWellKnown * question.error * question.error)
+      break;
   }
   c.rays = verifier.rays();
   c.pixels = compared.size();
@@ -242,7 +241,7 @@ Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std:
   state_bias(compared, c);
   const MeanSquare square = mean_square(compared);
   c.relative_error = std::sqrt(std::max(0.0, square.mean));
-  c.worst = worst_of(compared, transport.accel.scene());
+  c.worst = worst_of(compared, scene.transport.accel.scene());
   c.error_low = std::sqrt(std::max(0.0, square.mean - square.interval));
   c.error_high = std::sqrt(std::max(0.0, square.mean + square.interval));
   return c;

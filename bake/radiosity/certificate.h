@@ -23,14 +23,19 @@ enum class Ask {
   kTexels,  // that of the texels which they read most of, against the mean over these: neither size nor interpolation
 };
 
+struct Question {
+  Ask what = Ask::kPoints;
+  double error = 0;  // asked for: pixels are asked until the squared error is known to a fifth of this one's
+  std::uint64_t rays_at_most = 0;
+  std::span<const Vec3> eyes{};  // those that the texels were listed for
+};
+
 // The light of held-out pixels, of the texels that the pack keeps (as halves), is held against paths with random
 // numbers of their own, thrice each (squared_error). Noisy pixels get more paths, as a few of their own foretell. More
 // pixels are asked, in their order, until the squared error is known to a fifth of what was asked for, or
 // `rays_at_most` are traced; at least 64 are. Nothing depends on threads or the clock. pages: filled, dilated and
-// stitched. eyes: those that the texels were listed for. Stage name "certificate"; error kStopped.
-Result<Certificate> certify(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                            std::span<const LightmapPage> pages, std::span<const FramePixel> pixels, Ask what,
-                            double asked, std::uint64_t rays_at_most, Context& context,
-                            std::span<const Vec3> eyes = {});
+// stitched. Stage name "certificate"; error kStopped.
+Result<Certificate> certify(const LightmapScene& scene, std::span<const LightmapPage> pages,
+                            std::span<const FramePixel> pixels, const Question& question, Context& context);
 
 }  // namespace oriel

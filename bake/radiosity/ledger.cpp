@@ -93,8 +93,9 @@ double Ledger::disagreement_error() const {
   return larger > 0 ? on_texels.error / larger : 0;
 }
 
-Result<Ledger> keep_ledger(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const Radiosity& radiosity, std::uint64_t rays_at_most, Context& context) {
+Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosity, std::uint64_t rays_at_most,
+                           Context& context) {
+  const auto& [transport, atlas, texel_map] = scene;
   Ledger ledger;
   const Sources sources(transport.accel.scene(), transport.lights);
   if (sources.kinds().empty()) return ledger;

@@ -36,8 +36,8 @@ inline constexpr double kLedgerTolerance = 0.005;  // of closure() and disagreem
 
 // Traces particles for about `rays_at_most`, at least some thousand. The same for any number of threads; nothing where
 // the scene has no light. Stage name "ledger"; error kStopped.
-Result<Ledger> keep_ledger(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const Radiosity& radiosity, std::uint64_t rays_at_most, Context& context);
+Result<Ledger> keep_ledger(const LightmapScene& scene, const Radiosity& radiosity, std::uint64_t rays_at_most,
+                           Context& context);
 
 // Where the ledger does not close or the lightmap disagrees, beyond what noise explains: one line each, with its size.
 std::vector<std::string> ledger_findings(const Ledger& ledger);

@@ -129,7 +129,7 @@ class DarkEstimator : public LightEstimator {
 
 Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task) {
   if (is_dark(task.transport)) {
-    ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.quick));
+    ORIEL_TRY(Texels texels, list_texels(task, task.quick));
     return std::make_unique<DarkEstimator>(std::move(texels));
   }
   if (task.options.estimator == Estimator::kCached) return make_cached_estimator(task);
@@ -137,14 +137,15 @@ Result<std::unique_ptr<LightEstimator>> make_estimator(const RadiosityTask& task
 }
 
 // Pixels that eyes see; where they see nothing, or none is given, those of eyes in the open.
-Result<std::vector<FramePixel>> pixels_of(const Transport& transport, const Atlas& atlas, std::vector<Vec3> eyes,
-                                          std::uint64_t seed, Context& context) {
+Result<std::vector<FramePixel>> pixels_of(const LightmapScene& scene, std::vector<Vec3> eyes, std::uint64_t seed,
+                                          Context& context) {
   for (;; eyes.clear()) {
     const bool given = !eyes.empty();
-    if (!given) eyes = eyes_in_the_open(transport, kOpenEyes, seed);
+    if (!given) eyes = eyes_in_the_open(scene.transport, kOpenEyes, seed);
     if (eyes.empty()) return std::vector<FramePixel>();
     const auto per_eye = static_cast<std::uint32_t>(std::max<std::size_t>(1, kPixels / eyes.size()));
-    ORIEL_TRY(std::vector<FramePixel> pixels, find_frame_pixels(transport, atlas, eyes, per_eye, mix64(seed), context));
+    ORIEL_TRY(std::vector<FramePixel> pixels,
+              find_frame_pixels(scene.transport, scene.atlas, {eyes, per_eye}, mix64(seed), context));
     if (!given || !pixels.empty()) return pixels;
   }
 }
@@ -222,8 +223,7 @@ Result<Certificate> ask(const RadiosityTask& task, Ask what, std::span<const Fra
   const auto at_most = static_cast<std::uint64_t>(task.options.verify * static_cast<double>(task.work()));
   const RadiosityOptions& options = task.options;
   const double goal = options.error > 0 ? options.error : light.report.relative_error;
-  auto c = certify(task.transport, task.atlas, task.map, light.pages, held_out, what, goal, at_most, task.context,
-                   options.eyes);
+  auto c = certify(task, light.pages, held_out, {what, goal, at_most, options.eyes}, task.context);
   if (c) task.paths.count(c->rays);
   return c;
 }
@@ -236,9 +236,8 @@ Result<Certificate> verify(const RadiosityTask& task, const Radiosity& light, st
   const auto late = [&] { return options.late(); };
   const Interruptible until(task.context, late);
   const auto measured = [&]() -> Result<Certificate> {
-    ORIEL_TRY(held_out,
-              pixels_of(task.transport, task.atlas, options.held_out.empty() ? options.eyes : options.held_out,
-                        mix64(task.context.seed + seeds::kHeldOutPixels), task.context));
+    ORIEL_TRY(held_out, pixels_of(task, options.held_out.empty() ? options.eyes : options.held_out,
+                                  mix64(task.context.seed + seeds::kHeldOutPixels), task.context));
     return ask(task, Ask::kPoints, held_out, light);
   }();
   if (measured) return measured;
@@ -298,22 +297,19 @@ Radiosity empty_radiosity(std::span<const TexelMapPage> map, bool directional) {
   return light;
 }
 
-Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
-                                 std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
-                                 Context& context) {
+Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOptions& options, Context& context) {
   std::atomic<std::uint64_t> rays{0}, quick_rays{0};
   context.foretell("first light", 0);
   ORIEL_TRY(const std::vector<FramePixel> pixels,
-            pixels_of(transport, atlas, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
-  const RadiosityTask task{transport, atlas,   texel_map,        pixels,
-                           options,   context, {context, &rays}, {context, &quick_rays}};
+            pixels_of(scene, options.eyes, mix64(context.seed + seeds::kFramePixels), context));
+  const RadiosityTask task{scene, pixels, options, context, {context, &rays}, {context, &quick_rays}};
   ORIEL_TRY(const std::unique_ptr<LightEstimator> estimator, make_estimator(task));
   Radiosity light;
   Goal goal{.error = options.error};
   for (int refinements = 0;; ++refinements) {
     ORIEL_TRY_VOID(estimator->refine(goal));
     if (context.stopped()) return fail(ErrorCode::kStopped, "radiosity", "stopped");
-    light = empty_radiosity(texel_map, options.directional);
+    light = empty_radiosity(scene.map, options.directional);
     light.report.refinements = refinements;
     estimator->write(light);
     write_groups(task, *estimator, light);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/radiosity/estimators/radiosity_options.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
 
 namespace oriel {
 
@@ -11,8 +12,6 @@ namespace oriel {
 // Points that lie inside other geometry (independent probes meet little but back faces of one-sided materials) are left
 // out, and so are those behind a wall that stands on the texel; a texel with none left is kBuried and filled from its
 // chart's neighbours. Stage name "radiosity"; error kStopped.
-Result<Radiosity> bake_radiosity(const Transport& transport, const Atlas& atlas,
-                                 std::span<const TexelMapPage> texel_map, const RadiosityOptions& options,
-                                 Context& context);
+Result<Radiosity> bake_radiosity(const LightmapScene& scene, const RadiosityOptions& options, Context& context);
 
 }  // namespace oriel

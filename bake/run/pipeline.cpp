@@ -136,6 +136,7 @@ class Bake {
         result_.node_paths.try_emplace(name, surface.node_path);
     ORIEL_TRY_VOID(assign_light_groups(options_.light_groups, prepared_.imported->scene, context_));
     lights_.emplace(scene());
+    transport_.emplace(accel(), *lights_, path_options(options_));
     warn_about_light(scene(), *lights_, context_);
     foretell_light();
     return {};
@@ -232,7 +233,7 @@ class Bake {
     ORIEL_TRY(radiosity_, timed_("radiosity", [&](std::uint64_t& rays) {
                 const StageInputs inputs(context_, SurfacesOf{scene()}, LightsOf{scene()}, LayoutOf{prepared_.atlas},
                                          path_options(options_).max_bounces);
-                auto baked = bake_radiosity(transport(), prepared_.atlas, prepared_.texel_map, radiosity, context_);
+                auto baked = bake_radiosity(laid_out(), radiosity, context_);
                 if (baked) rays = baked->report.rays;
                 return baked;
               }));
@@ -247,9 +248,8 @@ class Bake {
     ORIEL_TRY(auto ledger, timed_("ledger", [&](std::uint64_t& rays) {
                 const auto at_most =
                     static_cast<std::uint64_t>(kLedgerRays * static_cast<double>(radiosity_.report.rays));
-                auto kept = unless_late(budget_, context_, [&] {
-                  return keep_ledger(transport(), prepared_.atlas, prepared_.texel_map, radiosity_, at_most, context_);
-                });
+                auto kept = unless_late(budget_, context_,
+                                        [&] { return keep_ledger(laid_out(), radiosity_, at_most, context_); });
                 if (kept && *kept) rays = (*kept)->rays;
                 return kept;
               }));
@@ -347,7 +347,7 @@ class Bake {
   const Scene& scene() const { return prepared_.scene(); }
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
-  Transport transport() const { return {accel(), *lights_, path_options(options_)}; }
+  LightmapScene laid_out() const { return {*transport_, prepared_.atlas, prepared_.texel_map}; }
   BakedScene baked() { return {accel(), *lights_, prepared_.atlas, pack().lightmaps}; }
   template <class Lines>
   void omit(const Lines& lines) {
@@ -365,7 +365,8 @@ class Bake {
   std::string_view stage_;
   Stopwatch timed_{result_.times, [this](const char* stage) { context_.foretell(stage_ = stage, 0); }};
   PreparedScene prepared_;
-  std::optional<LightSet> lights_;  // of the prepared scene
+  std::optional<LightSet> lights_;      // of the prepared scene
+  std::optional<Transport> transport_;  // likewise
   MaterialMaps materials_;
   FoundReflections found_;
   std::vector<std::uint64_t> reflected_triangles_;  // by reflector

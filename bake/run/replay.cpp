@@ -67,13 +67,13 @@ Result<std::string> replay_texel(const BakeOptions& options, const TexelAddress&
   const Transport transport{*prepared.accel, lights, path_options(options), &listener};
   const std::vector<Vec3> eyes = sample_eyes(prepared.region, kLightmapEyes, context.seed);
   const bool directional = choose_directional(prepared.scene(), options.directional, prepared.omissions);
-  const TexelPaths of_texel(transport, prepared.atlas, eyes, directional, context);
+  const TexelPaths of_texel({transport, prepared.atlas, prepared.texel_map}, eyes, directional, context);
   TexelSums sums;
   std::uint64_t rays = 0;
   for (std::uint32_t k = paths.first; k < paths.first + paths.count; ++k) {
     TexelSums one;
     listener.text += fmt::format("path {}\n", k);
-    of_texel.add(prepared.texel_map[texel.page], texel.page, index, k, k + 1, one, rays);
+    of_texel.add({texel.page, index}, {k, k + 1}, one, rays);
     sums.sum += one.sum, sums.squares += one.squares, sums.count += one.count;
     listener.text += one.count > 0 ? fmt::format("  = {} lux\n", text_of(Vec3(one.irradiance())))
                                    : std::string("  left out: inside a body, or cut off by a wall\n");

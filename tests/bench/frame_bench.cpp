@@ -29,9 +29,10 @@ Result<Certificate> measure(const BakeOptions& options, double known_to, std::ui
   const LightSet lights(prepared.scene());
   const Transport transport{*prepared.accel, lights, path_options(options)};
   context.seed = kSeed;
-  ORIEL_TRY(const std::vector<FramePixel> pixels,
-            find_frame_pixels(transport, atlas, held_out_eyes(prepared.region, kEyes, kSeed), kPixels, kSeed, context));
-  return certify(transport, atlas, prepared.texel_map, pack.lightmaps, pixels, Ask::kPoints, known_to, rays_at_most,
+  ORIEL_TRY(
+      const std::vector<FramePixel> pixels,
+      find_frame_pixels(transport, atlas, {held_out_eyes(prepared.region, kEyes, kSeed), kPixels}, kSeed, context));
+  return certify({transport, atlas, prepared.texel_map}, pack.lightmaps, pixels, {Ask::kPoints, known_to, rays_at_most},
                  context);
 }
 

@@ -125,7 +125,7 @@ int bench(int argc, char** argv) {
   RadiosityOptions options;
   options.samples = static_cast<std::uint32_t>(reference);
   options.dilation = 0;
-  const auto truth = bake_radiosity(transport, *atlas, *map, options, context);
+  const auto truth = bake_radiosity({transport, *atlas, *map}, options, context);
   std::printf("reference %d paths: %.2f s, stated error %.2f %%, %zu texels\n", reference, seconds_since(start),
               100 * truth->report.relative_error, truth->report.texels);
   context.seed = 1;
@@ -134,7 +134,7 @@ int bench(int argc, char** argv) {
   const auto run = [&](const char* name, const RadiosityOptions& o) {
     phases.start();
     start = std::chrono::steady_clock::now();
-    const auto baked = bake_radiosity(transport, *atlas, *map, o, context);
+    const auto baked = bake_radiosity({transport, *atlas, *map}, o, context);
     const double seconds = seconds_since(start);
     if (!baked) {
       std::printf("%s: %s\n", name, baked.error().text().c_str());

@@ -76,13 +76,13 @@ int bench(const char* file) {
   const LightSet lights(scene);
   const Transport transport{*accel, lights, {}};
   std::atomic<std::uint64_t> rays{0};
-  const auto texels = list_texels(transport, *atlas, *map, {context, &rays});
+  const auto texels = list_texels({transport, *atlas, *map}, {context, &rays});
   const auto graph = find_neighbours(transport, *texels, {context, &rays});
   std::vector<std::uint32_t> order;
   for (const std::uint32_t t : coherent_order(*texels))
     if (texels->visible[t] > 0) order.push_back(t);
   const Surroundings around(transport, *texels, true, 1);
-  const MoreSites sites(transport, *atlas, *map, *texels, context.seed);
+  const MoreSites sites({transport, *atlas, *map}, *texels, context.seed);
   const std::vector<Vec3> irradiance(texels->count(), Vec3(1));
   const CachedLight cached = cache_light(*texels, *graph, irradiance, context);
   for (int round = 0; round < 3; ++round) {

@@ -55,7 +55,7 @@ TEST(CornellEnergy, EmittedIsAbsorbedOrEscapes) {
   const auto map = *build_texel_map(atlas, context);
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
-  const Radiosity baked = *bake_radiosity({accel, lights, {}}, atlas, map, {.samples = 256, .dilation = 0}, context);
+  const Radiosity baked = *bake_radiosity({{accel, lights, {}}, atlas, map}, {.samples = 256, .dilation = 0}, context);
   DVec3 absorbed(0), escaped(0);
   for (std::size_t p = 0; p < map.size(); ++p)
     for (std::size_t i = 0; i < map[p].texel.size(); ++i) {

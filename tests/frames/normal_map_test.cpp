@@ -59,7 +59,7 @@ class NormalMappedFrames : public testing::Test {
     Pack pack;
     pack.provenance = "{}";
     pack.lightmaps =
-        bake_radiosity({accel, lights, {}}, atlas, map, {.samples = 512, .directional = directional}, context)->pages;
+        bake_radiosity({{accel, lights, {}}, atlas, map}, {.samples = 512, .directional = directional}, context)->pages;
     pack.mesh = assemble_mesh(scene, atlas).mesh;
     assemble_materials(scene, *bake_materials(scene, {}, context), pack);
     pack.cameras = {facing_wall()};

@@ -110,7 +110,7 @@ class BakedTexture {
     atlas.texel_m = static_cast<float>(c.texel_m);
     atlas_ = *build_atlas(scene_, atlas, context);
     map_ = *build_texel_map(atlas_, context);
-    radiosity_ = *bake_radiosity({accel_, lights_, {}}, atlas_, map_, options, context);
+    radiosity_ = *bake_radiosity({{accel_, lights_, {}}, atlas_, map_}, options, context);
     errors_ = radiosity_.pages;
     for (LightmapPage& page : errors_) page.irradiance = page.standard_error;
   }

@@ -41,7 +41,7 @@ class CachedEstimator : public LightEstimator {
         context_(task.context),
         texels_(std::move(texels)),
         order_(coherent_order(texels_)),
-        sites_(task.transport, task.atlas, task.map, texels_, task.context.seed),
+        sites_(task, texels_, task.context.seed),
         direct_light_(task.transport, texels_, sites_, task.context.seed),
         around_(task.transport, texels_, direct_light_.closed_form(), task.context.seed),
         direct_(texels_.count(), options_.directional, around_.groups()),
@@ -390,7 +390,7 @@ class CachedEstimator : public LightEstimator {
 }  // namespace
 
 Result<std::unique_ptr<LightEstimator>> make_cached_estimator(const RadiosityTask& task) {
-  ORIEL_TRY(Texels texels, list_texels(task.transport, task.atlas, task.map, task.quick, {task.options.eyes}));
+  ORIEL_TRY(Texels texels, list_texels(task, task.quick, {task.options.eyes}));
   return std::make_unique<CachedEstimator>(task, std::move(texels));
 }
 

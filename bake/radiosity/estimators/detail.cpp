@@ -197,14 +197,8 @@ class DetailMaker {
   Radiosity& light_;
   // Counted apart: the texels' refinement, which may go on, has so many rays of its own.
   std::atomic<std::uint64_t> rays_{0}, quick_rays_{0};
-  const RadiosityTask own_{task_.transport,
-                           task_.atlas,
-                           task_.map,
-                           task_.pixels,
-                           task_.options,
-                           task_.context,
-                           {task_.context, &rays_},
-                           {task_.context, &quick_rays_}};
+  const RadiosityTask own_{
+      task_, task_.pixels, task_.options, task_.context, {task_.context, &rays_}, {task_.context, &quick_rays_}};
   std::array<std::unique_ptr<PointLight>, kDetailLevels> points_;
   std::vector<LevelGrid> grids_;            // by page, of the first pass
   std::vector<std::vector<char>> gathers_;  // by page and place: cells whose points gather light

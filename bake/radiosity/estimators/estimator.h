@@ -10,14 +10,12 @@
 #include "bake/radiosity/estimators/radiosity_options.h"
 #include "bake/radiosity/texels/booked.h"
 #include "bake/radiosity/texels/frame_pixels.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
 
 namespace oriel {
 
 // What one bake of a lightmap is about. All of it outlives the estimator.
-struct RadiosityTask {
-  const Transport& transport;
-  const Atlas& atlas;
-  std::span<const TexelMapPage> map;
+struct RadiosityTask : LightmapScene {
   std::span<const FramePixel> pixels;  // by which the error is told (texels/frame_error.h)
   const RadiosityOptions& options;
   Context& context;

@@ -38,7 +38,7 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
 class PathEstimator : public LightEstimator {
  public:
   explicit PathEstimator(const RadiosityTask& task)
-      : task_(task), paths_(task.transport, task.atlas, task.options.eyes, task.options.directional, task.context) {
+      : task_(task), paths_(task, task.options.eyes, task.options.directional, task.context) {
     for (std::size_t p = 0; p < task.map.size(); ++p) {
       const std::size_t texels = task.map[p].texel.size();
       sums_.emplace_back(texels);
@@ -87,7 +87,7 @@ class PathEstimator : public LightEstimator {
       const std::size_t page = runs_[r].page;
       std::uint64_t traced = 0;
       for (std::size_t i = runs_[r].first; i < runs_[r].last && !task_.context.stopped(); ++i)
-        paths_.add(task_.map[page], page, i, taken_, until, sums_[page][i], traced);
+        paths_.add({page, i}, {taken_, until}, sums_[page][i], traced);
       return traced;
     };
     loop.results = sums_of;

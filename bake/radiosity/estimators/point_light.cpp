@@ -157,13 +157,14 @@ Result<PointLight> light_points(const RadiosityTask& task, const TexelLight& kno
                                 std::span<const std::vector<char>> gathers) {
   Context& context = task.context;
   const OwnNumbers own(context, points);
+  const LightmapScene scene{task.transport, points.atlas, points.map};
   PointLight result;
-  ORIEL_TRY(result.texels, list_texels(task.transport, points.atlas, points.map, task.quick,
-                                       {.eyes = known.texels.eyes, .met = false, .fewer = kFewerSites}));
+  ORIEL_TRY(result.texels,
+            list_texels(scene, task.quick, {.eyes = known.texels.eyes, .met = false, .fewer = kFewerSites}));
   leave_out_parted(known, points, result.texels);
   const Texels& texels = result.texels;
   const std::size_t n = texels.count();
-  const MoreSites sites(task.transport, points.atlas, points.map, texels, context.seed);
+  const MoreSites sites(scene, texels, context.seed);
   const std::vector<std::uint32_t> order = coherent_order(texels);
   ORIEL_TRY(const TexelGraph graph, find_neighbours(task.transport, texels, task.paths));
   DirectSums direct(n, false, known.around.groups());

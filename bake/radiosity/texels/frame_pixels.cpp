@@ -104,9 +104,9 @@ class Box {
 
 }  // namespace
 
-Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas,
-                                                  std::span<const Vec3> eyes, std::uint32_t per_eye, std::uint64_t seed,
-                                                  Context& context) {
+Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas, const FrameEyes& from,
+                                                  std::uint64_t seed, Context& context) {
+  const auto& [eyes, per_eye] = from;
   const Follower follower(transport, atlas);
   std::vector<std::optional<FramePixel>> found(eyes.size() * per_eye);
   ORIEL_TRY_VOID(parallel_for(context, "", eyes.size(), [&](std::size_t e) {

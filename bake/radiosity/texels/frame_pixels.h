@@ -26,13 +26,16 @@ inline void fields(Archive& archive, FramePixel& p) {
   archive(p.eye, p.triangle, p.barycentric, p.transfer, p.emitted, p.page, p.texel, p.share);
 }
 
+struct FrameEyes {
+  std::span<const Vec3> eyes;
+  std::uint32_t per_eye = 0;  // directions
+};
 // `per_eye` directions from every eye, uniform over the sphere: frames in all headings show each direction as often as
 // any other. A pixel is the first surface with a diffuse part and a lightmap on its way, through cut-outs and panes
 // (one of their layers, by chance) and by one mirror or glossy surface at most. Directions that meet none (the sky,
 // backs, what only emits) make no pixel. In an order whose beginnings are spread evenly over the eyes. Error kStopped.
-Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas,
-                                                  std::span<const Vec3> eyes, std::uint32_t per_eye, std::uint64_t seed,
-                                                  Context& context);
+Result<std::vector<FramePixel>> find_frame_pixels(const Transport& transport, const Atlas& atlas, const FrameEyes& eyes,
+                                                  std::uint64_t seed, Context& context);
 
 // Eyes for a scene of which nobody said where people are: uniform over the air in front of its surfaces, on chords that
 // leave these by the cosine, so that gaps count by their volume. Empty where there is no surface. Scene space, m.

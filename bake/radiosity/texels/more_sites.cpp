@@ -14,14 +14,15 @@ constexpr std::uint32_t kServe = 4;  // times that a kept point of such a texel 
 
 }  // namespace
 
-SurfacePoint texel_candidate(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps,
-                             const Texels& texels, std::size_t i, int half, std::uint32_t k, std::uint64_t seed) {
-  const TexelMapPage& map = maps[texels.page[i]];
+SurfacePoint texel_candidate(const LightmapScene& scene, const Texels& texels, const HalfPoint& of,
+                             std::uint64_t seed) {
+  const std::size_t i = of.texel;
+  const TexelMapPage& map = scene.map[texels.page[i]];
   const std::uint64_t stream = std::uint64_t{texels.page[i]} << 32 | map.texel[texels.index[i]];
-  Sampler sampler(seed + static_cast<std::uint64_t>(half), stream, k);
+  Sampler sampler(seed + static_cast<std::uint64_t>(of.half), stream, of.k);
   const Vec2 uv = sampler.next2();
-  const TexelPoint point = sample_texel(atlas, map, texels.index[i], Vec3(uv, sampler.next1()));
-  return point_on_side(transport.accel.scene(), point.triangle, point.barycentric);
+  const TexelPoint point = sample_texel(scene.atlas, map, texels.index[i], Vec3(uv, sampler.next1()));
+  return point_on_side(scene.transport.accel.scene(), point.triangle, point.barycentric);
 }
 
 TexelSite site_of(const SurfacePoint& s) {
@@ -33,11 +34,11 @@ std::uint32_t MoreSites::known(std::uint32_t i, int half) const {
 }
 
 SurfacePoint MoreSites::candidate(std::uint32_t i, int half, std::uint32_t k) const {
-  return texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + seeds::kBright);
+  return texel_candidate(scene_, texels_, {i, half, k}, seed_ + seeds::kBright);
 }
 
 float MoreSites::texels2(std::uint32_t i) const {
-  const TexelMapPage& map = maps_[texels_.page[i]];
+  const TexelMapPage& map = scene_.map[texels_.page[i]];
   float sum = 0;
   for (std::uint32_t f = map.first[texels_.index[i]]; f < map.first[texels_.index[i] + 1]; ++f)
     sum += map.fragments[f].area;
@@ -49,16 +50,15 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
   const auto cut = texels_.cut.find(i);
   const bool divided = cut != texels_.cut.end();
   const bool crowded = texels_.has_many[i];  // what is near others may lie in a gap
-  const Onlookers onlookers(t_, texels_.eyes);
+  const Onlookers onlookers(scene_.transport, texels_.eyes);
   Onlookers::Nearest eyes;
   const std::uint32_t first = crowded ? 1 : 0;  // those of the first attempt are kept already
   for (std::uint32_t attempt = first; attempt < first + kTries; ++attempt) {
-    const SurfacePoint point =
-        texel_candidate(t_, atlas_, maps_, texels_, i, half, k, seed_ + std::uint64_t{kHalves} * attempt);
+    const SurfacePoint point = texel_candidate(scene_, texels_, {i, half, k}, seed_ + std::uint64_t{kHalves} * attempt);
     const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
     const std::uint64_t seed =
         seed_ + seeds::kMoreSites + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
-    if (is_buried(t_, point, seed, stream, k, rays)) continue;
+    if (is_buried(scene_.transport, point, seed, stream, k, rays)) continue;
     if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, eyes, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
   }

@@ -5,10 +5,15 @@
 
 namespace oriel {
 
-// A candidate for the k-th point of a texel's half: on its surface, whatever is there. Points of one k and half are
-// spread evenly.
-SurfacePoint texel_candidate(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps,
-                             const Texels& texels, std::size_t i, int half, std::uint32_t k, std::uint64_t seed);
+// The k-th point of a texel's half.
+struct HalfPoint {
+  std::size_t texel = 0;
+  int half = 0;
+  std::uint32_t k = 0;
+};
+// A candidate for it: on the texel's surface, whatever is there. Those of one k and half are spread evenly.
+SurfacePoint texel_candidate(const LightmapScene& scene, const Texels& texels, const HalfPoint& point,
+                             std::uint64_t seed);
 
 TexelSite site_of(const SurfacePoint& surface);
 
@@ -16,9 +21,8 @@ TexelSite site_of(const SurfacePoint& surface);
 // them new ones are drawn, from the part that the texel's light is taken from.
 class MoreSites {
  public:
-  MoreSites(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> maps, const Texels& texels,
-            std::uint64_t seed)
-      : t_(transport), atlas_(atlas), maps_(maps), texels_(texels), seed_(seed) {}
+  MoreSites(const LightmapScene& scene, const Texels& texels, std::uint64_t seed)
+      : scene_(scene), texels_(texels), seed_(seed) {}
 
   const Texels& texels() const { return texels_; }
   // The k-th site of a half, of as many as are asked for. The texel must be visible. Adds to rays.
@@ -31,14 +35,12 @@ class MoreSites {
   float texels2(std::uint32_t i) const;
   // One of the triangles under the texel.
   std::uint32_t triangle(std::uint32_t i) const {
-    const TexelMapPage& map = maps_[texels_.page[i]];
+    const TexelMapPage& map = scene_.map[texels_.page[i]];
     return map.fragments[map.first[texels_.index[i]]].triangle;
   }
 
  private:
-  const Transport& t_;
-  const Atlas& atlas_;
-  std::span<const TexelMapPage> maps_;
+  LightmapScene scene_;
   const Texels& texels_;
   std::uint64_t seed_;
 };

@@ -5,17 +5,17 @@
 
 namespace oriel {
 
-void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint32_t first, std::uint32_t last,
-                     TexelSums& sums, std::uint64_t& rays) const {
-  const std::uint64_t stream = static_cast<std::uint64_t>(page) << 32 | map.texel[i];
-  const bool mixed = any_buried(map, i, stream, rays);
-  const TexelPart part(t_, atlas_, map, i, Onlookers(t_, eyes_), rays);
+void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums& sums, std::uint64_t& rays) const {
+  const TexelMapPage& map = scene_.map[texel.page];
+  const std::uint64_t stream = static_cast<std::uint64_t>(texel.page) << 32 | map.texel[texel.index];
+  const bool mixed = any_buried(texel, stream, rays);
+  const TexelPart part(t_, scene_.atlas, map, texel.index, Onlookers(t_, eyes_), rays);
   if (part.covered()) return;
-  for (std::uint32_t k = first; k < last; ++k) {
+  for (std::uint32_t k = paths.first; k < paths.end; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
     Sampler sampler(context_.seed, stream, k);
     const Vec2 uv = sampler.next2();
-    const SurfacePoint surface = point_of(map, i, Vec3(uv, sampler.next1()));
+    const SurfacePoint surface = point_of(texel, Vec3(uv, sampler.next1()));
     if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
     if (t_.listener) t_.listener->begin("irradiance, lux"), t_.listener->meet(surface, Vec3(1));
@@ -23,18 +23,18 @@ void TexelPaths::add(const TexelMapPage& map, std::size_t page, std::size_t i, s
   }
 }
 
-SurfacePoint TexelPaths::point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const {
-  const TexelPoint point = sample_texel(atlas_, map, i, u);
+SurfacePoint TexelPaths::point_of(const MapTexel& texel, const Vec3& u) const {
+  const TexelPoint point = sample_texel(scene_.atlas, scene_.map[texel.page], texel.index, u);
   return point_on_side(t_.accel.scene(), point.triangle, point.barycentric);
 }
 
 // Whether some of 64 points spread over the texel are buried: only then every path asks for its own point. Most texels
 // answer with one ray a point.
-bool TexelPaths::any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const {
+bool TexelPaths::any_buried(const MapTexel& texel, std::uint64_t stream, std::uint64_t& rays) const {
   for (std::uint32_t k = 0; k < 64; ++k) {
     Sampler sampler(~context_.seed, stream, k);
     const Vec2 uv = sampler.next2();
-    if (is_buried(t_, point_of(map, i, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;
+    if (is_buried(t_, point_of(texel, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;
   }
   return false;
 }

@@ -1,9 +1,8 @@
 // Unbiased paths from the points of a texel.
 #pragma once
 
-#include "bake/atlas/texel_map.h"
 #include "bake/jobs/context.h"
-#include "bake/trace/path.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
 #include "formats/core/archive.h"
 
 namespace oriel {
@@ -37,24 +36,30 @@ inline void fields(Archive& archive, TexelSums& s) {
   archive(s.sum, s.squares, s.vector, s.mean, s.count);
 }
 
+// A texel of the map: of a page the index into TexelMapPage::texel.
+struct MapTexel {
+  std::size_t page = 0, index = 0;
+};
+struct PathNumbers {
+  std::uint32_t first = 0, end = 0;
+};
+
 class TexelPaths {
  public:
   // directional: sample so that IrradianceSample's moments are known, too. eyes: as list_texels().
-  TexelPaths(const Transport& transport, const Atlas& atlas, std::span<const Vec3> eyes, bool directional,
-             const Context& context)
-      : t_(transport), atlas_(atlas), eyes_(eyes), directional_(directional), context_(context) {}
+  TexelPaths(const LightmapScene& scene, std::span<const Vec3> eyes, bool directional, const Context& context)
+      : t_(scene.transport), scene_(scene), eyes_(eyes), directional_(directional), context_(context) {}
 
-  // Paths number first to last of texel i of a page. Points inside other geometry (independent probes meet little but
+  // So many paths of a texel, numbered from `first`. Points inside other geometry (independent probes meet little but
   // back faces of one-sided materials) are left out, and so is what a thin wall cuts off the texel. Adds to rays.
-  void add(const TexelMapPage& map, std::size_t page, std::size_t i, std::uint32_t first, std::uint32_t last,
-           TexelSums& sums, std::uint64_t& rays) const;
+  void add(const MapTexel& texel, const PathNumbers& paths, TexelSums& sums, std::uint64_t& rays) const;
 
  private:
-  SurfacePoint point_of(const TexelMapPage& map, std::size_t i, const Vec3& u) const;
-  bool any_buried(const TexelMapPage& map, std::size_t i, std::uint64_t stream, std::uint64_t& rays) const;
+  SurfacePoint point_of(const MapTexel& texel, const Vec3& u) const;
+  bool any_buried(const MapTexel& texel, std::uint64_t stream, std::uint64_t& rays) const;
 
   const Transport& t_;
-  const Atlas& atlas_;
+  LightmapScene scene_;
   std::span<const Vec3> eyes_;
   bool directional_;
   const Context& context_;

@@ -25,9 +25,13 @@ constexpr std::uint32_t kNearPoints = 32;  // tried where a texel is whole, but 
 
 class SiteFinder {
  public:
-  SiteFinder(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> maps, const TexelUse& use,
-             std::uint64_t seed)
-      : t_(t), atlas_(atlas), maps_(maps), met_(use.met), fewer_(use.fewer), onlookers_(t, use.eyes), seed_(seed) {}
+  SiteFinder(const LightmapScene& scene, const TexelUse& use, std::uint64_t seed)
+      : scene_(scene),
+        t_(scene.transport),
+        met_(use.met),
+        fewer_(use.fewer),
+        onlookers_(scene.transport, use.eyes),
+        seed_(seed) {}
 
   struct Found {
     TexelPart part;  // what a wall leaves of the texel
@@ -49,7 +53,7 @@ class SiteFinder {
     }
     keep_means(shade, texels, i);
     texels.visible[i] = 1;
-    Found found{TexelPart(t_, atlas_, maps_[texels.page[i]], texels.index[i], onlookers_, rays), {}};
+    Found found{TexelPart(t_, scene_.atlas, scene_.map[texels.page[i]], texels.index[i], onlookers_, rays), {}};
     if (found.part.covered())
       find_unburied(texels, i, stream, kFewPoints, found, rays);
     else if (buried > 0 || !found.part.whole())
@@ -100,7 +104,7 @@ class SiteFinder {
 
  private:
   SurfacePoint candidate(const Texels& texels, std::size_t i, int half, std::uint32_t k) const {
-    return texel_candidate(t_, atlas_, maps_, texels, i, half, k, seed_);
+    return texel_candidate(scene_, texels, {i, half, k}, seed_);
   }
   bool sees(const SurfacePoint& s, Onlookers::Nearest& eyes, std::uint64_t& rays) const {
     return onlookers_.in_sight(spawn_origin(s, s.geometric_normal), s.geometric_normal, eyes, rays);
@@ -124,9 +128,8 @@ class SiteFinder {
     return bool(t_.accel.intersect({site.origin, direction, std::sqrt(texels.area_m2[i])}));
   }
 
+  LightmapScene scene_;
   const Transport& t_;
-  const Atlas& atlas_;
-  std::span<const TexelMapPage> maps_;
   bool met_;
   std::uint32_t fewer_;
   Onlookers onlookers_;
@@ -224,8 +227,8 @@ double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage&
   return area;
 }
 
-Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const Stage& stage, const TexelUse& use) {
+Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use) {
+  const auto& [t, atlas, texel_map] = scene;
   Texels texels;
   texels.eyes.assign(use.eyes.begin(), use.eyes.end());
   for (std::uint32_t p = 0; p < texel_map.size(); ++p) {
@@ -251,7 +254,7 @@ Result<Texels> list_texels(const Transport& t, const Atlas& atlas, std::span<con
   texels.site.resize(n), texels.visible.resize(n), texels.area_m2.resize(n), texels.albedo.resize(n),
       texels.diffuse_share.resize(n), texels.has_many.resize(n), texels.is_cut.resize(n);
   place_triangles(atlas, texels);
-  const SiteFinder finder(t, atlas, texel_map, {texels.eyes, use.met, use.fewer}, stage.context.seed);
+  const SiteFinder finder(scene, {texels.eyes, use.met, use.fewer}, stage.context.seed);
   using Hidden = std::pair<std::uint32_t, SiteFinder::Found>;
   std::vector<std::vector<Hidden>> hidden((n + kRun - 1) / kRun);
   UnitLoop loop{.stage = "texel points", .count = hidden.size(), .rays = kRun * kRaysATexel};

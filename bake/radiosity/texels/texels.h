@@ -6,10 +6,9 @@
 #include <limits>
 #include <unordered_map>
 
-#include "bake/atlas/texel_map.h"
 #include "bake/radiosity/texels/diffuse_share.h"
+#include "bake/radiosity/texels/lightmap_scene.h"
 #include "bake/radiosity/texels/texel_part.h"
-#include "bake/trace/path.h"
 #include "bake/trace/polygon_light.h"
 
 namespace oriel {
@@ -126,8 +125,7 @@ struct TexelUse {
   bool met = true;               // by rays; false: albedo and diffuse_share are not needed
   std::uint32_t fewer = 1;       // times as few points are tried of a texel that is partly hidden: small ones need few
 };
-Result<Texels> list_texels(const Transport& transport, const Atlas& atlas, std::span<const TexelMapPage> texel_map,
-                           const Stage& stage, const TexelUse& use = {});
+Result<Texels> list_texels(const LightmapScene& scene, const Stage& stage, const TexelUse& use = {});
 
 // Area of surface under a texel, m².
 double texel_area_m2(const Scene& scene, const Atlas& atlas, const TexelMapPage& map, std::size_t i);

@@ -60,7 +60,7 @@ inline Baked bake(Scene scene, float texel_m, const RadiosityOptions& options, i
   const LightSet lights(b.scene);
   PathOptions paths;
   if (options.bounces > 0) paths.max_bounces = options.bounces;
-  b.radiosity = *bake_radiosity({accel, lights, paths}, b.atlas, b.texel_map, options, context);
+  b.radiosity = *bake_radiosity({{accel, lights, paths}, b.atlas, b.texel_map}, options, context);
   return b;
 }
 

@@ -67,7 +67,7 @@ TEST(BehindGlass, ARoomKeepsWhatParticlesBring) {
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   Context context;
-  const Ledger ledger = *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, 400'000, context);
+  const Ledger ledger = *keep_ledger({{accel, lights, {}}, b.atlas, b.texel_map}, b.radiosity, 400'000, context);
   EXPECT_LE(ledger.closure(), 4 * ledger.closure_error() + 1e-6);
   EXPECT_LE(ledger.disagreement(), 0.005 + 3 * ledger.disagreement_error());
   EXPECT_LE(ledger.disagreement_error(), 0.005);

@@ -24,7 +24,7 @@ Truth find_truth(const Baked& b, const CalibrationOptions& settings) {
   const Transport transport{accel, lights, {}};
   const std::vector<Vec3> eyes = eyes_in_the_open(transport, kEyes, kSeed);
   Truth truth;
-  truth.pixels = *find_frame_pixels(transport, b.atlas, eyes, settings.pixels / kEyes, kSeed, context);
+  truth.pixels = *find_frame_pixels(transport, b.atlas, {eyes, settings.pixels / kEyes}, kSeed, context);
   truth.light.resize(truth.pixels.size());
   (void)parallel_for(context, "", truth.pixels.size(), [&](std::size_t i) {
     std::uint64_t rays = 0;

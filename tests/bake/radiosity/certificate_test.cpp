@@ -26,7 +26,7 @@ constexpr std::uint64_t kSeed = 0x5ee;
 
 std::vector<FramePixel> pixels_of(const Baked& b, const Transport& transport, std::uint64_t seed = kSeed) {
   Context context;
-  return *find_frame_pixels(transport, b.atlas, eyes_in_the_open(transport, 1024, seed), 16, seed, context);
+  return *find_frame_pixels(transport, b.atlas, {eyes_in_the_open(transport, 1024, seed), 16}, seed, context);
 }
 
 Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int threads = 0, Ask what = Ask::kPoints,
@@ -37,8 +37,8 @@ Certificate certificate_of(const Baked& b, double asked, std::uint64_t rays, int
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   const Transport transport{accel, lights, {}};
-  return *certify(transport, b.atlas, b.texel_map, b.radiosity.pages, pixels_of(b, transport, seed), what, asked, rays,
-                  context);
+  return *certify({transport, b.atlas, b.texel_map}, b.radiosity.pages, pixels_of(b, transport, seed),
+                  {what, asked, rays}, context);
 }
 
 // Multiplies every second texel by 1 + off, the others by 1 - off.

@@ -31,7 +31,7 @@ Baked bake(Scene scene, float texel_m, std::uint32_t samples, bool directional =
   b.texel_map = *build_texel_map(atlas, context);
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
-  b.radiosity = *bake_radiosity({accel, lights, {}}, atlas, b.texel_map,
+  b.radiosity = *bake_radiosity({{accel, lights, {}}, atlas, b.texel_map},
                                 {.samples = samples, .dilation = 2, .directional = directional}, context);
   return b;
 }

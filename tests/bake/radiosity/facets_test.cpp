@@ -54,7 +54,7 @@ LightmapPage bake(const Scene& scene, Estimator estimator, int side) {
   const LightSet lights(scene);
   PathOptions paths;
   paths.max_bounces = 0;
-  return bake_radiosity({accel, lights, paths}, atlas, map, {.estimator = estimator, .samples = 1024}, context)
+  return bake_radiosity({{accel, lights, paths}, atlas, map}, {.estimator = estimator, .samples = 1024}, context)
       ->pages[0];
 }
 

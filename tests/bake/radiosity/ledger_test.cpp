@@ -25,7 +25,7 @@ Ledger ledger_of(const Baked& b, std::uint64_t rays = kRays, int threads = 0) {
   context.threads = threads;
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
-  return *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, rays, context);
+  return *keep_ledger({{accel, lights, {}}, b.atlas, b.texel_map}, b.radiosity, rays, context);
 }
 
 Kept keep(Scene scene, float texel_m, std::uint32_t samples) {

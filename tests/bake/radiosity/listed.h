@@ -24,14 +24,14 @@ struct Listed {
     map = *build_texel_map(atlas, context);
     accel.emplace(*Accel::build(scene));
     lights.emplace(scene);
-    texels = *list_texels(transport(), atlas, map, context);
+    texels = *list_texels({transport(), atlas, map}, context);
     for (std::uint32_t i = 0; i < texels.count(); ++i) {
       const TexelMapPage& page = map[texels.page[i]];
       if (scene.triangle_surface[page.fragments[page.first[texels.index[i]]].triangle] == 0) floor.push_back(i);
     }
   }
   Transport transport() const { return {*accel, *lights, {}}; }
-  MoreSites sites(const Transport& t) const { return {t, atlas, map, texels, context.seed}; }
+  MoreSites sites(const Transport& t) const { return {{t, atlas, map}, texels, context.seed}; }
 };
 
 }  // namespace oriel::test

@@ -117,7 +117,7 @@ TEST_P(SunnyFloor, LightIsTheClosedFormAndTheLedgerCloses) {
   const Accel accel = *Accel::build(b.scene);
   const LightSet lights(b.scene);
   Context context;
-  const Ledger ledger = *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, 400'000, context);
+  const Ledger ledger = *keep_ledger({{accel, lights, {}}, b.atlas, b.texel_map}, b.radiosity, 400'000, context);
   EXPECT_LE(ledger.closure(), 4 * ledger.closure_error() + 1e-6);
   EXPECT_LE(ledger.disagreement(), 0.01 + 3 * ledger.disagreement_error());
   EXPECT_LE(ledger.disagreement_error(), 0.01);
@@ -156,7 +156,7 @@ TEST_P(MirroredRooms, KeepWhatParticlesBring) {
   const LightSet lights(b.scene);
   ASSERT_FALSE(lights.mirrored().empty());
   Context context;
-  const Ledger ledger = *keep_ledger({accel, lights, {}}, b.atlas, b.texel_map, b.radiosity, 400'000, context);
+  const Ledger ledger = *keep_ledger({{accel, lights, {}}, b.atlas, b.texel_map}, b.radiosity, 400'000, context);
   EXPECT_LE(ledger.closure(), 4 * ledger.closure_error() + 1e-6);
   EXPECT_LE(ledger.disagreement(), 0.005 + 3 * ledger.disagreement_error());
   EXPECT_LE(ledger.disagreement_error(), 0.005);
@@ -164,7 +164,7 @@ TEST_P(MirroredRooms, KeepWhatParticlesBring) {
   Scene without = b.scene;
   without.light_mirrors = 0;
   const Baked dark = test::bake(std::move(without), 0.1f, options);
-  const Ledger open = *keep_ledger({accel, lights, {}}, dark.atlas, dark.texel_map, dark.radiosity, 400'000, context);
+  const Ledger open = *keep_ledger({{accel, lights, {}}, dark.atlas, dark.texel_map}, dark.radiosity, 400'000, context);
   EXPECT_GT(open.disagreement(), 0.005 + 3 * open.disagreement_error());
 }
 INSTANTIATE_TEST_SUITE_P(Panes, MirroredRooms, testing::Bool());

@@ -32,7 +32,7 @@ Baked bake(Scene scene, float texel_m, std::uint32_t samples, int threads = 0) {
   const LightSet lights(b.scene);
   RadiosityOptions radiosity;
   radiosity.samples = samples;
-  b.radiosity = *bake_radiosity({accel, lights, {}}, b.atlas, b.texel_map, radiosity, context);
+  b.radiosity = *bake_radiosity({{accel, lights, {}}, b.atlas, b.texel_map}, radiosity, context);
   return b;
 }
 
@@ -102,7 +102,7 @@ TEST(Radiosity, StandardErrorIsTheSpreadOverSeeds) {
   constexpr int kSeeds = 64;
   for (int seed = 0; seed < kSeeds; ++seed) {
     context.seed = static_cast<std::uint64_t>(seed);
-    const Radiosity r = *bake_radiosity({accel, lights, {}}, atlas, map, {.samples = 16, .dilation = 2}, context);
+    const Radiosity r = *bake_radiosity({{accel, lights, {}}, atlas, map}, {.samples = 16, .dilation = 2}, context);
     const double e = r.pages[0].irradiance[map[0].texel[5]].g;
     mean += e / kSeeds;
     squares += e * e / kSeeds;
@@ -199,7 +199,7 @@ TEST(Radiosity, StopsWhenAsked) {
   const Accel accel = *Accel::build(scene);
   const LightSet lights(scene);
   context.stop = true;
-  const auto result = bake_radiosity({accel, lights, {}}, atlas, map, {}, context);
+  const auto result = bake_radiosity({{accel, lights, {}}, atlas, map}, {}, context);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kStopped);
 }

@@ -131,7 +131,7 @@ TEST_F(Anytime, EnoughEndsARoundAtOnce) {
     RadiosityOptions radiosity{.estimator = Estimator::kCached, .samples = 4096, .error = 0.01};
     radiosity.verify = 0;
     radiosity.enough = std::move(enough);
-    auto made = bake_radiosity({*prepared.accel, lights, {}}, prepared.atlas, prepared.texel_map, radiosity, context);
+    auto made = bake_radiosity({{*prepared.accel, lights, {}}, prepared.atlas, prepared.texel_map}, radiosity, context);
     EXPECT_TRUE(made);
     EXPECT_TRUE(context.finishable);
     return made->report;

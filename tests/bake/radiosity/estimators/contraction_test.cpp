@@ -133,7 +133,7 @@ TEST(DroppedSamples, ALampBeyondAllNumbersIsLeftOut) {
     options.estimator = estimator;
     options.samples = 64;
     options.verify = 0;
-    const Radiosity baked = *bake_radiosity(room.transport(), room.atlas, room.map, options, room.context);
+    const Radiosity baked = *bake_radiosity({room.transport(), room.atlas, room.map}, options, room.context);
     EXPECT_GT(room.accel->dropped().count(), 0u);
     EXPECT_LT(room.accel->dropped().first_triangle(), room.scene.triangles.size());
     for (const LightmapPage& page : baked.pages)

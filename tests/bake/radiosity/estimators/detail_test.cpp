@@ -154,7 +154,7 @@ PointLight any_light(const Listed& floor, const CellLevels& levels, std::uint8_t
   Context context;
   const DetailPoints points = *list_points(floor.atlas, levels, level, context);
   PointLight lit;
-  lit.texels = *list_texels(floor.transport(), points.atlas, points.map, context);
+  lit.texels = *list_texels({floor.transport(), points.atlas, points.map}, context);
   lit.variance.resize(lit.texels.count());
   for (std::uint32_t i = 0; i < lit.texels.count(); ++i)
     lit.light.push_back(Vec3(static_cast<float>(mix64(i * 7 + level) % 1000)));
@@ -254,7 +254,7 @@ TEST(Detail, ShowsTheEdgeOfTheSunsShadow) {
   Listed floor(parts.finish(), 0.2f);
   RadiosityOptions options{.estimator = Estimator::kCached, .samples = 1024, .error = 0.02, .fit_texels = true};
   options.verify = 0, options.detail = kMostDetail;
-  const Radiosity light = *bake_radiosity(floor.transport(), floor.atlas, floor.map, options, floor.context);
+  const Radiosity light = *bake_radiosity({floor.transport(), floor.atlas, floor.map}, options, floor.context);
   ASSERT_GT(light.report.detail.points, 1000);
   const auto shown = [&](float x) {
     const Hit hit = floor.accel->intersect({{x, 0.01f, 2.11f}, {0, -1, 0}, 1});
@@ -270,7 +270,9 @@ TEST(Detail, BringsShadowsNearerToTheTruth) {
   Listed floor(shadow_of_a_board(), 0.13f);
   RadiosityOptions options{.estimator = Estimator::kCached, .samples = 4096, .error = 0.02, .fit_texels = true};
   options.verify = 0;
-  const auto bake = [&] { return *bake_radiosity(floor.transport(), floor.atlas, floor.map, options, floor.context); };
+  const auto bake = [&] {
+    return *bake_radiosity({floor.transport(), floor.atlas, floor.map}, options, floor.context);
+  };
   const double texels = profile_error(floor, bake());
   options.detail = kMostDetail;
   const Radiosity fine = bake();

@@ -19,7 +19,7 @@ Gathered gather_all(const Listed& listed, const CachedLight& cached, std::uint64
   Context context;
   context.seed = seed;
   const Surroundings around(transport, listed.texels, true, seed);
-  const MoreSites sites(transport, listed.atlas, listed.map, listed.texels, seed);
+  const MoreSites sites({transport, listed.atlas, listed.map}, listed.texels, seed);
   HalfSums sums(listed.texels.count(), false);
   EXPECT_TRUE((FinalGather{sites, around, cached}.run(coherent_order(listed.texels), 256, context, sums)));
   Gathered all;

@@ -32,7 +32,7 @@ struct Traced {
       : b(test::bake(std::move(scene), texel_m, {.samples = 1})), accel(*Accel::build(b.scene)), lights(b.scene) {}
   Transport transport() const { return {accel, lights, {}}; }
   std::vector<FramePixel> pixels(const std::vector<Vec3>& eyes, std::uint32_t per_eye) {
-    return *find_frame_pixels(transport(), b.atlas, eyes, per_eye, 1, context);
+    return *find_frame_pixels(transport(), b.atlas, {eyes, per_eye}, 1, context);
   }
 };
 

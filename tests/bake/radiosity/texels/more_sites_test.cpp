@@ -65,7 +65,7 @@ TEST(TexelPart, IsTheSideThatEyesSee) {
   Listed listed(hollow_plinth(), 1);
   const std::uint32_t floor = listed.floor.back();
   const std::vector<Vec3> eyes = {{4, 1.6f, 0.5f}, {5, 1.6f, 1}};
-  const Texels seen = *list_texels(listed.transport(), listed.atlas, listed.map, listed.context, {eyes});
+  const Texels seen = *list_texels({listed.transport(), listed.atlas, listed.map}, listed.context, {eyes});
   ASSERT_GT(listed.texels.visible[floor], 0);
   ASSERT_GT(seen.visible[floor], 0);
   for (const TexelSite& site : listed.texels.site[floor]) EXPECT_LT(site.origin.x, 0.8f) << "most of it";
