@@ -36,7 +36,9 @@ Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, 
     fewer.samples = std::max(1u, fewer.samples / divisor);
     fewer.memory_bytes = ~std::uint64_t{0};  // how much all would take is asked
     const ReflectedSurroundings surroundings(*in.prepared.accel, found, in.options.sight);
-    ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, in.reflections.eyes, fewer, context, small.reflectors));
+    fewer.eyes = in.reflections.eyes;
+    KnownPlans known;
+    ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, fewer, context, small.reflectors, known));
     small.maps = std::move(plan.maps);
   }
   small.seconds = clock.seconds();

@@ -216,69 +216,86 @@ struct LeftIn {
   }
 };
 
-// The lights that would light the reflector most if nothing were in the way, by what they are worth.
-Result<std::vector<LightOnReflector>> lights_on(const Accel& accel, std::span<const PolygonLight> lights,
-                                                const Nodes& nodes, const Vec3& normal, double lobe_width,
-                                                const EmitterOptions& options, Context& context, LeftIn& left_in) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t l = 0; l < lights.size(); ++l) {
-    double sum = 0;
-    for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights[l], {node, normal, normal});
-    if (sum > 0) order.emplace_back(-sum * luminance(lights[l].radiance), l);
+// Chooses a reflector's emitters.
+class EmitterChooser {
+ public:
+  EmitterChooser(const Accel& accel, const EmitterOptions& options, Context& context)
+      : accel_(accel),
+        options_(options),
+        context_(context),
+        baker_(accel, options, context.seed),
+        lights_(find_polygon_lights(accel.scene())) {
+    for (const Light& light : accel.scene().lights)
+      if (auto sun = sun_polygon(accel.scene(), light)) lights_.push_back(std::move(*sun));
   }
-  left_in.too_fine = std::erase_if(
-      order, [&](const auto& entry) { return lights[entry.second].triangles.size() > kMaxReflectorEmitters; });
-  std::sort(order.begin(), order.end());
-  left_in.too_faint = order.size() - std::min<std::size_t>(order.size(), options.max_lights);
-  order.resize(order.size() - left_in.too_faint);
-  std::vector<LightOnReflector> out(order.size());
-  const VisibilityBaker baker(accel, options, context.seed);
-  ORIEL_TRY_VOID(parallel_for(context, "", order.size(), [&](std::size_t i) {
-    const PolygonLight& light = lights[order[i].second];
-    out[i].light = order[i].second;
-    out[i].polygons = polygons_of(light);
-    baker.weigh(nodes, normal, light, lobe_width, out[i]);
-  }));
-  std::stable_sort(out.begin(), out.end(),
-                   [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
-  return out;
-}
 
-// What the reflector's emitters are seen of, on the fine grid. polygons: of all lights, with their streams.
-Status bake_visibility(const Accel& accel, const FoundReflector& found,
-                       std::span<const std::pair<Emitter, std::uint64_t>> polygons, const EmitterOptions& options,
-                       Context& context, Reflector& r) {
-  const Nodes nodes = lay_out(accel, found, options.node_m, options.max_nodes);
-  const VisibilityBaker baker(accel, options, context.seed);
-  std::vector<std::vector<float>> seen(polygons.size());
-  ORIEL_TRY_VOID(parallel_for(context, "", polygons.size(), [&](std::size_t p) {
-    seen[p] = baker.shares(polygons[p].first, nodes, Vec3(r.pack_from_reflector[2]), polygons[p].second);
-    fill_uncovered(nodes, seen[p]);
-  }));
-  for (const std::vector<float>& shares : seen)
-    for (const float share : shares)
-      r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
-  r.visibility_x = nodes.x, r.visibility_y = nodes.y;
-  return {};
-}
+  const std::vector<PolygonLight>& lights() const { return lights_; }
+
+  // The lights that would light the reflector most if nothing were in the way, by what they are worth.
+  Result<std::vector<LightOnReflector>> lights_on(const FoundReflector& found, double lobe_width,
+                                                  LeftIn& left_in) const {
+    const Nodes nodes = lay_out(accel_, found, options_.choice_node_m, options_.max_choice_nodes);
+    const Vec3 normal(found.reflector.pack_from_reflector[2]);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t l = 0; l < lights_.size(); ++l) {
+      double sum = 0;
+      for (const Vec3& node : nodes.points) sum += polygon_irradiance(lights_[l], {node, normal, normal});
+      if (sum > 0) order.emplace_back(-sum * luminance(lights_[l].radiance), l);
+    }
+    left_in.too_fine = std::erase_if(
+        order, [&](const auto& entry) { return lights_[entry.second].triangles.size() > kMaxReflectorEmitters; });
+    std::sort(order.begin(), order.end());
+    left_in.too_faint = order.size() - std::min<std::size_t>(order.size(), options_.max_lights);
+    order.resize(order.size() - left_in.too_faint);
+    std::vector<LightOnReflector> out(order.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", order.size(), [&](std::size_t i) {
+      const PolygonLight& light = lights_[order[i].second];
+      out[i].light = order[i].second;
+      out[i].polygons = polygons_of(light);
+      baker_.weigh(nodes, normal, light, lobe_width, out[i]);
+    }));
+    std::stable_sort(out.begin(), out.end(),
+                     [](const LightOnReflector& a, const LightOnReflector& b) { return a.worth > b.worth; });
+    return out;
+  }
+
+  // What the reflector's emitters are seen of, on the fine grid. polygons: of all lights, with their streams.
+  Status bake_visibility(std::span<const std::pair<Emitter, std::uint64_t>> polygons, FoundReflector& found) const {
+    Reflector& r = found.reflector;
+    const Nodes nodes = lay_out(accel_, found, options_.node_m, options_.max_nodes);
+    std::vector<std::vector<float>> seen(polygons.size());
+    ORIEL_TRY_VOID(parallel_for(context_, "", polygons.size(), [&](std::size_t p) {
+      seen[p] = baker_.shares(polygons[p].first, nodes, Vec3(r.pack_from_reflector[2]), polygons[p].second);
+      fill_uncovered(nodes, seen[p]);
+    }));
+    for (const std::vector<float>& shares : seen)
+      for (const float share : shares)
+        r.visibility.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
+    r.visibility_x = nodes.x, r.visibility_y = nodes.y;
+    return {};
+  }
+
+ private:
+  const Accel& accel_;
+  const EmitterOptions& options_;
+  Context& context_;
+  VisibilityBaker baker_;
+  std::vector<PolygonLight> lights_;
+};
 
 }  // namespace
 
-Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
-                          Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
-                          std::vector<std::string>& omitted) {
-  std::vector<PolygonLight> lights = find_polygon_lights(accel.scene());
-  for (const Light& light : accel.scene().lights)
-    if (auto sun = sun_polygon(accel.scene(), light)) lights.push_back(std::move(*sun));
+Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Context& context,
+                          const LeftOutEmitters& out) {
+  auto& [reflectors, emitters, omitted] = out;
+  const EmitterChooser chooser(accel, options, context);
   std::map<std::size_t, std::uint32_t> first_emitter;  // of a light that is listed
   for (FoundReflector& found : reflectors) {
     Reflector& r = found.reflector;
-    const double lobe_width = lobe_widths[r.material];
+    const double lobe_width = options.lobe_widths[r.material];
     if (!(lobe_width > 0)) continue;
-    const Nodes nodes = lay_out(accel, found, options.choice_node_m, options.max_choice_nodes);
     LeftIn left_in;
-    ORIEL_TRY(std::vector<LightOnReflector> on,
-              lights_on(accel, lights, nodes, Vec3(r.pack_from_reflector[2]), lobe_width, options, context, left_in));
+    ORIEL_TRY(const std::vector<LightOnReflector> on, chooser.lights_on(found, lobe_width, left_in));
     const double most_parted = found.way == ReflectorWay::kGeometry ? kMostPartedOfGeometry : kMostParted;
     double total = 0;
     for (const LightOnReflector& l : on) total += l.worth;
@@ -299,19 +316,20 @@ Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths
         r.emitters.push_back(at->second + p);
         chosen.emplace_back(l.polygons[p], l.light * kMaxReflectorEmitters + p);
       }
-      const auto& triangles = lights[l.light].triangles;
+      const auto& triangles = chooser.lights()[l.light].triangles;
       found.emitters.insert(found.emitters.end(), triangles.begin(), triangles.end());
     }
     std::sort(found.emitters.begin(), found.emitters.end());
-    if (!chosen.empty()) ORIEL_TRY_VOID(bake_visibility(accel, found, chosen, options, context, r));
+    if (!chosen.empty()) ORIEL_TRY_VOID(chooser.bake_visibility(chosen, found));
     if (left_in.total() > 0)
       omitted.push_back(fmt::format(
           "'{}': {} of its lamps are blurred with its radiance maps instead of shown exactly (their edges are softer, "
           "their light is the same): {}",
           r.name, left_in.total(), left_in.reasons(options.max_lights)));
   }
-  const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(),
-                                      [&](const FoundReflector& f) { return lobe_widths[f.reflector.material] > 0; });
+  const bool any_glossy = std::any_of(reflectors.begin(), reflectors.end(), [&](const FoundReflector& f) {
+    return options.lobe_widths[f.reflector.material] > 0;
+  });
   if (any_glossy && !all_emission_is_plain(accel.scene()))
     omitted.emplace_back(
         "lamps whose emission is textured stay in the radiance maps of glossy reflectors and are blurred with them");

@@ -9,6 +9,8 @@
 namespace oriel {
 
 struct EmitterOptions {
+  std::span<const float>
+      lobe_widths;  // α of each material's lobe, 0 where it is as sharp as a mirror or shows no image
   // Between nodes of the visibility's grid, and how many of them along a side: to choose the lamps, and for those
   // chosen.
   float choice_node_m = 0.5f, node_m = 0.125f;
@@ -18,16 +20,20 @@ struct EmitterOptions {
 };
 
 // Lamps are the scene's flat ones and, since no map shows it, the sun (sun_emitter.h); points and spots are none.
-// lobe_widths: α of each material's lobe, 0 where it is as sharp as a mirror or shows no image. For each reflector with
-// a lobe the lamps that light it most are left out of its maps: at most kMaxReflectorEmitters polygons. Sets the
-// reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters` what they refer to.
+// For each reflector with a lobe the lamps that light it most are left out of its maps: at most kMaxReflectorEmitters
+// polygons. Sets the reflectors' emitters, and in Reflector the emitters with their visibility; appends to `emitters`
+// what they refer to.
 // A lamp is left out whole or not at all; textured ones, those of more triangles and those that are partly hidden and
 // not small beside the lobe, so that the share which a point sees is not that which the lobe sees, stay in the maps,
 // and so do those beyond that number, with a line in `omitted` each time. Of a reflector that is drawn as geometry,
 // whose image is as fine as the screen, any that is partly hidden stays in that. The same for any number of threads.
 // Error kStopped.
-Status leave_out_emitters(const Accel& accel, std::span<const float> lobe_widths, const EmitterOptions& options,
-                          Context& context, std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
-                          std::vector<std::string>& omitted);
+struct LeftOutEmitters {
+  std::vector<FoundReflector>& reflectors;
+  std::vector<Emitter>& emitters;
+  std::vector<std::string>& omitted;
+};
+Status leave_out_emitters(const Accel& accel, const EmitterOptions& options, Context& context,
+                          const LeftOutEmitters& out);
 
 }  // namespace oriel

@@ -54,10 +54,45 @@ double price_for(const FoundReflector& found, double price) {
 
 class Planner {
  public:
-  Planner(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes, const PlannedViewOptions& options,
-          Context& context)
-      : surroundings_(surroundings), eyes_(eyes), options_(options), context_(context) {
+  Planner(const ReflectedSurroundings& surroundings, const PlannedViewOptions& options, Context& context)
+      : surroundings_(surroundings), asked_(options), options_(options), context_(context) {
     if (options.map_resolution > 0) options_.choice.resolutions = {options.map_resolution};
+  }
+
+  // The known plan, where it holds still; else none.
+  Result<std::optional<ReflectorPlan>> take_known(std::uint32_t reflector, const KnownPlan& known) {
+    bool still = false;
+    ORIEL_TRY_VOID(one_unit(
+        context_, "known views",
+        [&](Archive& key) {
+          add_inputs(reflector, key);
+          key(known);
+        },
+        [&]() -> Status {
+          ORIEL_TRY(still, holds(reflector, known.plan));
+          return {};
+        },
+        [&](Archive& archive) { archive(still); }));
+    return still ? std::optional(known.plan) : std::nullopt;
+  }
+
+  Result<ReflectorPlan> find_or_plan(std::uint32_t reflector) {
+    ReflectorPlan made;
+    ORIEL_TRY_VOID(one_unit(
+        context_, "views", [&](Archive& key) { add_inputs(reflector, key); },
+        [&]() -> Status {
+          ORIEL_TRY(made, plan(reflector));
+          return {};
+        },
+        [&](Archive& archive) { archive(made); }));
+    return made;
+  }
+
+ private:
+  // What plans are functions of, beside the stage's inputs.
+  void add_inputs(std::uint32_t reflector, Archive& key) {
+    key(reflector, asked_.eyes, asked_.choice, asked_.element_m, asked_.samples, asked_.hemisphere,
+        asked_.mirrored_eyes, asked_.max_elements, asked_.map_resolution, asked_.pixel_price);
   }
 
   Result<ReflectorPlan> plan(std::uint32_t reflector) {
@@ -102,12 +137,11 @@ class Planner {
     return seen >= (known.seen() - kSeenLess) * total && sharp >= (known.sharp() - kSharpLess) * total;
   }
 
- private:
   Result<std::vector<ReflectedSample>> samples_of(std::uint32_t reflector) {
     const Reflector& r = surroundings_.reflectors()[reflector].reflector;
     const ElementGrid shares = element_grid(r.upper - r.lower, options_.element_m, kMostShares);
-    return sample_reflections(surroundings_, reflector, eyes_, options_.samples * shares.x * shares.y, context_.seed,
-                              context_);
+    return sample_reflections(surroundings_, reflector, options_.eyes, options_.samples * shares.x * shares.y,
+                              context_.seed, context_);
   }
 
   Result<ReflectorPlan> plan_on(std::uint32_t reflector, const ElementGrid& grid,
@@ -152,8 +186,7 @@ class Planner {
   }
 
   const ReflectedSurroundings& surroundings_;
-  std::span<const Vec3> eyes_;
-  PlannedViewOptions options_;
+  PlannedViewOptions asked_, options_;  // the latter with map_resolution among the choices
   Context& context_;
 };
 
@@ -185,35 +218,6 @@ void fit_memory(std::span<const FoundReflector> reflectors, std::uint64_t limit,
   }
   omitted.push_back(memory_line(wanted, limit) +
                     fmt::format("{} of {} maps, some of them coarser", map_count(plans), maps));
-}
-
-// What plans are functions of, beside the stage's inputs.
-void add_inputs(std::uint32_t reflector, std::span<const Vec3> eyes, const PlannedViewOptions& options, Archive& key) {
-  key(reflector, eyes, options.choice, options.element_m, options.samples, options.hemisphere, options.mirrored_eyes,
-      options.max_elements, options.map_resolution, options.pixel_price);
-}
-
-// The plan that is known of the reflector, where it holds still. Whether it does.
-Result<bool> take_known(Planner& planner, std::uint32_t reflector, const Hash128& identity, std::span<const Vec3> eyes,
-                        const PlannedViewOptions& options, std::span<const KnownPlan> known, Context& context,
-                        ReflectorPlan& plan) {
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const KnownPlan& k) { return k.reflector == identity; });
-  if (found == known.end()) return false;
-  bool holds = false;
-  ORIEL_TRY_VOID(one_unit(
-      context, "known views",
-      [&](Archive& key) {
-        add_inputs(reflector, eyes, options, key);
-        key(*found);
-      },
-      [&]() -> Status {
-        ORIEL_TRY(holds, planner.holds(reflector, found->plan));
-        return {};
-      },
-      [&](Archive& archive) { archive(holds); }));
-  if (holds) plan = found->plan;
-  return holds;
 }
 
 // The plan without the candidates that were not picked.
@@ -281,11 +285,9 @@ Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std:
   return {};
 }
 
-Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes,
-                                     const PlannedViewOptions& options, Context& context,
-                                     std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known,
-                                     std::vector<KnownPlan>* now) {
-  Planner planner(surroundings, eyes, options, context);
+Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, const PlannedViewOptions& options,
+                                     Context& context, std::vector<FoundReflector>& reflectors, KnownPlans& known) {
+  Planner planner(surroundings, options, context);
   ViewPlan out;
   std::vector<ReflectorPlan> plans;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
@@ -294,22 +296,22 @@ Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, 
       continue;
     }
     const Hash128 identity = identity_of(surroundings.accel().scene(), reflectors[r]);
+    const auto before = std::ranges::find(known.before, identity, &KnownPlan::reflector);
+    std::optional<ReflectorPlan> kept;
+    if (before != known.before.end()) {
+      ORIEL_TRY(kept, planner.take_known(r, *before));
+    }
+    out.kept += kept.has_value();
     ReflectorPlan plan;
-    ORIEL_TRY(const bool kept, take_known(planner, r, identity, eyes, options, known, context, plan));
-    out.kept += kept;
-    if (!kept) {
-      ORIEL_TRY_VOID(one_unit(
-          context, "views", [&](Archive& key) { add_inputs(r, eyes, options, key); },
-          [&]() -> Status {
-            ORIEL_TRY(plan, planner.plan(r));
-            return {};
-          },
-          [&](Archive& archive) { archive(plan); }));
+    if (kept) {
+      plan = std::move(*kept);
+    } else {
+      ORIEL_TRY(plan, planner.find_or_plan(r));
     }
     if (map_count({&plan, 1}) == 0 && !plan.elements.empty())
       out.omitted.push_back(fmt::format("'{}' ({:.3g} m²): shows too little to be worth a map",
                                         reflectors[r].reflector.name, reflectors[r].reflector.area_m2));
-    if (now) now->push_back({identity, picked_only(plan)});
+    known.now.push_back({identity, picked_only(plan)});
     plans.push_back(std::move(plan));
     context.report("views", static_cast<double>(r + 1) / static_cast<double>(reflectors.size()));
   }

@@ -8,6 +8,7 @@
 namespace oriel {
 
 struct PlannedViewOptions {
+  std::span<const Vec3> eyes{};  // scene space: for whom maps are planned
   ChoiceOptions choice;          // max_maps: of an element of element_m; larger ones get as many times more, but with a
                                  // residual no more than kMostMapsPerElement
   float element_m = 3;           // metres: the paper's
@@ -27,16 +28,13 @@ struct PlannedViewOptions {
 Status keep_seen_reflectors(const Accel& accel, std::span<const Vec3> eyes, std::uint32_t limit, Context& context,
                             FoundReflectors& found);
 
-// Plans the maps of all reflectors that have maps for eyes in scene space, and sets each one's elements_x, elements_y,
+// Plans the maps of all reflectors that have maps for the eyes, and sets each one's elements_x, elements_y,
 // first_map and map_count: an element's maps in the order in which they were chosen. Candidates are hemispheres behind
 // the element (without those whose mirror image is outside the scene) and mirrored eyes. Where memory_bytes does not
 // suffice, pixels get dearer until all fits: maps that show least for their size are left out or get coarser. The same
-// for any number of threads. `known`: plans of an earlier bake with these options; those of reflectors that are still
-// there are kept where they show no less (0.2 % unseen or 1 % unsharp more is no less). `now` (may be null): the plans
-// to be known next time, before memory limits them. Error kStopped.
-Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, std::span<const Vec3> eyes,
-                                     const PlannedViewOptions& options, Context& context,
-                                     std::vector<FoundReflector>& reflectors, std::span<const KnownPlan> known = {},
-                                     std::vector<KnownPlan>* now = nullptr);
+// for any number of threads. Known plans of reflectors that are still there are kept where they show no less (0.2 %
+// unseen or 1 % unsharp more is no less). Error kStopped.
+Result<ViewPlan> plan_views_for_eyes(const ReflectedSurroundings& surroundings, const PlannedViewOptions& options,
+                                     Context& context, std::vector<FoundReflector>& reflectors, KnownPlans& known);
 
 }  // namespace oriel

@@ -57,6 +57,11 @@ struct KnownPlan {
 inline void fields(Archive& archive, KnownPlan& k) {
   archive(k.reflector, k.plan);
 }
+// Plans of an earlier bake with the same options, and those to be known next time, before memory limits them.
+struct KnownPlans {
+  std::span<const KnownPlan> before;
+  std::vector<KnownPlan> now;
+};
 
 // The same for reflectors of the same shape and lobe at the same place, whose maps leave out the same emitters.
 Hash128 identity_of(const Scene& scene, const FoundReflector& found);

@@ -95,33 +95,32 @@ double bytes_of(const Pack& pack, const PlannedReflections& planned) {
   return bytes;
 }
 
-Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
-                        Context& context, PlannedReflections& planned) {
+Status time_reflections(const BakeTask& bake, Pack& dark, PlannedReflections& planned) {
+  const Atlas& atlas = bake.prepared.atlas;
   dark.lightmaps.clear();
-  for (const AtlasPage& page : prepared.atlas.pages) {
+  for (const AtlasPage& page : atlas.pages) {
     const std::size_t texels = std::size_t{page.width} * page.height;
     dark.lightmaps.push_back({page.width, page.height, std::vector<Vec3>(texels), {}, {}});
   }
-  return time_capture(options, {*prepared.accel, lights, prepared.atlas, dark.lightmaps}, context, planned);
+  return time_capture(bake.options, {bake.accel(), bake.lights, atlas, dark.lightmaps}, bake.context, planned);
 }
 
-Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const TimeBudget& budget, Context& context, PlannedReflections& planned) {
+Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, PlannedReflections& planned) {
   Pack dark;
   if (planned.has_images()) {
     const double until = budget.left() - budget.for_timing();
     const auto late = [&] { return budget.left() < until; };
     Status tried;
     {
-      const Interruptible interruptible(context, late);
-      tried = time_reflections(options, prepared, lights, dark, context, planned);
+      const Interruptible interruptible(bake.context, late);
+      tried = time_reflections(bake, dark, planned);
     }
-    if (!tried && (context.stop || !late())) return tl::unexpected(tried.error());
+    if (!tried && (bake.context.stop || !late())) return tl::unexpected(tried.error());
     if (!tried)
       leave_out_maps({"a few of their pixels already take too long for --time", WarningKind::kTimeOver}, planned);
     shrink_maps(budget.for_maps(), planned);
   }
-  const double field = prepared.movers.empty() ? 0 : budget.for_light_field();
+  const double field = bake.prepared.movers.empty() ? 0 : budget.for_light_field();
   return TimeBudget::kept_for(planned.capture_s + TimeBudget::writing(bytes_of(dark, planned))) + field;
 }
 

@@ -23,14 +23,12 @@ Result<SurroundCost> surround_cost(const BakedScene& baked, const FoundReflectio
 
 // Sets capture_s: a 64th of the maps' pixels is captured in the dark, which takes as long as in the light; judging and
 // residual maps go by what planning took. `dark` gets a lightmap for it. Error kStopped.
-Status time_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights, Pack& dark,
-                        Context& context, PlannedReflections& planned);
+Status time_reflections(const BakeTask& bake, Pack& dark, PlannedReflections& planned);
 
 // Of a pack's images: lightmaps that are there, and planned maps.
 double bytes_of(const Pack& pack, const PlannedReflections& planned);
 
 // Maps as large as the time allows; the seconds that all stages behind the lightmap are likely to take. Error kStopped.
-Result<double> fit_reflections(const BakeOptions& options, const PreparedScene& prepared, const LightSet& lights,
-                               const TimeBudget& budget, Context& context, PlannedReflections& planned);
+Result<double> fit_reflections(const BakeTask& bake, const TimeBudget& budget, PlannedReflections& planned);
 
 }  // namespace oriel

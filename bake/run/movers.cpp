@@ -83,12 +83,12 @@ FieldBox field_box(const Scene& scene, std::span<const WalkGrid> grids, std::spa
 
 }  // namespace
 
-Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::span<const TakenMover> taken,
-                                             MaterialMaps& materials, Context& context, Pack& pack,
-                                             std::uint64_t& rays) {
+Result<std::vector<MoverReport>> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays) {
+  const BakeOptions& options = bake.options;
+  Context& context = bake.context;
   std::vector<MoverReport> reports;
   std::atomic<std::uint64_t> counted{0};
-  for (const TakenMover& t : taken) {
+  for (const TakenMover& t : bake.prepared.movers) {
     ORIEL_TRY(const Accel accel, Accel::build(t.scene, {options.reproducible, context.threads}));
     const StageInputs inputs(context, SurfacesOf{t.scene}, options.transfer);
     ORIEL_TRY(const VertexTransfer transfer, bake_transfer(accel, options.transfer, {context, &counted}));
@@ -111,7 +111,7 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
     reports.push_back({mover.name, mover.mesh.positions.size(), transfer.standard_error, mover.transfer.error,
                        mover.transfer.bytes_per_vertex(), coarse_share(t.scene, transfer)});
     warn_about(reports.back(), context);
-    pack.movers.push_back(std::move(mover));
+    bake.pack.movers.push_back(std::move(mover));
     const std::vector<MaterialSummary> summaries = summarize_materials(t.scene);
     for (const Surface& surface : t.scene.surfaces) materials.summaries[surface.material] = summaries[surface.material];
   }
@@ -119,19 +119,19 @@ Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::sp
   return reports;
 }
 
-Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std::span<const TakenMover> taken,
-                        std::function<bool()> enough, Context& context, Pack& pack, std::uint64_t& rays) {
-  const Scene& scene = baked.accel.scene();
+Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std::uint64_t& rays) {
+  const BakedScene baked = bake.baked();
   const SurfaceRadiance radiance = [&](const Hit& hit, const Vec3& towards_eye, bool with_emission) {
     return baked_radiance(baked, {.hit = hit, .towards_eye = towards_eye, .emission = with_emission});
   };
-  ProbeOptions probes = options.probes;
-  probes.bands = options.transfer.bands;
+  ProbeOptions probes = bake.options.probes;
+  probes.bands = bake.options.transfer.bands;
   probes.enough = std::move(enough);
-  const FieldBox box = field_box(scene, pack.walk_grids, taken);
-  const StageInputs inputs(context, LitScene{baked}, box.lower, box.upper, probes);
+  const FieldBox box = field_box(bake.scene(), bake.pack.walk_grids, bake.prepared.movers);
+  const StageInputs inputs(bake.context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};
-  ORIEL_TRY(pack.light_field, bake_probes(baked.accel, baked.lights, box, radiance, probes, {context, &counted}));
+  ORIEL_TRY(bake.pack.light_field,
+            bake_probes(baked.accel, baked.lights, box, radiance, probes, {bake.context, &counted}));
   rays += counted;
   return {};
 }

@@ -1,10 +1,8 @@
 // Movers and the light that they move through.
 #pragma once
 
-#include "bake/import/movers.h"
 #include "bake/run/assemble.h"
-#include "bake/run/baked_light.h"
-#include "bake/run/options.h"
+#include "bake/run/task.h"
 
 namespace oriel {
 
@@ -19,14 +17,11 @@ struct MoverReport {
 
 // Transfer of every mover, compressed, into pack.movers; the summaries of the materials that only movers have into
 // `materials`. Adds to `rays`. Errors kStopped, kUsage.
-Result<std::vector<MoverReport>> bake_movers(const BakeOptions& options, std::span<const TakenMover> taken,
-                                             MaterialMaps& materials, Context& context, Pack& pack,
-                                             std::uint64_t& rays);
+Result<std::vector<MoverReport>> bake_movers(const BakeTask& bake, MaterialMaps& materials, std::uint64_t& rays);
 
 // The light field over where people walk (pack.walk_grids), or over the scene where that is not known, and over where
 // the movers' animations take them: from the pack's lightmaps. It is refined until there is `enough`. Adds to `rays`.
 // Errors kStopped, kUsage.
-Status bake_light_field(const BakeOptions& options, const BakedScene& baked, std::span<const TakenMover> taken,
-                        std::function<bool()> enough, Context& context, Pack& pack, std::uint64_t& rays);
+Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std::uint64_t& rays);
 
 }  // namespace oriel

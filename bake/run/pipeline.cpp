@@ -49,23 +49,6 @@ auto unless_late(const TimeBudget& budget, Context& context, const Stage& stage)
   return tl::unexpected(made.error());
 }
 
-// Reflections, left out where the user or the time wants the bake to finish.
-Result<ReflectionReport> reflect(const BakeOptions& options, PlannedReflections planned, const BakedScene& baked,
-                                 const MaterialMaps& materials, const AssembledMesh& mesh, const TimeBudget& budget,
-                                 Context& context, Pack& pack) {
-  const double writing = budget.limited() ? TimeBudget::writing(bytes_of(pack, {})) : 0;
-  const Interruptible until(context, [&] { return context.finish || budget.left() <= writing; });
-  auto made = bake_reflections(options, planned, baked, materials, mesh, context, pack);
-  if (made || made.error().code != ErrorCode::kStopped || context.stop) return made;
-  pack.emitters.clear();
-  const Warning why =
-      context.finish
-          ? Warning("left out, the user asked the bake to finish")
-          : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned.capture_s)),
-                    WarningKind::kTimeOver);
-  return mirror_geometry(std::move(planned), mesh, why, pack);
-}
-
 void leave_out_kernels(MaterialMaps& materials, std::vector<Warning>& omissions) {
   omissions.emplace_back("kernels: left out by --only");
   materials.kernels.clear();
@@ -172,8 +155,7 @@ class Bake {
         reflected_triangles_.assign(found_.found.reflectors.size(), scene().triangles.size());
       choose_ways(options_.ways, options_.target, reflected_triangles_, found_.found.reflectors);
       ORIEL_TRY(planned_, timed_("views", [&](auto&) {
-                  return plan_reflections(options_, prepared_, *lights_, std::move(found_), budget_.for_views(),
-                                          context_);
+                  return plan_reflections(task(), std::move(found_), budget_.for_views());
                 }));
     }
     if (!planned_.has_images()) return {};
@@ -183,12 +165,13 @@ class Bake {
   Status find_visible_sets() {
     mesh_ = assemble_mesh(scene(), prepared_.atlas);
     ORIEL_TRY(SceneSets sets, timed_("visibility", [&](std::uint64_t& rays) {
-                auto found =
-                    bake_visibility(options_, accel(), {found_.region.grids, found_.eyes, found_.found.reflectors},
-                                    mesh_, budget_.for_visible_sets(), context_, visibility_, result_.omissions);
-                rays += visibility_.lines;
+                auto found = bake_visibility(task(), {found_.region.grids, found_.eyes, found_.found.reflectors},
+                                             budget_.for_visible_sets(), mesh_);
+                if (found) rays += found->report.lines;
                 return found;
               }));
+    visibility_ = sets.report;
+    omit(sets.omissions);
     pack().visible_sets = std::move(sets.visible);
     pack().reflected_sets = std::move(sets.reflected);
     reflected_triangles_ = std::move(sets.reflected_triangles);
@@ -197,17 +180,13 @@ class Bake {
 
   Status make_transfer() {
     if (prepared_.movers.empty()) return {};
-    ORIEL_TRY(movers_, timed_("transfer", [&](std::uint64_t& rays) {
-                return bake_movers(options_, prepared_.movers, materials_, context_, pack(), rays);
-              }));
+    ORIEL_TRY(movers_, timed_("transfer", [&](std::uint64_t& rays) { return bake_movers(task(), materials_, rays); }));
     return {};
   }
 
   Status fit_to_time() {
     if (!budget_.limited()) return {};
-    ORIEL_TRY(later_s_, timed_("timing", [&](auto&) {
-                return fit_reflections(options_, prepared_, *lights_, budget_, context_, planned_);
-              }));
+    ORIEL_TRY(later_s_, timed_("timing", [&](auto&) { return fit_reflections(task(), budget_, planned_); }));
     return {};
   }
 
@@ -216,7 +195,7 @@ class Bake {
     if (!planned_.has_images()) return {};
     if (!budget_.limited()) {
       Pack dark;
-      ORIEL_TRY_VOID(time_reflections(options_, prepared_, *lights_, dark, context_, planned_));
+      ORIEL_TRY_VOID(time_reflections(task(), dark, planned_));
     }
     forecast_.expect("radiance", planned_.capture_s - planned_.surround_s);
     forecast_.expect("surroundings", planned_.surround_s);
@@ -271,14 +250,28 @@ class Bake {
       return {};
     }
     ORIEL_TRY(reflections_, timed_("radiance", [&](std::uint64_t& rays) {
-                auto made =
-                    reflect(options_, std::move(planned_), baked(), materials_, mesh_, budget_, context_, pack());
+                auto made = reflections_in_time();
                 if (made) rays = made->rays;
                 return made;
               }));
     result_.map_reuse = reflections_.reuse;
     omit(reflections_.omissions);
     return {};
+  }
+
+  // Left out where the user or the time wants the bake to finish.
+  Result<ReflectionReport> reflections_in_time() {
+    const double writing = budget_.limited() ? TimeBudget::writing(bytes_of(pack(), {})) : 0;
+    const Interruptible until(context_, [&] { return context_.finish || budget_.left() <= writing; });
+    auto made = bake_reflections(task(), planned_, materials_, mesh_);
+    if (made || made.error().code != ErrorCode::kStopped || context_.stop) return made;
+    pack().emitters.clear();
+    const Warning why =
+        context_.finish
+            ? Warning("left out, the user asked the bake to finish")
+            : Warning(fmt::format("left out, --time was over; {:.0f} s more have them", std::ceil(planned_.capture_s)),
+                      WarningKind::kTimeOver);
+    return mirror_geometry(std::move(planned_), mesh_, why, pack());
   }
 
   // The light that movers meet.
@@ -294,9 +287,7 @@ class Bake {
       if (context_.finish || budget_.left() <= writing) late = true;
       return late.load();
     };
-    ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) {
-      return bake_light_field(options_, baked(), prepared_.movers, enough, context_, pack(), rays);
-    }));
+    ORIEL_TRY_VOID(timed_("probes", [&](std::uint64_t& rays) { return bake_light_field(task(), enough, rays); }));
     if (late) result_.omissions.emplace_back("light field: its last refinement is left out, the bake was to end");
     return {};
   }
@@ -306,10 +297,10 @@ class Bake {
     if (!options_.with_material) leave_out_kernels(materials_, result_.omissions);
     fill_pack(scene(), std::move(materials_), std::move(mesh_), pack());
     ORIEL_TRY_VOID(timed_("light groups", [&](std::uint64_t& rays) -> Status {
-      assemble_light_groups(baked(), std::exchange(radiosity_.groups, {}), rays, pack());
+      assemble_light_groups(task().baked(), std::exchange(radiosity_.groups, {}), rays, pack());
       return {};
     }));
-    ORIEL_TRY(start_, choose_start(options_, prepared_.walk, prepared_.region, baked(), context_, pack()));
+    ORIEL_TRY(start_, choose_start(task()));
     if (!pack().visible_sets.empty())
       pack().visible_sets.made_for = visibility_hash(pack().mesh, pack().materials, pack().walk_grids);
     if (pack().reflectors.empty()) pack().reflected_sets = {};
@@ -348,7 +339,7 @@ class Bake {
   const Accel& accel() const { return *prepared_.accel; }
   Pack& pack() { return result_.pack; }
   LightmapScene laid_out() const { return {*transport_, prepared_.atlas, prepared_.texel_map}; }
-  BakedScene baked() { return {accel(), *lights_, prepared_.atlas, pack().lightmaps}; }
+  BakeTask task() { return {options_, prepared_, *lights_, context_, pack()}; }
   template <class Lines>
   void omit(const Lines& lines) {
     result_.omissions.insert(result_.omissions.end(), lines.begin(), lines.end());

@@ -44,19 +44,18 @@ void append(std::vector<Warning>& lines, const std::vector<std::string>& more) {
 }
 
 // The reflectors that eyes see, most important first, and what shines without lying in a plane.
-Result<FoundReflectors> reflectors_for(const BakeOptions& options, const Accel& accel,
-                                       std::span<const ReflectorMaterial> materials, std::span<const Vec3> eyes,
-                                       Context& context, std::vector<Warning>& omissions) {
+Status find_planar(const BakeOptions& options, const Accel& accel, Context& context, FoundReflections& all) {
   ReflectorOptions wide = options.reflectors;  // a large one that nobody sees must not push out a small one
   wide.max_reflectors = 4 * std::min(options.reflectors.max_reflectors, std::numeric_limits<std::uint32_t>::max() / 4);
-  FoundReflectors found = find_reflectors(accel, materials, wide);
-  ORIEL_TRY_VOID(keep_seen_reflectors(accel, eyes, options.reflectors.max_reflectors, context, found));
-  append(omissions, found.omitted);
+  FoundReflectors& found = all.found;
+  found = find_reflectors(accel, all.lobes, wide);
+  ORIEL_TRY_VOID(keep_seen_reflectors(accel, all.eyes, options.reflectors.max_reflectors, context, found));
+  append(all.omissions, found.omitted);
   if (found.reflectors.empty())
-    omissions.push_back(fmt::format(
+    all.omissions.push_back(fmt::format(
         "radiance maps: no planar surface of roughness {} or less and {} m² or more reflects enough to show an image",
         options.reflectors.max_roughness, options.reflectors.min_area_m2));
-  return found;
+  return {};
 }
 
 // Whether there is a sky to be seen.
@@ -70,10 +69,14 @@ Result<ViewPlan> plan_maps(const BakeOptions& options, const Accel& accel, Conte
   if (options.view_scheme == ViewScheme::kHemisphere) return plan_views(accel.scene(), reflectors, options.views);
   const std::vector<FoundReflector> as_found = reflectors;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), as_found, options.sight);
-  planned.plans.clear();
-  const auto known = planned.known ? std::span<const KnownPlan>(planned.known->plans) : std::span<const KnownPlan>();
-  return plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), planned.all.eyes, options.planned,
-                             context, reflectors, known, &planned.plans);
+  KnownPlans known;
+  if (planned.known) known.before = planned.known->plans;
+  PlannedViewOptions views = options.planned;
+  views.eyes = planned.all.eyes;
+  auto plan =
+      plan_views_for_eyes(ReflectedSurroundings(accel, as_found, options.sight), views, context, reflectors, known);
+  planned.plans = std::move(known.now);
+  return plan;
 }
 
 // Where in the store the last bake with these options of a scene with as many triangles left what it knew.
@@ -195,14 +198,18 @@ std::vector<std::uint32_t> mesh_indices(const AssembledMesh& mesh, std::span<con
 }
 
 // leave_out_emitters() as a unit of work.
-Status leave_out_lamps(const Accel& accel, const std::vector<float>& lobe_widths, Context& context,
-                       std::vector<FoundReflector>& reflectors, std::vector<Emitter>& emitters,
-                       std::vector<Warning>& omissions) {
+Status leave_out_lamps(const BakeTask& bake, const std::vector<float>& lobe_widths,
+                       std::vector<FoundReflector>& reflectors, std::vector<Warning>& omissions) {
+  const Accel& accel = bake.accel();
+  Context& context = bake.context;
+  std::vector<Emitter>& emitters = bake.pack.emitters;
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, LightsOf{accel.scene()}, lobe_widths, reflectors);
   std::vector<std::string> omitted;
   ORIEL_TRY_VOID(one_unit(
       context, "emitters", [](Archive&) {},
-      [&] { return leave_out_emitters(accel, lobe_widths, {}, context, reflectors, emitters, omitted); },
+      [&] {
+        return leave_out_emitters(accel, {.lobe_widths = lobe_widths}, context, {reflectors, emitters, omitted});
+      },
       [&](Archive& archive) { archive(reflectors, emitters, omitted); }));
   append(omissions, omitted);
   return {};
@@ -237,7 +244,7 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   all.eyes = sample_eyes(all.region, kTrainingEyes, context.seed);
   all.lobes = reflector_materials(materials);
   const StageInputs inputs(context, SurfacesOf{accel.scene()}, shines(accel.scene()), all.lobes, options.reflectors);
-  ORIEL_TRY(all.found, reflectors_for(options, accel, all.lobes, all.eyes, context, all.omissions));
+  ORIEL_TRY_VOID(find_planar(options, accel, context, all));
   CurvedOptions curved = options.curved;
   curved.memory_bytes = std::min(curved.memory_bytes, options.planned.memory_bytes / 4);
   all.curved =
@@ -247,13 +254,13 @@ Result<FoundReflections> find_reflections(const BakeOptions& options, const Prep
   return all;
 }
 
-Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, FoundReflections found_ones, double seconds,
-                                            Context& context) {
-  const Accel& accel = *prepared.accel;
+Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflections found_ones, double seconds) {
+  const BakeOptions& options = bake.options;
+  const Accel& accel = bake.accel();
+  Context& context = bake.context;
   PlannedReflections planned;
   planned.all = std::move(found_ones);
-  const bool dark = lights.empty() && max_component(accel.scene().sky) <= 0;
+  const bool dark = bake.lights.empty() && max_component(accel.scene().sky) <= 0;
   if (dark && !planned.all.empty()) planned.all.omissions.emplace_back("radiance maps: the scene has no light");
   if (dark) planned.all.found = {}, planned.all.curved = {};
   if (planned.all.empty()) return planned;
@@ -299,10 +306,13 @@ double PlannedReflections::surround_pixels() const {
   return sum;
 }
 
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
-                                          const BakedScene& baked, const MaterialMaps& materials,
-                                          const AssembledMesh& mesh, Context& context, Pack& pack) {
-  const Accel& accel = baked.accel;
+Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflections planned,
+                                          const MaterialMaps& materials, const AssembledMesh& mesh) {
+  const BakeOptions& options = bake.options;
+  const BakedScene baked = bake.baked();
+  const Accel& accel = bake.accel();
+  Context& context = bake.context;
+  Pack& pack = bake.pack;
   ReflectionReport report;
   auto& [region, eyes, lobes, found, curved, omissions] = planned.all;
   ViewPlan& plan = planned.plan;
@@ -318,8 +328,7 @@ Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedRef
   const std::vector<bool> is_shiny = shiny_triangles(accel.scene(), planned.all);
   const OutgoingRadiance to_planar = with_lobes_of(is_curved, outgoing);
   if (options.with_material)
-    ORIEL_TRY_VOID(
-        leave_out_lamps(accel, lobe_widths(materials), context, reflectors, pack.emitters, report.omissions));
+    ORIEL_TRY_VOID(leave_out_lamps(bake, lobe_widths(materials), reflectors, report.omissions));
   const ReflectedSurroundings surroundings(accel, reflectors, options.sight);
   ORIEL_TRY(const LobeShares shares, lobe_shares(baked, surroundings, plan.maps, planned.all, context));
   paths = lobe_paths(shares.planar * planned.planar_pixels() + shares.surround * planned.surround_pixels());

@@ -5,11 +5,8 @@
 #include "bake/radiance/kept_maps.h"
 #include "bake/radiance/samples.h"
 #include "bake/run/assemble.h"
-#include "bake/run/baked_light.h"
 #include "bake/run/judge.h"
-#include "bake/run/options.h"
-#include "bake/run/prepare.h"
-#include "formats/pack/pack.h"
+#include "bake/run/task.h"
 
 namespace oriel {
 
@@ -57,15 +54,12 @@ struct PlannedReflections {
 // Plans the maps of reflectors that have maps. Nothing is planned where there is no reflector or no
 // light. Planning is first tried with a 16th of its samples, which stay where all of them would take longer than
 // `seconds`; infinite: all at once. Error kStopped.
-Result<PlannedReflections> plan_reflections(const BakeOptions& options, const PreparedScene& prepared,
-                                            const LightSet& lights, FoundReflections found, double seconds,
-                                            Context& context);
+Result<PlannedReflections> plan_reflections(const BakeTask& bake, FoundReflections found, double seconds);
 
 // Captures the planned maps, all into the pack, whose lightmaps are there, and judges them. Error kStopped; the pack is
 // then as it was but for its emitters and walk grids.
-Result<ReflectionReport> bake_reflections(const BakeOptions& options, PlannedReflections planned,
-                                          const BakedScene& baked, const MaterialMaps& materials,
-                                          const AssembledMesh& mesh, Context& context, Pack& pack);
+Result<ReflectionReport> bake_reflections(const BakeTask& bake, PlannedReflections planned,
+                                          const MaterialMaps& materials, const AssembledMesh& mesh);
 
 // In place of that where there is no time for images: planar reflectors are drawn as mirrored geometry, which needs
 // none. Curved ones show their light as if their lobes were wide. why: for people.

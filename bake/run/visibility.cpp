@@ -147,13 +147,14 @@ std::string why_not_visible_sets(const BakeOptions& options, std::size_t triangl
   return {};
 }
 
-Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
-                                  AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                  std::vector<Warning>& omissions) {
+Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers, double seconds, AssembledMesh& mesh) {
+  const BakeOptions& options = bake.options;
+  SceneSets sets;
+  VisibilityReport& report = sets.report;
+  std::vector<Warning>& omissions = sets.omissions;
   const std::string why_not = why_not_visible_sets(options, mesh.first_index.size(), onlookers.grids);
   if (!why_not.empty()) omissions.push_back("visible sets: " + why_not);
   const bool reflected = wants_reflected_sets(options, mesh.first_index.size(), onlookers);
-  SceneSets sets;
   if (!why_not.empty() && !reflected) return sets;
   const VisibilityOptions& o = options.visibility;
   const auto triangles = static_cast<std::uint32_t>(mesh.first_index.size());
@@ -166,9 +167,9 @@ Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel
   visible.side = eye_cell_side(onlookers.grids, o);
   visible.below_m = kEyeBelow_m;
   visible.above_m = kEyeAbove_m;
-  const GroupedScene scene{accel, group, groups.count};
-  SetFinder finder(options, scene, onlookers, seconds, context);
-  const StageInputs inputs(context, SurfacesOf{accel.scene()});
+  const GroupedScene scene{bake.accel(), group, groups.count};
+  SetFinder finder(options, scene, onlookers, seconds, bake.context);
+  const StageInputs inputs(bake.context, SurfacesOf{bake.scene()});
   const auto too_long = [&](const char* what) {
     omissions.emplace_back(
         fmt::format("{}: left out, they would take more than {:.3g} s of --time", what, std::max(seconds, 0.0)),
@@ -192,7 +193,10 @@ Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel
     if (!done) sets.reflected.seen.clear(), too_long("what is seen in reflectors");
     sets.reflected_triangles = triangles_of(sets.reflected.seen, visible.set_bytes(), group);
   }
-  if (visible.seen.empty() && sets.reflected.seen.empty()) return SceneSets();
+  if (visible.seen.empty() && sets.reflected.seen.empty()) {
+    visible = {}, sets.reflected_triangles.clear();
+    return sets;
+  }
   sort_triangles(groups.order, mesh);
   return sets;
 }

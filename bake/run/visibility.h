@@ -3,7 +3,7 @@
 
 #include "bake/radiance/reflectors.h"
 #include "bake/run/assemble.h"
-#include "bake/run/options.h"
+#include "bake/run/task.h"
 #include "formats/query/visible_sets.h"
 
 namespace oriel {
@@ -28,13 +28,13 @@ struct SceneSets {
   VisibleSets visible;
   ReflectedSets reflected;                         // of the reflectors; without made_for
   std::vector<std::uint64_t> reflected_triangles;  // by reflector: what its set holds
+  VisibilityReport report;
+  std::vector<Warning> omissions;
 };
 
 // Sets for the eyes of the grids, and of what eyes see in reflectors, unless that takes more than `seconds`; where they
 // pay, mesh's triangles are sorted by group within its parts. Where they do not, mesh stays as it is, the sets are
 // empty and `omissions` says why. Error kStopped.
-Result<SceneSets> bake_visibility(const BakeOptions& options, const Accel& accel, const SetEyes& onlookers,
-                                  AssembledMesh& mesh, double seconds, Context& context, VisibilityReport& report,
-                                  std::vector<Warning>& omissions);
+Result<SceneSets> bake_visibility(const BakeTask& bake, const SetEyes& onlookers, double seconds, AssembledMesh& mesh);
 
 }  // namespace oriel

@@ -70,7 +70,10 @@ Status run_scene(const std::string& path, const Settings& settings) {
   ORIEL_TRY_VOID(keep_seen_reflectors(accel, training, 32, context, found));
   std::vector<FoundReflector> reflectors = found.reflectors;
   const ReflectedSurroundings surroundings(accel, found.reflectors, {});
-  ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, training, settings.plan, context, reflectors));
+  PlannedViewOptions views = settings.plan;
+  views.eyes = training;
+  KnownPlans none;
+  ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, views, context, reflectors, none));
   const double planned_s = seconds();
   const auto white = [](const SeenSurface&) { return Vec3(1); };
   ORIEL_TRY_VOID(add_residuals({surroundings, white}, {.eyes = training}, context, reflectors, plan));

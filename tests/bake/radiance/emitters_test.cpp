@@ -45,7 +45,7 @@ struct LampRoom {
     Context context;
     std::vector<float> lobe_widths(scene.materials.size());
     lobe_widths[0] = glossy ? scene.materials[0].roughness * scene.materials[0].roughness : 0;
-    ASSERT_TRUE(leave_out_emitters(accel, lobe_widths, {}, context, reflectors, emitters, omitted));
+    ASSERT_TRUE(leave_out_emitters(accel, {.lobe_widths = lobe_widths}, context, {reflectors, emitters, omitted}));
   }
   float visibility(std::size_t emitter, const Vec2& at) const {
     const Reflector& r = reflectors[0].reflector;

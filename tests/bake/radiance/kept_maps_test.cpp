@@ -198,7 +198,7 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
   std::vector<Vec3> eyes;
   MemoryStore store;
   for (int i = 0; i < 200; ++i) eyes.push_back({0.4f + 0.016f * i, 1.6f, 1 + 0.015f * ((37 * i) % 200)});
-  const auto plan = [&](const MirrorRoom& room, std::span<const KnownPlan> known, std::vector<KnownPlan>* now) {
+  const auto plan = [&](const MirrorRoom& room, KnownPlans& known) {
     const auto accel = Accel::build(room.scene);
     EXPECT_TRUE(accel);
     auto reflectors = find_reflectors(*accel, room.materials(), room.reflector_options()).reflectors;
@@ -206,20 +206,22 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
     Context context;
     context.units = &store;
     const StageInputs inputs(context, room.scene.positions);
-    auto made =
-        plan_views_for_eyes(ReflectedSurroundings(*accel, as_found, {}), eyes, {}, context, reflectors, known, now);
+    PlannedViewOptions options;
+    options.eyes = eyes;
+    auto made = plan_views_for_eyes(ReflectedSurroundings(*accel, as_found, {}), options, context, reflectors, known);
     EXPECT_TRUE(made);
     return made ? *made : ViewPlan();
   };
   const MirrorRoom room;
-  std::vector<KnownPlan> known, again;
-  const ViewPlan first = plan(room, {}, &known);
+  KnownPlans known;
+  const ViewPlan first = plan(room, known);
   EXPECT_EQ(first.kept, 0u);
-  const ViewPlan second = plan(room, known, &again);
+  KnownPlans again{.before = known.now, .now = {}};
+  const ViewPlan second = plan(room, again);
   EXPECT_EQ(second.kept, 1u);
   ASSERT_EQ(second.maps.size(), first.maps.size());
   for (std::size_t i = 0; i < first.maps.size(); ++i) EXPECT_EQ(frame_of(second.maps[i]), frame_of(first.maps[i]));
-  EXPECT_EQ(hash_of(again), hash_of(known)) << "and the next bake may know them too";
+  EXPECT_EQ(hash_of(again.now), hash_of(known.now)) << "and the next bake may know them too";
 
   MirrorRoom screened;
   test::SceneParts parts;
@@ -227,7 +229,8 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
   // Upright between mirror and room, so that what lies beside it is seen past its edges.
   parts.box("screen", parts.diffuse(Vec3(0.5f)), {1.9f, 0, 0.5f}, {2.1f, 2.2f, 2});
   screened.scene = parts.finish();
-  EXPECT_EQ(plan(screened, known, nullptr).kept, 0u);
+  KnownPlans without{.before = known.now, .now = {}};
+  EXPECT_EQ(plan(screened, without).kept, 0u);
 
   const std::vector<Vec3> everywhere = eyes;
   const auto keep_eyes = [&](bool left) {
@@ -235,11 +238,12 @@ TEST(KnownViews, StayWhileTheyShowAsMuch) {
     std::erase_if(eyes, [&](const Vec3& eye) { return (eye.x < 1.9f) != left || eye.z > 2; });
   };
   keep_eyes(true);
-  std::vector<KnownPlan> of_left;
-  plan(screened, {}, &of_left);
-  EXPECT_EQ(plan(screened, of_left, nullptr).kept, 1u);
+  KnownPlans of_left;
+  plan(screened, of_left);
+  KnownPlans same{.before = of_left.now, .now = {}}, elsewhere = same;
+  EXPECT_EQ(plan(screened, same).kept, 1u);
   keep_eyes(false);
-  EXPECT_EQ(plan(screened, of_left, nullptr).kept, 0u);
+  EXPECT_EQ(plan(screened, elsewhere).kept, 0u);
 }
 
 }  // namespace

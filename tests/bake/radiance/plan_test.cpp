@@ -22,14 +22,16 @@ struct Planned {
   ViewPlan plan;
 };
 
-Planned plan_in(const Accel& accel, const MirrorRoom& room, std::span<const Vec3> eyes,
-                const PlannedViewOptions& options = {}, int threads = 2) {
+Planned plan_in(const Accel& accel, const MirrorRoom& room, std::span<const Vec3> eyes, PlannedViewOptions options = {},
+                int threads = 2) {
   Planned out;
   out.reflectors = find_reflectors(accel, room.materials(), room.reflector_options()).reflectors;
   const auto as_found = out.reflectors;
   Context context;
   context.threads = threads;
-  auto plan = plan_views_for_eyes(ReflectedSurroundings(accel, as_found, {}), eyes, options, context, out.reflectors);
+  options.eyes = eyes;
+  KnownPlans none;
+  auto plan = plan_views_for_eyes(ReflectedSurroundings(accel, as_found, {}), options, context, out.reflectors, none);
   EXPECT_TRUE(plan);
   if (plan) out.plan = std::move(*plan);
   return out;
@@ -145,8 +147,12 @@ TEST(PlannedViews, AreTheSameForAnyThreadsAndStopWhenAsked) {
   Context context;
   context.stop = true;
   auto reflectors = a.reflectors;
+  const std::vector<Vec3> eyes = eyes_in_room(10);
+  PlannedViewOptions options;
+  options.eyes = eyes;
+  KnownPlans none;
   const auto stopped =
-      plan_views_for_eyes(ReflectedSurroundings(*accel, a.reflectors, {}), eyes_in_room(10), {}, context, reflectors);
+      plan_views_for_eyes(ReflectedSurroundings(*accel, a.reflectors, {}), options, context, reflectors, none);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kStopped);
 }

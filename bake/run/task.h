@@ -1,0 +1,25 @@
+// What the stages of one bake share.
+#pragma once
+
+#include "bake/run/baked_light.h"
+#include "bake/run/options.h"
+#include "bake/run/prepare.h"
+#include "formats/pack/pack.h"
+
+namespace oriel {
+
+// All of it outlives them.
+struct BakeTask {
+  const BakeOptions& options;
+  const PreparedScene& prepared;
+  const LightSet& lights;  // of the prepared scene
+  Context& context;
+  Pack& pack;  // in the making
+
+  const Scene& scene() const { return prepared.scene(); }
+  const Accel& accel() const { return *prepared.accel; }
+  // With the light that the pack has so far.
+  BakedScene baked() const { return {accel(), lights, prepared.atlas, pack.lightmaps}; }
+};
+
+}  // namespace oriel
