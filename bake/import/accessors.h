@@ -13,6 +13,8 @@ class AccessorReader {
 
   const AccessorDesc& desc(int accessor) const { return document_.accessors[static_cast<std::size_t>(accessor)]; }
 
+  MemoryBudget& budget() { return budget_; }
+
   // count * components floats, matrices column by column; normalised integers as glTF 2.0 §3.11 maps them; sparse
   // elements substituted. Error kInvalid where a float is not finite, or zeros without bytes are asked for without
   // measure.

@@ -236,20 +236,20 @@ Result<ImportedScene> import_checked(const fs::path& path, const ImportOptions& 
   ORIEL_TRY_VOID(accessors.check_unread());
   ORIEL_TRY(std::vector<std::uint32_t> roots, find_roots(document, options.scene, context));
   if (options.unit_m != 1) roots = {scale_document(options.unit_m, roots, document)};
-  ORIEL_TRY(const std::vector<NodePose> poses, pose_nodes(document, roots));
+  ORIEL_TRY(PosedNodes nodes, pose_nodes(document, roots));
   out.scene.materials = document.materials;
-  ORIEL_TRY(const MoverNodes movers, find_movers(document, poses, options.movers, context));
-  ORIEL_TRY_VOID(place_meshes(document, meshes, poses, movers.of_node, accessors, budget, out.scene, context));
+  ORIEL_TRY(nodes.movers, find_movers(nodes, options.movers, context));
+  ORIEL_TRY_VOID(place_meshes(nodes, meshes, accessors, out.scene, context));
   if (options.double_sided)
     for (SceneMaterial& material : out.scene.materials) material.double_sided = true;
   separate_layers(out.scene, context);
   find_solids(out.scene, context);
-  std::vector<std::uint32_t> moving = movers.nodes;
-  for (const NodePose& pose : poses)
+  std::vector<std::uint32_t> moving = nodes.movers.nodes;
+  for (const NodePose& pose : nodes.poses)
     if (document.nodes[pose.node].camera >= 0) moving.push_back(pose.node);
   ORIEL_TRY(const std::vector<Animation> animations, load_animations(document, moving, accessors, context));
-  ORIEL_TRY_VOID(place_viewpoints(document, poses, animations, out.scene, context));
-  ORIEL_TRY_VOID(place_movers(document, poses, movers, animations, out.scene, context));
+  ORIEL_TRY_VOID(place_viewpoints(nodes, animations, out.scene, context));
+  ORIEL_TRY_VOID(place_movers(nodes, animations, out.scene, context));
   ORIEL_TRY_VOID(apply_lighting(options, budget, out, context));
   ORIEL_TRY_VOID(ImageLoader(document, buffers, folder, budget, out).load(last, context));
   warn_of_topology(out.scene, last != nullptr ? &last->scene : nullptr, context);

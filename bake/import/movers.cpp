@@ -168,8 +168,8 @@ Scene object_scene(const Scene& scene, std::size_t mover) {
 
 }  // namespace
 
-Result<MoverNodes> find_movers(const Document& document, std::span<const NodePose> poses,
-                               std::span<const std::string> names, Context& context) {
+Result<MoverNodes> find_movers(const PosedNodes& posed, std::span<const std::string> names, Context& context) {
+  const auto& [document, poses, none] = posed;
   ORIEL_TRY(const std::vector<char> marks, mark(document, poses, names));
   MoverNodes movers;
   movers.of_node.assign(document.nodes.size(), -1);
@@ -196,8 +196,8 @@ Result<MoverNodes> find_movers(const Document& document, std::span<const NodePos
   return movers;
 }
 
-Status place_movers(const Document& document, std::span<const NodePose> poses, const MoverNodes& movers,
-                    std::span<const Animation> animations, Scene& scene, Context& context) {
+Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context) {
+  const auto& [document, poses, movers] = nodes;
   scene.movers.resize(movers.nodes.size());
   for (const NodePose& pose : poses) {
     const std::int32_t mover = movers.of_node[pose.node];

@@ -6,22 +6,14 @@
 
 namespace oriel {
 
-// By node of the document: the mover that its mesh belongs to, an index into `nodes`; -1: it stands still.
-struct MoverNodes {
-  std::vector<std::uint32_t> nodes;
-  std::vector<std::int32_t> of_node;
-};
-
 // A mover is a node with extras oriel.mover true, one named in `names`, or one that an animation translates or turns
 // and that is no camera's. It takes what is below it along, except other movers. Nodes that show no mesh are none, with
 // a warning where they were asked for. Error kUsage for a name that no node has; it lists those most alike.
-Result<MoverNodes> find_movers(const gltf::Document& document, std::span<const NodePose> poses,
-                               std::span<const std::string> names, Context& context);
+Result<MoverNodes> find_movers(const PosedNodes& nodes, std::span<const std::string> names, Context& context);
 
 // Fills scene.movers out of place_meshes' surfaces, with the first animation that moves each. A mover that shines
 // stands still, and so do lights below a mover; both with a warning.
-Status place_movers(const gltf::Document& document, std::span<const NodePose> poses, const MoverNodes& movers,
-                    std::span<const Animation> animations, Scene& scene, Context& context);
+Status place_movers(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene, Context& context);
 
 // A mover apart from the scene: its surfaces in object space. Materials and images have the scene's indices, which gets
 // copies of those materials that movers share with it; images that it does not use are empty.

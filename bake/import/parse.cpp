@@ -144,9 +144,14 @@ ComponentType component_type(const Json& value, bool indices) {
   return indices ? ComponentType::kUnsignedInt : ComponentType::kFloat;
 }
 
-// Records an error where `count` elements from `offset` on do not fit a view.
-void check_elements(const Json& value, int view, std::uint64_t offset, std::uint64_t count, std::uint64_t element,
-                    bool strided, const Document& document) {
+struct ElementRun {
+  int view = -1;
+  std::uint64_t offset = 0, count = 0, element = 0;  // element: bytes of one
+  bool strided = false;
+};
+// Records an error where elements do not fit their view.
+void check_elements(const Json& value, const ElementRun& run, const Document& document) {
+  const auto& [view, offset, count, element, strided] = run;
   if (view < 0 || count == 0) return;
   const ViewDesc& v = document.views[static_cast<std::size_t>(view)];
   const std::uint64_t view_stride = v.meshopt ? v.meshopt->stride : v.stride;
@@ -170,10 +175,10 @@ SparseDesc parse_sparse(const Json& value, const AccessorDesc& accessor, const D
   sparse.indices_type = component_type(indices.need("componentType"), true);
   sparse.values_view = values.need("bufferView").index(document.views.size());
   sparse.values_offset = values["byteOffset"].integer(0);
-  check_elements(indices, sparse.indices_view, sparse.indices_offset, sparse.count, component_size(sparse.indices_type),
-                 false, document);
-  check_elements(values, sparse.values_view, sparse.values_offset, sparse.count, accessor.element_size, false,
+  check_elements(indices,
+                 {sparse.indices_view, sparse.indices_offset, sparse.count, component_size(sparse.indices_type)},
                  document);
+  check_elements(values, {sparse.values_view, sparse.values_offset, sparse.count, accessor.element_size}, document);
   return sparse;
 }
 
@@ -208,7 +213,7 @@ AccessorDesc parse_accessor(const Json& value, const Document& document) {
   if (!known) value["type"].expected("SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
   if (accessor.normalized && (accessor.type == ComponentType::kFloat || accessor.type == ComponentType::kUnsignedInt))
     value["normalized"].expected("false for components of type float and unsigned int");
-  check_elements(value, accessor.view, accessor.offset, accessor.count, accessor.element_size, true, document);
+  check_elements(value, {accessor.view, accessor.offset, accessor.count, accessor.element_size, true}, document);
   if (value["sparse"].present()) accessor.sparse = parse_sparse(value["sparse"], accessor, document);
   return accessor;
 }

@@ -36,7 +36,7 @@ std::string node_path(const Document& document, std::uint32_t node) {
 
 // EXT_mesh_gpu_instancing: one matrix an instance.
 Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint32_t index,
-                                             gltf::AccessorReader& accessors, gltf::MemoryBudget& budget) {
+                                             gltf::AccessorReader& accessors) {
   const gltf::NodeDesc& node = document.nodes[index];
   const std::string where = node_path(document, index) + ".extensions.EXT_mesh_gpu_instancing";
   std::map<std::string, std::span<const float>> values;
@@ -53,7 +53,7 @@ Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint
     ORIEL_TRY(values[name], accessors.floats(accessor));
   }
   if (!count) return std::vector<DMat4>{DMat4(1)};
-  ORIEL_TRY_VOID(budget.take(*count * sizeof(DMat4) * 2, where));
+  ORIEL_TRY_VOID(accessors.budget().take(*count * sizeof(DMat4) * 2, where));
   std::vector<DMat4> matrices;
   for (std::size_t i = 0; i < *count; ++i) {
     DVec3 t(0), s(1);
@@ -72,18 +72,18 @@ Result<std::vector<DMat4>> instance_matrices(const Document& document, std::uint
   return matrices;
 }
 
-Result<std::vector<Instance>> find_instances(const Document& document, std::span<const LoadedMesh> meshes,
-                                             std::span<const NodePose> poses, gltf::AccessorReader& accessors,
-                                             gltf::MemoryBudget& budget) {
+Result<std::vector<Instance>> find_instances(const PosedNodes& nodes, std::span<const LoadedMesh> meshes,
+                                             gltf::AccessorReader& accessors) {
+  const Document& document = nodes.document;
   std::vector<Instance> instances;
-  for (const NodePose& pose : poses) {
+  for (const NodePose& pose : nodes.poses) {
     const gltf::NodeDesc& node = document.nodes[pose.node];
     if (node.mesh < 0 || meshes[static_cast<std::size_t>(node.mesh)].primitives.empty()) continue;
     if (!node.instanced) {
       instances.push_back({pose.node, pose.world_from_node});
       continue;
     }
-    ORIEL_TRY(const std::vector<DMat4> matrices, instance_matrices(document, pose.node, accessors, budget));
+    ORIEL_TRY(const std::vector<DMat4> matrices, instance_matrices(document, pose.node, accessors));
     for (const DMat4& node_from_instance : matrices) {
       instances.push_back({pose.node, pose.world_from_node * node_from_instance});
       if (!finite(instances.back().world_from_mesh))
@@ -284,8 +284,9 @@ std::uint32_t of_metal(std::uint32_t material, Metal metal,
 
 }  // namespace
 
-Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
-  std::vector<NodePose> poses, waiting;
+Result<PosedNodes> pose_nodes(const Document& document, std::span<const std::uint32_t> roots) {
+  PosedNodes nodes{document, {}};
+  std::vector<NodePose> waiting;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, DMat4(1)});
   while (!waiting.empty()) {
     NodePose pose = waiting.back();  // holds the parent's matrix so far
@@ -296,16 +297,16 @@ Result<std::vector<NodePose>> pose_nodes(const Document& document, std::span<con
       return invalid(node_path(document, pose.node), "found a world transform that overflows, expected a finite one");
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, pose.world_from_node});
-    poses.push_back(pose);
+    nodes.poses.push_back(pose);
   }
-  return poses;
+  return nodes;
 }
 
-Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes, std::span<const NodePose> poses,
-                    std::span<const std::int32_t> mover_of_node, gltf::AccessorReader& accessors,
-                    gltf::MemoryBudget& budget, Scene& scene, Context& context) {
-  ORIEL_TRY(const std::vector<Instance> instances, find_instances(document, meshes, poses, accessors, budget));
-  ORIEL_TRY_VOID(reserve(document, meshes, instances, budget, scene));
+Status place_meshes(const PosedNodes& nodes, std::span<const LoadedMesh> meshes, gltf::AccessorReader& accessors,
+                    Scene& scene, Context& context) {
+  const Document& document = nodes.document;
+  ORIEL_TRY(const std::vector<Instance> instances, find_instances(nodes, meshes, accessors));
+  ORIEL_TRY_VOID(reserve(document, meshes, instances, accessors.budget(), scene));
   ORIEL_TRY(scene.origin, find_origin(document, meshes, instances));
   bool with_colors = false, with_tangents = false;
   for (const Instance& instance : instances)
@@ -325,7 +326,7 @@ Status place_meshes(const Document& document, std::span<const LoadedMesh> meshes
       surface.mesh_name = mesh.name;
       surface.node_path = names.path(instance.node);
       surface.group_mark = names.light_group(instance.node);
-      surface.mover = mover_of_node[instance.node];
+      surface.mover = nodes.movers.of_node[instance.node];
       surface.material =
           of_metal(material_of(mesh.primitives[i], default_material, scene), node.metal, metal_copies, scene);
       placer.place(mesh.primitives[i], instance.world_from_mesh, std::move(surface));

@@ -72,11 +72,12 @@ Status place_paths(const Document& document, const std::vector<std::uint32_t>& c
 
 }  // namespace
 
-Status place_viewpoints(const Document& document, std::span<const NodePose> poses,
-                        std::span<const Animation> animations, Scene& scene, Context& context) {
+Status place_viewpoints(const PosedNodes& nodes, std::span<const Animation> animations, Scene& scene,
+                        Context& context) {
+  const Document& document = nodes.document;
   std::vector<std::uint32_t> camera_nodes;
   const gltf::NodeNames names(document);
-  for (const NodePose& node_pose : poses) {
+  for (const NodePose& node_pose : nodes.poses) {
     const gltf::NodeDesc& node = document.nodes[node_pose.node];
     if (node.camera < 0 && node.light < 0) continue;
     const Pose pose = pose_of(node_pose.world_from_node, scene.origin);
