@@ -137,56 +137,67 @@ void fit_plane(const Scene& scene, PlanarPatch& patch) {
   patch.offset = glm::dot(patch.normal, moment) / patch.area_m2;
 }
 
-// Bundles further than this in offset cannot hold a triangle of the plane: one tilted by the angle about a point at
-// `extent` from the origin shifts its offset by as much.
-double offset_reach(double extent, const PatchOptions& options) {
-  return 2 * std::max(options.max_distance_m, options.min_distance_m) + options.max_angle_rad * 2 * extent;
-}
-
-// Free triangles in the patch's plane replace its list; with `take` they are removed from their bundles.
-void collect(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex& index, double extent,
-             const PatchOptions& options, bool take, PlanarPatch& patch) {
-  const double distance = std::max(
-      options.min_distance_m, std::min(options.max_distance_m, options.relative_distance * std::sqrt(patch.area_m2)));
-  const double min_cos = std::cos(options.max_angle_rad);
-  const double reach = offset_reach(extent, options);
-  patch.triangles.clear();
-  index.near(patch.normal, patch.offset, reach, [&](std::size_t i) {
-    Bundle& bundle = bundles[i];
-    if (bundle.taken || glm::dot(bundle.normal, patch.normal) < min_cos) return;
-    std::vector<std::uint32_t> rest;
-    for (const std::uint32_t t : bundle.triangles)
-      (largest_distance(scene, t, patch.normal, patch.offset) <= distance ? patch.triangles : rest).push_back(t);
-    if (!take) return;
-    bundle.triangles = std::move(rest);
-    bundle.taken = bundle.triangles.empty();
-  });
-  // Sums below run in the triangles' order, not in that of the index.
-  std::sort(patch.triangles.begin(), patch.triangles.end());
-}
-
-// The patch that grows from a bundle: its plane is fitted anew as triangles join, so that the noise of small triangles
-// does not tilt it.
-PlanarPatch grow(const Scene& scene, std::vector<Bundle>& bundles, const BundleIndex& index, std::size_t seed,
-                 double extent, const PatchOptions& options) {
-  const Bundle& bundle = bundles[seed];
-  std::uint32_t largest = bundle.triangles.front();
-  for (const std::uint32_t t : bundle.triangles)
-    if (triangle_area(scene, t) > triangle_area(scene, largest)) largest = t;
-  PlanarPatch patch{.triangles = {}, .normal = bundle.normal, .area_m2 = bundle.area};
-  patch.offset = glm::dot(bundle.normal, centroid(scene, largest));
-  for (int round = 0; round < 3; ++round) {
-    collect(scene, bundles, index, extent, options, false, patch);
-    if (patch.triangles.empty()) return patch;
-    fit_plane(scene, patch);
+// Grows patches out of bundles.
+class PatchGrower {
+ public:
+  PatchGrower(const Scene& scene, std::span<const std::uint32_t> triangles, const PatchOptions& options)
+      : scene_(scene), options_(options) {
+    for (const std::uint32_t t : triangles)
+      extent_ = std::max(extent_, double{glm::length(scene.positions[scene.triangles[t].x])});
   }
-  collect(scene, bundles, index, extent, options, true, patch);
-  if (patch.triangles.empty()) return patch;
-  fit_plane(scene, patch);
-  for (const std::uint32_t t : patch.triangles)
-    patch.flatness_m = std::max(patch.flatness_m, largest_distance(scene, t, patch.normal, patch.offset));
-  return patch;
-}
+
+  // The patch that grows from a bundle: its plane is fitted anew as triangles join, so that the noise of small
+  // triangles does not tilt it.
+  PlanarPatch grow(std::size_t seed, const BundleIndex& index, std::vector<Bundle>& bundles) const {
+    const Bundle& bundle = bundles[seed];
+    std::uint32_t largest = bundle.triangles.front();
+    for (const std::uint32_t t : bundle.triangles)
+      if (triangle_area(scene_, t) > triangle_area(scene_, largest)) largest = t;
+    PlanarPatch patch{.triangles = {}, .normal = bundle.normal, .area_m2 = bundle.area};
+    patch.offset = glm::dot(bundle.normal, centroid(scene_, largest));
+    for (int round = 0; round < 3; ++round) {
+      collect(index, false, bundles, patch);
+      if (patch.triangles.empty()) return patch;
+      fit_plane(scene_, patch);
+    }
+    collect(index, true, bundles, patch);
+    if (patch.triangles.empty()) return patch;
+    fit_plane(scene_, patch);
+    for (const std::uint32_t t : patch.triangles)
+      patch.flatness_m = std::max(patch.flatness_m, largest_distance(scene_, t, patch.normal, patch.offset));
+    return patch;
+  }
+
+ private:
+  // Free triangles in the patch's plane replace its list; with `take` they are removed from their bundles.
+  void collect(const BundleIndex& index, bool take, std::vector<Bundle>& bundles, PlanarPatch& patch) const {
+    const double distance =
+        std::max(options_.min_distance_m,
+                 std::min(options_.max_distance_m, options_.relative_distance * std::sqrt(patch.area_m2)));
+    const double min_cos = std::cos(options_.max_angle_rad);
+    // Bundles further than this in offset cannot hold a triangle of the plane: one tilted by the angle about a point at
+    // `extent_` from the origin shifts its offset by as much.
+    const double reach =
+        2 * std::max(options_.max_distance_m, options_.min_distance_m) + options_.max_angle_rad * 2 * extent_;
+    patch.triangles.clear();
+    index.near(patch.normal, patch.offset, reach, [&](std::size_t i) {
+      Bundle& bundle = bundles[i];
+      if (bundle.taken || glm::dot(bundle.normal, patch.normal) < min_cos) return;
+      std::vector<std::uint32_t> rest;
+      for (const std::uint32_t t : bundle.triangles)
+        (largest_distance(scene_, t, patch.normal, patch.offset) <= distance ? patch.triangles : rest).push_back(t);
+      if (!take) return;
+      bundle.triangles = std::move(rest);
+      bundle.taken = bundle.triangles.empty();
+    });
+    // Sums below run in the triangles' order, not in that of the index.
+    std::sort(patch.triangles.begin(), patch.triangles.end());
+  }
+
+  const Scene& scene_;
+  const PatchOptions& options_;
+  double extent_ = 0;
+};
 
 }  // namespace
 
@@ -196,10 +207,7 @@ std::vector<PlanarPatch> find_planar_patches(const Scene& scene, std::span<const
   std::sort(sorted.begin(), sorted.end());
   std::vector<Bundle> bundles = make_bundles(scene, sorted, std::max(options.max_distance_m, options.min_distance_m));
   BundleIndex index(bundles, options.max_angle_rad);
-  double extent = 0;
-  for (const std::uint32_t t : sorted)
-    extent = std::max(extent, double{glm::length(scene.positions[scene.triangles[t].x])});
-
+  const PatchGrower grower(scene, sorted, options);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < bundles.size(); ++i)
     if (!bundles[i].taken) order.push_back(i);
@@ -211,7 +219,7 @@ std::vector<PlanarPatch> find_planar_patches(const Scene& scene, std::span<const
     if (bundles[seed].taken || index.area_around(bundles[seed].normal) < options.min_area_m2) continue;
     // More than once where a bundle holds planes closer to each other than its cell.
     for (int repeat = 0; repeat < 4 && !bundles[seed].taken; ++repeat) {
-      PlanarPatch patch = grow(scene, bundles, index, seed, extent, options);
+      PlanarPatch patch = grower.grow(seed, index, bundles);
       if (patch.triangles.empty()) break;
       if (patch.area_m2 >= options.min_area_m2) patches.push_back(std::move(patch));
     }

@@ -222,7 +222,7 @@ class SeamFinder {
     const auto x = static_cast<std::uint32_t>(std::clamp(s.place.x, 0.0, page.width - 1.0)),
                y = static_cast<std::uint32_t>(std::clamp(s.place.y, 0.0, page.height - 1.0));
     return page.state[std::size_t{y} * page.width + x] == TexelState::kValid &&
-           !is_buried(t_, s.surface, ~seed_, edge, static_cast<std::uint32_t>(k), rays);
+           !is_buried(t_, s.surface, {~seed_, edge, static_cast<std::uint32_t>(k)}, rays);
   }
 
   // A point of the side's triangle, up to a texel away from its edge.

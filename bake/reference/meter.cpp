@@ -44,7 +44,7 @@ void Meter::add_point(const MeasurePoint& point) {
 }
 
 bool Meter::buried(std::size_t p, std::uint64_t& rays) const {
-  return is_buried(t_, places_[p].surface, context_.seed, p, 0, rays);
+  return is_buried(t_, places_[p].surface, {context_.seed, p, 0}, rays);
 }
 
 void Meter::grow(std::size_t p, std::uint32_t r, std::uint64_t& rays) {

@@ -131,7 +131,7 @@ Status bake_light_field(const BakeTask& bake, std::function<bool()> enough, std:
   const StageInputs inputs(bake.context, LitScene{baked}, box.lower, box.upper, probes);
   std::atomic<std::uint64_t> counted{0};
   ORIEL_TRY(bake.pack.light_field,
-            bake_probes(baked.accel, baked.lights, box, radiance, probes, {bake.context, &counted}));
+            bake_probes({baked.accel, baked.lights, radiance}, box, probes, {bake.context, &counted}));
   rays += counted;
   return {};
 }

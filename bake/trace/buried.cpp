@@ -4,10 +4,9 @@
 
 namespace oriel {
 
-bool is_buried(const Transport& t, const SurfacePoint& surface, std::uint64_t seed, std::uint64_t stream,
-               std::uint32_t sample, std::uint64_t& rays) {
+bool is_buried(const Transport& t, const SurfacePoint& surface, const SampleId& id, std::uint64_t& rays) {
   const Scene& scene = t.accel.scene();
-  Sampler sampler(seed + 0x5eed, stream, sample);
+  Sampler sampler(id.seed + 0x5eed, id.stream, id.sample);
   const Mat3 frame = frame_from_normal(surface.geometric_normal);
   const Vec3 origin = spawn_origin(surface, surface.geometric_normal);
   int missed = 0;

@@ -60,10 +60,10 @@ std::vector<Vec3> Onlookers::nearest_to(const Vec3& point, const Vec3& normal, s
   return eyes;
 }
 
-bool Onlookers::see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream,
-                    std::uint32_t sample, Nearest& nearest, std::uint64_t& rays) const {
+bool Onlookers::see(const SurfacePoint& surface, float reach_m, const SampleId& id, Nearest& nearest,
+                    std::uint64_t& rays) const {
   if (eyes_.empty()) return true;
-  Sampler sampler(mix64(seed + kSeed), stream, sample);
+  Sampler sampler(mix64(id.seed + kSeed), id.stream, id.sample);
   if (!in_dark_gap(surface, reach_m, sampler, rays)) return true;
   return in_sight(spawn_origin(surface, surface.geometric_normal), surface.geometric_normal, nearest, rays);
 }

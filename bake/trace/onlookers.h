@@ -24,10 +24,8 @@ class Onlookers {
   using Nearest = std::optional<std::vector<Vec3>>;
 
   // False where all but one of a dozen rays from a texel's point end within reach_m, as in a gap, no lamp is in there,
-  // and none of the nearest eyes has a line of sight to it. Most points take two rays. The same for the same seed,
-  // stream and sample.
-  bool see(const SurfacePoint& surface, float reach_m, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample,
-           Nearest& nearest, std::uint64_t& rays) const;
+  // and none of the nearest eyes has a line of sight to it. Most points take two rays. The same for the same id.
+  bool see(const SurfacePoint& surface, float reach_m, const SampleId& id, Nearest& nearest, std::uint64_t& rays) const;
   // Whether one of the nearest eyes has a line of sight to a point off the surface, of that normal.
   bool in_sight(const Vec3& point, const Vec3& normal, Nearest& nearest, std::uint64_t& rays) const;
   // Whether any of very many eyes has one, as where all near ones may stand behind a wall.

@@ -301,9 +301,10 @@ PathLight trace_path(const Transport& t, const Ray& ray, float bsdf_pdf, Sampler
   return PathTracer(t, sampler, rays).follow(ray, bsdf_pdf, 0, Vec3(1));
 }
 
-PathLight trace_to_diffuse(const Transport& t, const Ray& ray, const Hit& first, float bsdf_pdf, Sampler& sampler,
-                           std::uint64_t& rays, const OnDiffuse& on_diffuse) {
-  return PathTracer(t, sampler, rays, &on_diffuse).follow_from(ray, first, bsdf_pdf, 0, Vec3(1));
+PathLight trace_to_diffuse(const Transport& t, const TracedRay& traced, Sampler& sampler, std::uint64_t& rays,
+                           const OnDiffuse& on_diffuse) {
+  const auto& [ray, hit, bsdf_pdf] = traced;
+  return PathTracer(t, sampler, rays, &on_diffuse).follow_from(ray, hit, bsdf_pdf, 0, Vec3(1));
 }
 
 Vec3 reflected_light(const Transport& t, const SurfacePoint& surface, const Vec3& wo, Sampler& sampler,

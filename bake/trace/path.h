@@ -120,10 +120,16 @@ struct DiffuseVertex {
 // path goes on that many times as often as that is bright, less where little of its light is left. None: it follows it.
 using OnDiffuse = std::function<std::optional<float>(const DiffuseVertex&)>;
 
+// A ray, what it hits, and with which density it was chosen (as trace_path).
+struct TracedRay {
+  const Ray& ray;
+  const Hit& hit;
+  float bsdf_pdf = 0;
+};
 // As trace_path, but every diffuse surface on the way is told to the caller. Where that takes it over, the path goes on
-// through mirrors, glossy lobes, glass and cut-outs only. `first` is what the ray hits; bsdf_pdf as there.
-PathLight trace_to_diffuse(const Transport& transport, const Ray& ray, const Hit& first, float bsdf_pdf,
-                           Sampler& sampler, std::uint64_t& rays, const OnDiffuse& on_diffuse);
+// through mirrors, glossy lobes, glass and cut-outs only.
+PathLight trace_to_diffuse(const Transport& transport, const TracedRay& traced, Sampler& sampler, std::uint64_t& rays,
+                           const OnDiffuse& on_diffuse);
 
 // Light reflected by a surface towards wo (unit, world), all bounces; its own emission and what it lets through
 // excluded.

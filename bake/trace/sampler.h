@@ -10,6 +10,12 @@ namespace oriel {
 // A stateless mix of 64 bits (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t mix64(std::uint64_t x);
 
+// Whose random numbers. stream: a texel, a pixel, …; sample: its index in the stream.
+struct SampleId {
+  std::uint64_t seed = 0, stream = 0;
+  std::uint32_t sample = 0;
+};
+
 // Owen-scrambled Sobol points in [0,1). Pairs of dimensions are (0,2)-sequences, each pair scrambled and shuffled on
 // its own (Burley 2020, "Practical Hash-based Owen Scrambling"): padding, so any number of dimensions. Best used with a
 // power of two of samples from index 0.

@@ -19,10 +19,9 @@ constexpr float kFaint = 1e-3f;  // what a ray need not follow
 
 class ProbeRays {
  public:
-  ProbeRays(const ProbeScene& scene, const ProbeOptions& options, const Vec3& position, LightsAt lights,
-            std::uint64_t& rays)
-      : scene_(scene), options_(options), position_(position), lights_(std::move(lights)), rays_(rays) {
-    count_ = static_cast<std::size_t>(sh_count(options.bands));
+  ProbeRays(const ProbeScene& scene, const Vec3& position, LightsAt lights, std::uint64_t& rays)
+      : scene_(scene), position_(position), lights_(std::move(lights)), rays_(rays) {
+    count_ = static_cast<std::size_t>(sh_count(scene.options.bands));
     for (auto& sum : sums_) sum.resize(3 * count_);
     y_.resize(count_);
   }
@@ -111,10 +110,10 @@ class ProbeRays {
   }
 
   // A sky image: its own samples and the rays that meet it, weighted by the balance heuristic (Veach 1997).
-  void add_sky(const ShiftedNet& net, const UVec2& shift) {
-    const float share = 2.0f / static_cast<float>(options_.samples);  // of a half's samples
-    for (std::uint32_t s = 0; s < options_.samples; ++s) {
-      const LightSample sky = scene_.lights.sample_sky(net.point(s, shift));
+  void add_sky(const UVec2& shift) {
+    const float share = 2.0f / static_cast<float>(scene_.options.samples);  // of a half's samples
+    for (std::uint32_t s = 0; s < scene_.options.samples; ++s) {
+      const LightSample sky = scene_.lights.sample_sky(scene_.net.point(s, shift));
       if (!(sky.pdf > 0)) continue;
       const Vec3 passed = scene_.accel.transmittance({position_, sky.direction});
       ++rays_;
@@ -146,7 +145,6 @@ class ProbeRays {
   }
 
   const ProbeScene& scene_;
-  const ProbeOptions& options_;
   Vec3 position_;
   LightsAt lights_;
   std::uint64_t& rays_;
@@ -157,15 +155,15 @@ class ProbeRays {
 
 }  // namespace
 
-MeasuredProbe measure_probe(const ProbeScene& scene, const ProbeOptions& options, const ShiftedNet& net,
-                            float depth_cap_m, const Vec3& position, std::uint64_t stream, std::uint64_t& rays) {
+MeasuredProbe measure_probe(const ProbeScene& scene, const Vec3& position, std::uint64_t stream, std::uint64_t& rays) {
+  const ShiftedNet& net = scene.net;
   MeasuredProbe out;
   out.probe.position = position;
   LightsAt lights = scene.bright.at(position, stream);
   out.probe.bright = lights.bright;
   out.probe.kept = lights.kept;
-  ProbeRays around(scene, options, position, std::move(lights), rays);
-  const std::uint32_t side = options.depth_side, samples = options.samples;
+  ProbeRays around(scene, position, std::move(lights), rays);
+  const std::uint32_t side = scene.options.depth_side, samples = scene.options.samples;
   std::vector<Vec2> depth(std::size_t{side} * side);
   std::vector<float> counts(depth.size());
   const UVec2 shift = net.shift(2 * stream);
@@ -179,13 +177,13 @@ MeasuredProbe measure_probe(const ProbeScene& scene, const ProbeOptions& options
     around.add(direction, radiance * (2 / (ProbeRays::kEvenPdf * static_cast<float>(samples))), s);
     const UVec2 texel = glm::min(UVec2(u * static_cast<float>(side)), UVec2(side - 1));
     const std::size_t at = std::size_t{texel.y} * side + texel.x;
-    const float share = std::min(1.0f, seen.distance / depth_cap_m);
+    const float share = std::min(1.0f, seen.distance / scene.depth_cap_m);
     depth[at] += Vec2(share, share * share);
     counts[at] += 1;
   }
   around.add_polygons(stream);
   around.add_punctual(stream);
-  if (scene.lights.samples_sky()) around.add_sky(net, net.shift(2 * stream + 1));
+  if (scene.lights.samples_sky()) around.add_sky(net.shift(2 * stream + 1));
   for (std::size_t i = 0; i < depth.size(); ++i) depth[i] /= std::max(1.0f, counts[i]);
   out.probe.depth = std::move(depth);
   out.probe.valid = static_cast<float>(backs) < kMostBacks * static_cast<float>(samples);

@@ -11,15 +11,22 @@ namespace oriel {
 // Radiance that a hit surface sends towards the eye, cd/m², baked: constant cost. Its own emission only on request.
 using SurfaceRadiance = std::function<Vec3(const Hit& hit, const Vec3& towards_eye, bool with_emission)>;
 
-struct ProbeScene {
+struct FieldScene {
   const Accel& accel;
   const LightSet& lights;
-  const BrightLights& bright;
   const SurfaceRadiance& radiance;
-  std::uint64_t seed = 1;
 };
 
 struct ProbeOptions;  // probes.h
+
+// What all probes of a field have in common.
+struct ProbeScene : FieldScene {
+  const BrightLights& bright;
+  const ProbeOptions& options;
+  const ShiftedNet& net;  // of options.samples points
+  std::uint64_t seed = 1;
+  float depth_cap_m = 0;  // at which distances are cut
+};
 
 // One probe's results, harmonics as measured: not windowed.
 struct MeasuredProbe {
@@ -27,8 +34,7 @@ struct MeasuredProbe {
   double squared_difference = 0, squared_sum = 0;  // of the coefficients from both halves of the rays
 };
 
-// `net` holds options.samples points; the stream numbers the probe. Distances are cut at depth_cap_m.
-MeasuredProbe measure_probe(const ProbeScene& scene, const ProbeOptions& options, const ShiftedNet& net,
-                            float depth_cap_m, const Vec3& position, std::uint64_t stream, std::uint64_t& rays);
+// The stream numbers the probe.
+MeasuredProbe measure_probe(const ProbeScene& scene, const Vec3& position, std::uint64_t stream, std::uint64_t& rays);
 
 }  // namespace oriel

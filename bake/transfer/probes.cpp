@@ -20,12 +20,11 @@ using Lattice = std::array<std::uint32_t, 3>;  // a place in units of the finest
 
 class FieldBake {
  public:
-  FieldBake(const Accel& accel, const LightSet& lights, const SurfaceRadiance& radiance, const ProbeOptions& options,
-            const Stage& stage)
-      : bright_(accel, lights),
-        scene_{accel, lights, bright_, radiance, stage.context.seed},
+  FieldBake(const FieldScene& scene, const ProbeOptions& options, const Stage& stage)
+      : bright_(scene.accel, scene.lights),
         options_(options),
         net_(mix64(stage.context.seed), options.samples),
+        scene_{scene, bright_, options_, net_, stage.context.seed},
         context_(stage.context),
         stage_(stage) {}
 
@@ -80,7 +79,7 @@ class FieldBake {
     field_.lower = box.lower + inset;
     for (int a = 0; a < 3; ++a)
       field_.cell_m[a] = (extent[a] - 2 * inset[a]) / static_cast<float>(field_.size[static_cast<std::size_t>(a)]);
-    field_.depth_cap_m = kCapInCells * glm::length(field_.cell_m);
+    field_.depth_cap_m = scene_.depth_cap_m = kCapInCells * glm::length(field_.cell_m);
     const std::uint32_t step = 1u << options_.levels;
     for (std::uint32_t z = 0; z < field_.size[2]; ++z)
       for (std::uint32_t y = 0; y < field_.size[1]; ++y)
@@ -113,8 +112,7 @@ class FieldBake {
     loop.inputs = [&](std::size_t i, Archive& key) { key(first + i, field_.probes[first + i].position); };
     loop.compute = [&](std::size_t i) {
       std::uint64_t rays = 0;
-      measured[i] =
-          measure_probe(scene_, options_, net_, field_.depth_cap_m, field_.probes[first + i].position, first + i, rays);
+      measured[i] = measure_probe(scene_, field_.probes[first + i].position, first + i, rays);
       return rays;
     };
     loop.results = [&](std::size_t i, Archive& archive) {
@@ -216,9 +214,9 @@ class FieldBake {
   }
 
   BrightLights bright_;
-  ProbeScene scene_;
   ProbeOptions options_;
   ShiftedNet net_;
+  ProbeScene scene_;
   Context& context_;
   const Stage stage_;
   LightField field_;
@@ -229,8 +227,8 @@ class FieldBake {
 
 }  // namespace
 
-Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const FieldBox& box,
-                               const SurfaceRadiance& radiance, const ProbeOptions& options, const Stage& stage) {
+Result<LightField> bake_probes(const FieldScene& scene, const FieldBox& box, const ProbeOptions& options,
+                               const Stage& stage) {
   if (options.bands < 2 || options.bands > 6)
     return fail(ErrorCode::kUsage, "light field", "found {} bands of spherical harmonics, expected 2 to 6",
                 options.bands);
@@ -244,7 +242,7 @@ Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const
   if (options.levels < 0 || options.levels > kMaxFieldLevels)
     return fail(ErrorCode::kUsage, "light field", "found {} levels of refinement, expected 0 to {}", options.levels,
                 kMaxFieldLevels);
-  return FieldBake(accel, lights, radiance, options, stage).run(box);
+  return FieldBake(scene, options, stage).run(box);
 }
 
 }  // namespace oriel

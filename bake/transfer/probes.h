@@ -28,7 +28,7 @@ struct FieldBox {
 // A field over `box`, which has a volume. Cells whose corners differ in their harmonics' first two bands are cut into
 // eight, those that differ most first. Harmonics are windowed where they would be negative somewhere. Errors: kStopped;
 // kUsage for options out of range.
-Result<LightField> bake_probes(const Accel& accel, const LightSet& lights, const FieldBox& box,
-                               const SurfaceRadiance& radiance, const ProbeOptions& options, const Stage& stage);
+Result<LightField> bake_probes(const FieldScene& scene, const FieldBox& box, const ProbeOptions& options,
+                               const Stage& stage);
 
 }  // namespace oriel

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> worst_of(const TexelGraph& graph, std::vector<std::ui
   for (const std::uint32_t i : texels) seen += shares[i];
   std::erase_if(texels, [&](std::uint32_t i) { return part.samples[i] >= part.most; });
   const double excess = std::clamp(now - goal, kLeastAtOnce * part.open(), kMostAtOnce * part.open());
-  return worst_texels(graph, texels, part.squares, shares, part.samples,
+  return worst_texels(graph, texels, {part.squares, shares, part.samples},
                       {.goal = goal * part.open() / now, .excess = excess * seen, .gain = part.gain}, context);
 }
 

@@ -7,9 +7,8 @@
 namespace oriel {
 
 std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
-                                        const std::vector<float>& squares, const std::vector<float>& shares,
-                                        const std::vector<std::uint32_t>& samples, const WorstOptions& options,
-                                        Context& context) {
+                                        const TexelErrors& of, const WorstOptions& options, Context& context) {
+  const auto& [squares, shares, samples] = of;
   std::vector<float> typical(squares);
   for (std::size_t i = 0; i < typical.size(); ++i) typical[i] *= static_cast<float>(samples[i]);
   typical = typical_errors(graph, std::move(typical), context);

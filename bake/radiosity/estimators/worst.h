@@ -11,16 +11,19 @@ struct WorstOptions {
   double gain = 0.5;  // part of a texel's that its refinement takes away
 };
 
+// By texel.
+struct TexelErrors {
+  const std::vector<float>& squares;          // its part of the mean square
+  const std::vector<float>& shares;           // of frames that it fills, as its surroundings tell
+  const std::vector<std::uint32_t>& samples;  // what it has so far, which doubling costs once more
+};
+
 // Of `open` (in coherent_order) those, in that order, whose refinement takes the excess away at the least cost: the
 // worst first, by what their surroundings tell of them, since texels chosen by their own noisy errors would stop where
 // chance made these small, and those between the pixels that tell of errors would be forgotten. Those twice as good as
 // asked are left alone: they cannot make up for a few that stay bad.
-// By texel: squares, its part of the mean square; shares, of frames that it fills, as its surroundings tell; samples,
-// what it has so far, which doubling costs once more.
 std::vector<std::uint32_t> worst_texels(const TexelGraph& graph, std::span<const std::uint32_t> open,
-                                        const std::vector<float>& squares, const std::vector<float>& shares,
-                                        const std::vector<std::uint32_t>& samples, const WorstOptions& options,
-                                        Context& context);
+                                        const TexelErrors& of, const WorstOptions& options, Context& context);
 
 // Texels that have the same number of samples.
 struct SameSamples {

@@ -117,7 +117,7 @@ void Surroundings::follow(const Ray& ray, const GatherRay& about, const Hit& hit
                                   1.0f, lamps_ ? 1.0f : 0.0f});
     t.book = &book_of_path;
   }
-  const PathLight light = trace_to_diffuse(t, ray, hit, pdf, sampler, answers.rays, on_diffuse);
+  const PathLight light = trace_to_diffuse(t, {ray, hit, pdf}, sampler, answers.rays, on_diffuse);
   book(number, book_of_path.light(), answers);
   answers.unreflected[number] = closed_form_ ? light.sky * sky_weight(ray.direction, about) : light.sky + light.emitted;
   answers.light[number] = light.scattered + (lamps_ ? light.lamps : Vec3(0)) + answers.unreflected[number];

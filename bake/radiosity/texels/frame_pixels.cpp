@@ -1,7 +1,6 @@
 #include "bake/radiosity/texels/frame_pixels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

@@ -58,8 +58,8 @@ TexelSite MoreSites::at(std::uint32_t i, int half, std::uint32_t k, std::uint64_
     const std::uint64_t stream = std::uint64_t{texels_.page[i]} << 32 | texels_.index[i];
     const std::uint64_t seed =
         seed_ + seeds::kMoreSites + std::uint64_t{kHalves} * attempt + static_cast<std::uint64_t>(half);
-    if (is_buried(scene_.transport, point, seed, stream, k, rays)) continue;
-    if (crowded && !onlookers.see(point, texels_.gap_reach(i), seed, stream, k, eyes, rays)) continue;
+    if (is_buried(scene_.transport, point, {seed, stream, k}, rays)) continue;
+    if (crowded && !onlookers.see(point, texels_.gap_reach(i), {seed, stream, k}, eyes, rays)) continue;
     if (!divided || cut->second.holds(point.triangle, point.barycentric, rays)) return site_of(point);
   }
   return texels_.site_for(i, half, k);

@@ -52,7 +52,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
   };
   const auto is_covered = [&](SurfacePoint p, std::uint32_t k) {
     p.position = lifted(p);
-    return is_buried(transport, p, ~seeds::kWalls, map.texel[texel], k, rays);
+    return is_buried(transport, p, {~seeds::kWalls, map.texel[texel], k}, rays);
   };
   const SurfacePoint middle = point(Vec3(0.5f));
   if (transport.lights.power() != DVec3(0)) look_for_lamp(*corners, middle.geometric_normal, rays);
@@ -69,7 +69,7 @@ TexelPart::TexelPart(const Transport& transport, const Atlas& atlas, const Texel
     Sampler sampler(seeds::kWalls, map.texel[texel], k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint p = point(Vec3(uv, sampler.next1()));
-    if (is_buried(transport, p, seeds::kWalls, map.texel[texel], k, rays)) continue;
+    if (is_buried(transport, p, {seeds::kWalls, map.texel[texel], k}, rays)) continue;
     any = true;
     if (!is_covered(p, k)) left.push_back(lifted(p));
   }

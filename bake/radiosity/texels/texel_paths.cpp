@@ -16,7 +16,7 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
     Sampler sampler(context_.seed, stream, k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint surface = point_of(texel, Vec3(uv, sampler.next1()));
-    if (mixed && is_buried(t_, surface, context_.seed, stream, k, rays)) continue;
+    if (mixed && is_buried(t_, surface, {context_.seed, stream, k}, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
     if (t_.listener) t_.listener->begin("irradiance, lux"), t_.listener->meet(surface, Vec3(1));
     sums.add(sample_irradiance(t_, surface, sampler, rays, directional_));
@@ -34,7 +34,7 @@ bool TexelPaths::any_buried(const MapTexel& texel, std::uint64_t stream, std::ui
   for (std::uint32_t k = 0; k < 64; ++k) {
     Sampler sampler(~context_.seed, stream, k);
     const Vec2 uv = sampler.next2();
-    if (is_buried(t_, point_of(texel, Vec3(uv, sampler.next1())), context_.seed, stream, ~k, rays)) return true;
+    if (is_buried(t_, point_of(texel, Vec3(uv, sampler.next1())), {context_.seed, stream, ~k}, rays)) return true;
   }
   return false;
 }

@@ -47,7 +47,7 @@ class SiteFinder {
       const auto turn = static_cast<std::uint32_t>(k % kSitesPerHalf);
       const SurfacePoint surface = candidate(texels, i, k / kSitesPerHalf, turn);
       texels.site[i][k] = site_of(surface);
-      buried += is_buried(t_, surface, seed_, stream, static_cast<std::uint32_t>(k), rays);
+      buried += is_buried(t_, surface, {seed_, stream, static_cast<std::uint32_t>(k)}, rays);
       crowded = crowded || meets_near(texels, i, k, stream, rays);
       if (met_ && turn < kColored) shade.push_back(shade_at(surface));
     }
@@ -81,9 +81,9 @@ class SiteFinder {
       const std::uint32_t k = tried;
       const int half = static_cast<int>(k % kHalves);
       const SurfacePoint surface = candidate(texels, i, half, k / kHalves);
-      if (is_buried(t_, surface, seed_, stream, kSites + k, rays) ||
+      if (is_buried(t_, surface, {seed_, stream, kSites + k}, rays) ||
           !found.part.holds(surface.triangle, surface.barycentric, rays) ||
-          !onlookers_.see(surface, texels.gap_reach(i), seed_, stream, k, eyes, rays))
+          !onlookers_.see(surface, texels.gap_reach(i), {seed_, stream, k}, eyes, rays))
         continue;
       const bool ask = found.part.covered() || (!in_sight && (total + 1) * 16 <= tried);
       const bool seen = ask && onlookers_.any() && sees(surface, eyes, rays);

@@ -25,7 +25,7 @@ LightField field_of(const Scene& scene, const FieldBox& box, const ProbeOptions&
     const SurfacePoint p = surface_at(scene, hit, -towards_eye);
     return (with_emission && p.emits ? p.shade.emission : Vec3(0)) + (reflected ? reflected(p.position) : Vec3(0));
   };
-  return bake_probes(accel.value(), lights, box, radiance, options, context).value();
+  return bake_probes({accel.value(), lights, radiance}, box, options, context).value();
 }
 
 float mean_radiance(const std::vector<float>& sh, std::size_t channel = 0) {
@@ -226,14 +226,14 @@ TEST(Probes, TheirNumberIsBounded) {
     return left_is_bright(point_on(scene, hit.triangle, hit.barycentric));
   };
   ProbeOptions options{.spacing_m = 1e-4f, .samples = 64, .depth_side = 8, .max_probes = 300, .max_difference = 0};
-  const auto field = bake_probes(accel.value(), LightSet(scene), {Vec3(0), {8, 3, 2}}, radiance, options, context);
+  const auto field = bake_probes({accel.value(), LightSet(scene), radiance}, {Vec3(0), {8, 3, 2}}, options, context);
   ASSERT_TRUE(field);
   EXPECT_LE(field->probes.size(), 600u);
   EXPECT_GT(field->probes.size(), 300u);
   EXPECT_NE(said.find("m between probes instead of"), std::string::npos) << said;
   for (const ProbeOptions& bad : {ProbeOptions{.bands = 7}, ProbeOptions{.spacing_m = 0}, ProbeOptions{.samples = 1000},
                                   ProbeOptions{.samples = 128}, ProbeOptions{.levels = 3}})
-    EXPECT_EQ(bake_probes(accel.value(), LightSet(scene), {Vec3(0), Vec3(1)}, radiance, bad, context).error().code,
+    EXPECT_EQ(bake_probes({accel.value(), LightSet(scene), radiance}, {Vec3(0), Vec3(1)}, bad, context).error().code,
               ErrorCode::kUsage);
 }
 

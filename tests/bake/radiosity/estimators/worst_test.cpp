@@ -23,7 +23,7 @@ struct Alike {
     graph.neighbour.resize(n), graph.count.assign(n, 0);
   }
   std::vector<std::uint32_t> worst(const WorstOptions& options) {
-    return worst_texels(graph, order, squares, shares, samples, options, context);
+    return worst_texels(graph, order, {squares, shares, samples}, options, context);
   }
 };
 
