@@ -1,5 +1,4 @@
 #include <array>
-#include <optional>
 
 #include "scenes/gallery_items.h"
 #include "scenes/generators.h"

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "scenes/generators.h"
 #include "scenes/kit/shapes.h"

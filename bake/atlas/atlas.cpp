@@ -1,6 +1,5 @@
 #include "bake/atlas/atlas.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bake/atlas/layout.h"

@@ -9,7 +9,6 @@
 #include "bake/run/view_options.h"
 #include "formats/image/exr.h"
 #include "formats/query/camera_notes.h"
-#include "formats/query/camera_spec.h"
 #include "formats/query/mover_pose.h"
 
 namespace oriel {

@@ -1,6 +1,5 @@
 #include "bake/cli/commands.h"
 #include "bake/run/option_table.h"
-#include "bake/run/option_values.h"
 #include "bake/run/pipeline.h"
 #include "bake/run/replay.h"
 #include "bake/run/view_options.h"

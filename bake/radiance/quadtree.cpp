@@ -1,6 +1,5 @@
 #include "bake/radiance/quadtree.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>

@@ -1,7 +1,6 @@
 #include "bake/run/view_options.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "formats/query/camera_spec.h"
 

@@ -1,6 +1,5 @@
 #include "bake/scene/ies.h"
 
-#include <array>
 #include <charconv>
 
 namespace oriel {

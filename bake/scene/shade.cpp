@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "formats/assets/normal_map.h"
-#include "formats/core/color.h"
 
 namespace oriel {
 namespace {

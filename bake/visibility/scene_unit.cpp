@@ -1,7 +1,6 @@
 #include "bake/visibility/scene_unit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bake/trace/sampler.h"

@@ -1,7 +1,5 @@
 #include "bake/visibility/view_importance.h"
 
-#include <cmath>
-
 #include "bake/jobs/units.h"
 #include "bake/scene/shade.h"
 #include "bake/trace/path.h"

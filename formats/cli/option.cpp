@@ -1,7 +1,6 @@
 #include "formats/cli/option.h"
 
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,5 @@
 #include "formats/core/sh.h"
 
-#include <algorithm>
 #include <array>
 
 #include "formats/core/check.h"

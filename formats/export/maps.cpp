@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "formats/analysis/part_light.h"
 #include "formats/core/color.h"

@@ -3,7 +3,6 @@
 
 #include "formats/analysis/leaves.h"
 #include "formats/core/color.h"
-#include "formats/core/text.h"
 #include "formats/export/html.h"
 #include "formats/export/sections.h"
 

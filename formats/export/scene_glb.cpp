@@ -1,8 +1,6 @@
 #include "formats/export/scene_glb.h"
 
-#include <algorithm>
 #include <map>
-#include <optional>
 
 #include "formats/export/glb.h"
 #include "formats/export/lightmap_texture.h"

@@ -1,7 +1,6 @@
 #include "formats/image/encode.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 

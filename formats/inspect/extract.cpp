@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "formats/export/mesh_obj.h"

@@ -3,7 +3,6 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <new>
 

@@ -1,7 +1,6 @@
 #include "formats/pack/validate.h"
 
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "formats/pack/issues.h"
 

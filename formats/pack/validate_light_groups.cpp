@@ -1,5 +1,4 @@
 // Groups of lamps and their light.
-#include <algorithm>
 #include <set>
 
 #include "formats/pack/issues.h"

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "formats/core/color.h"
-#include "formats/core/vec.h"
 
 namespace oriel {
 namespace {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "formats/core/color.h"
-#include "formats/core/vec.h"
 
 namespace oriel {
 namespace {

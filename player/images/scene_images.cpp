@@ -1,7 +1,6 @@
 #include "player/images/scene_images.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "formats/core/parallel.h"
 

@@ -1,6 +1,5 @@
 #include "player/navigation/culling.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace oriel {

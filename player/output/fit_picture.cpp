@@ -1,7 +1,6 @@
 #include "player/output/fit_picture.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace oriel {
 namespace {

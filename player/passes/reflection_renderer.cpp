@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "player/gpu/raster_state.h"
 #include "player/passes/holes.h"
 #include "player/passes/mirrored_view.h"
 #include "player/reflections/reflected_view.h"

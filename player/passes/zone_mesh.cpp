@@ -1,6 +1,5 @@
 #include "player/passes/zone_mesh.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,4 @@
 // Lamps that shine otherwise than they were baked, or from elsewhere.
-#include <algorithm>
 #include <atomic>
 
 #include "player/scene/gpu_scene.h"

@@ -1,6 +1,5 @@
 #include "player/session/arguments.h"
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

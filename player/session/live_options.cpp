@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "player/session/option_names.h"
 
 namespace oriel {

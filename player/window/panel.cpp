@@ -1,7 +1,6 @@
 #include "player/window/panel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "player/window/comparison_panel.h"

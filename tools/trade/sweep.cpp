@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/core/file.h"
-#include "formats/image/png.h"
 #include "formats/metrics/comparison.h"
 #include "formats/pack/reader.h"
 #include "tools/trade/frames.h"

@@ -1,9 +1,6 @@
 #include "bake/radiosity/texels/fit_texels.h"
 
-#include <algorithm>
 #include <array>
-
-#include "formats/core/color.h"
 
 namespace oriel {
 namespace {
