@@ -12,10 +12,6 @@ struct Materials {
   std::uint32_t beech, steel, oak;
 };
 
-SampleMesh mesh_of(std::string name, std::uint32_t material) {
-  return {std::move(name), material, {}, {}, {}, {}};
-}
-
 void add_room(SampleScene& scene) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   const std::uint32_t plaster = add_diffuse(scene, "plaster", {0.72f, 0.70f, 0.62f});
@@ -41,8 +37,8 @@ void add_chair(SampleMesh& slab, SampleMesh& legs) {
 }
 
 void add_places(SampleScene& scene, const Materials& m) {
-  SampleMesh desk = mesh_of("desk", m.beech), desk_legs = mesh_of("desk frame", m.steel);
-  SampleMesh chair = mesh_of("chair", m.beech), chair_legs = mesh_of("chair frame", m.steel);
+  SampleMesh desk{"desk", m.beech}, desk_legs{"desk frame", m.steel};
+  SampleMesh chair{"chair", m.beech}, chair_legs{"chair frame", m.steel};
   add_desk(desk, desk_legs);
   add_chair(chair, chair_legs);
   const std::uint32_t meshes[] = {add_mesh(scene, std::move(desk)), add_mesh(scene, std::move(desk_legs)),
@@ -65,18 +61,20 @@ void add_places(SampleScene& scene, const Materials& m) {
 }
 
 void add_teachers_table(SampleScene& scene, const Materials& m) {
-  SampleMaterial polish;
-  polish.name = "polished top";
-  polish.base_color = {0.16f, 0.07f, 0.04f}, polish.roughness = 0.02f, polish.specular = 1, polish.ior = 1.9f;
   const Vec3 lower(2.2f, 0.74f, 1.1f), upper(3.8f, 0.78f, 1.8f);
-  SampleMesh slab = mesh_of("teacher's table", m.oak), legs = mesh_of("teacher's table legs", m.oak);
+  SampleMesh slab{"teacher's table", m.oak}, legs{"teacher's table legs", m.oak};
   add_box(slab, lower, upper, kSides | kBottom);
   for (const float x : {lower.x, upper.x - 0.06f})
     for (const float z : {lower.z, upper.z - 0.06f}) add_box(legs, {x, 0, z}, {x + 0.06f, lower.y, z + 0.06f}, kSides);
   add_box(legs, {lower.x + 0.1f, 0.2f, lower.z + 0.62f}, {upper.x - 0.1f, 0.72f, lower.z + 0.64f});  // its front
   place(scene, std::move(slab));
   place(scene, std::move(legs));
-  place_quad(scene, "teacher's table top", add_material(scene, std::move(polish)),
+  place_quad(scene, "teacher's table top",
+             add_material(scene, {.name = "polished top",
+                                  .base_color = {0.16f, 0.07f, 0.04f},
+                                  .roughness = 0.02f,
+                                  .specular = 1,
+                                  .ior = 1.9f}),
              {{lower.x, upper.y, upper.z}, {upper.x - lower.x, 0, 0}, {0, 0, lower.z - upper.z}});
 }
 
@@ -92,13 +90,13 @@ void add_bars(SampleMesh& mesh, const Vec2& low, const Vec2& high, float bar, fl
 
 void add_blackboard(SampleScene& scene, const Materials& m) {
   const Vec2 low(2.5f, 0.95f), high(6.5f, 2.15f);
-  SampleMesh frame = mesh_of("blackboard frame", m.oak);
+  SampleMesh frame{"blackboard frame", m.oak};
   add_bars(frame, low, high, 0.06f, 0.03f);
   add_box(frame, {3, 0.83f, 0}, {6, 0.86f, 0.1f}, kAllFaces & ~kBack);  // for chalk
   place(scene, std::move(frame));
   place_quad(scene, "blackboard", add_diffuse(scene, "slate", {0.03f, 0.06f, 0.045f}),
              {{low, 0.01f}, {high.x - low.x, 0, 0}, {0, high.y - low.y, 0}});
-  SampleMesh sponge = mesh_of("sponge", add_diffuse(scene, "sponge", {0.7f, 0.55f, 0.2f}));
+  SampleMesh sponge{"sponge", add_diffuse(scene, "sponge", {0.7f, 0.55f, 0.2f})};
   add_box(sponge, {3.3f, 0.861f, 0.035f}, {3.45f, 0.91f, 0.09f}, kSides | kTop);
   place(scene, std::move(sponge));
 }
@@ -106,8 +104,8 @@ void add_blackboard(SampleScene& scene, const Materials& m) {
 // Three windows whose blinds are down: twenty slats each.
 void add_windows(SampleScene& scene, const Materials& m) {
   const Vec2 low(-0.9f, 1), high(0.9f, 2.6f);
-  SampleMesh frame = mesh_of("window frame", m.beech);
-  SampleMesh blind = mesh_of("blind", add_diffuse(scene, "blind", {0.55f, 0.62f, 0.66f}));
+  SampleMesh frame{"window frame", m.beech};
+  SampleMesh blind{"blind", add_diffuse(scene, "blind", {0.55f, 0.62f, 0.66f})};
   add_bars(frame, low, high, 0.07f, 0.08f);
   for (int i = 0; i < 20; ++i) {
     const float y = low.y + 0.08f * static_cast<float>(i);
@@ -128,7 +126,7 @@ void add_lamps(SampleScene& scene) {
   for (int i = 0; i < 4; ++i) {
     const Vec3 middle(i % 2 ? 6.75f : 2.25f, kRoom.y - half.y, i / 2 ? 6.0f : 2.4f);
     const std::string name = "lamp " + std::to_string(i + 1);
-    SampleMesh sides = mesh_of(name + " housing", housing);
+    SampleMesh sides{name + " housing", housing};
     add_box(sides, middle - half, middle + half, kSides);
     place(scene, std::move(sides));
     place_quad(scene, name, glow, {middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z}});

@@ -14,7 +14,7 @@ void add_hall(SampleScene& scene) {
   const Vec3 x(kHall.x, 0, 0), y(0, kHall.y, 0), z(0, 0, kHall.z);
   const std::uint32_t plaster = add_diffuse(scene, "plaster", Vec3(0.7f));
   const auto side = [&](std::string name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
-    SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+    SampleMesh mesh{std::move(name), material};
     add_quad(mesh, {origin, u, v});
     place(scene, std::move(mesh));
   };
@@ -29,7 +29,7 @@ void add_hall(SampleScene& scene) {
 // A square base, a round shaft and a square capital just under the ceiling's lamps.
 void add_column(SampleScene& scene, std::uint32_t stone, const Vec3& foot, std::string name) {
   constexpr float kRadius = 0.18f, kHalf = 0.26f, kFoot = 0.3f, kHead = 5.2f, kEnd = 5.5f;
-  SampleMesh mesh{std::move(name), stone, {}, {}, {}, {}};
+  SampleMesh mesh{std::move(name), stone};
   const auto block = [&](float low, float high, unsigned faces) {
     add_box(mesh, foot + Vec3(-kHalf, low, -kHalf), foot + Vec3(kHalf, high, kHalf), faces);
   };
@@ -53,7 +53,7 @@ SampleScene make_colonnade() {
                  "column " + std::to_string(i + 1) + "." + std::to_string(j + 1));
   const std::uint32_t lamp = add_diffuse(scene, "lamp", Vec3(0.8f), Vec3(9000, 8600, 8000));
   for (int k = 0; k < 8; ++k) {
-    SampleMesh mesh{"lamp " + std::to_string(k + 1), lamp, {}, {}, {}, {}};
+    SampleMesh mesh{"lamp " + std::to_string(k + 1), lamp};
     const Vec3 middle(static_cast<float>(k % 4) * 10 + 5, kHall.y - 0.05f, static_cast<float>(k / 4) * 10 + 5);
     add_quad(mesh, {middle - 0.5f * Vec3(kPanel.x, 0, kPanel.y), Vec3(kPanel.x, 0, 0), Vec3(0, 0, kPanel.y)});
     place(scene, std::move(mesh));

@@ -26,7 +26,7 @@ constexpr Corners kTallTop{{{423, 330, 247}, {265, 330, 296}, {314, 330, 456}, {
 
 // A block standing on the floor; its bottom is never seen.
 SampleMesh block(std::string name, std::uint32_t material, const Corners& top, bool with_top = true) {
-  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+  SampleMesh mesh{std::move(name), material};
   if (with_top) add(mesh, top);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 a = top[i], b = top[(i + 1) % 4];
@@ -36,7 +36,7 @@ SampleMesh block(std::string name, std::uint32_t material, const Corners& top, b
 }
 
 SampleMesh wall(std::string name, std::uint32_t material, const Corners& corners) {
-  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+  SampleMesh mesh{std::move(name), material};
   add(mesh, corners);
   return mesh;
 }
@@ -47,11 +47,7 @@ struct Materials {
 
 Materials add_materials(SampleScene& scene) {
   const auto material = [&](std::string name, const Vec3& color, const Vec3& emission = Vec3(0)) {
-    SampleMaterial m;
-    m.name = std::move(name);
-    m.base_color = color;
-    m.emission = emission;
-    return add_material(scene, std::move(m));
+    return add_material(scene, {.name = std::move(name), .base_color = color, .emission = emission});
   };
   // The published reflectance spectra as linear Rec. 709.
   const std::uint32_t white = material("white", Vec3(0.73f));
@@ -79,7 +75,7 @@ SampleScene make_cornell() {
   SampleScene scene;
   scene.name = "Cornell box";
   const Materials m = add_materials(scene);
-  SampleMesh ceiling{"ceiling", m.white, {}, {}, {}, {}};
+  SampleMesh ceiling{"ceiling", m.white};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
     add(ceiling, {{kCeiling[i], kCeiling[next], kLight[next], kLight[i]}});
@@ -97,17 +93,18 @@ SampleScene make_glass_sphere() {
   Corners light = kLight;
   for (Vec3& corner : light) corner.y -= 2;  // the ceiling has no hole
   add_walls(scene, m, wall("ceiling", m.white, kCeiling), light);
-  SampleMaterial mirror;
-  mirror.name = "mirror";
-  mirror.base_color = Vec3(0.9f), mirror.metallic = 1, mirror.roughness = 0;
   place(scene, block("short block", m.white, kShortTop, false));
-  place(scene, wall("short block's top", add_material(scene, std::move(mirror)), kShortTop));
+  place(scene, wall("short block's top",
+                    add_material(scene, {.name = "mirror", .base_color = Vec3(0.9f), .metallic = 1, .roughness = 0}),
+                    kShortTop));
   place(scene, block("tall block", m.white, kTallTop));
-  SampleMaterial glass;
-  glass.name = "glass";
-  glass.base_color = Vec3(1), glass.roughness = 0, glass.specular = 1, glass.transmission = 1, glass.ior = 1.5f;
-  glass.thickness_m = 0.16f;
-  SampleMesh sphere{"glass sphere", add_material(scene, std::move(glass)), {}, {}, {}, {}};
+  SampleMesh sphere{"glass sphere", add_material(scene, {.name = "glass",
+                                                         .base_color = Vec3(1),
+                                                         .roughness = 0,
+                                                         .specular = 1,
+                                                         .transmission = 1,
+                                                         .ior = 1.5f,
+                                                         .thickness_m = 0.16f})};
   add_sphere(sphere, Vec3(0), 0.08f, 20, 10);
   place(scene, std::move(sphere), {0.41f, 0.081f, 0.12f});
   return scene;

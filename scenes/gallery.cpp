@@ -64,26 +64,14 @@ Palette make_palette(SampleScene& scene, float floor_roughness) {
   scene.textures = {dark_tiles(512), oak_planks(512)};
   const auto diffuse = [&](std::string name, const Vec3& color) { return add_diffuse(scene, std::move(name), color); };
   Palette p{};
-  SampleMaterial tiles;
-  tiles.name = "polished tiles";
-  tiles.base_color = Vec3(1);
-  tiles.roughness = floor_roughness;
-  tiles.specular = 1;
-  tiles.texture = 0;
-  p.tiles = add_material(scene, std::move(tiles));
-  SampleMaterial oak;
-  oak.name = "oak";
-  oak.base_color = Vec3(1);
-  oak.texture = 1;
-  p.oak = add_material(scene, std::move(oak));
+  p.tiles = add_material(
+      scene,
+      {.name = "polished tiles", .base_color = Vec3(1), .roughness = floor_roughness, .specular = 1, .texture = 0});
+  p.oak = add_material(scene, {.name = "oak", .base_color = Vec3(1), .texture = 1});
   p.concrete = diffuse("concrete", Vec3(0.42f, 0.41f, 0.39f));
   p.stone = diffuse("stone", Vec3(0.55f, 0.52f, 0.46f));
-  SampleMaterial wood;
-  wood.name = "dark wood";
-  wood.base_color = Vec3(0.16f, 0.085f, 0.045f);
-  wood.roughness = 0.7f;
-  wood.specular = 1;
-  p.wood = add_material(scene, std::move(wood));
+  p.wood = add_material(
+      scene, {.name = "dark wood", .base_color = Vec3(0.16f, 0.085f, 0.045f), .roughness = 0.7f, .specular = 1});
   p.ceiling = diffuse("ceiling white", Vec3(0.82f));
   p.warm_white = diffuse("warm white", Vec3(0.76f, 0.72f, 0.65f));
   p.sage = diffuse("sage", Vec3(0.46f, 0.54f, 0.44f));
@@ -131,17 +119,14 @@ void add_building(SampleScene& scene, const Palette& palette) {
 }
 
 void add_lights(SampleScene& scene) {
-  SampleMaterial panel;
-  panel.name = "ceiling panel";
-  panel.base_color = Vec3(0.8f);
-  panel.emission = 1700.0f * Vec3(1, 0.93f, 0.82f);
-  const std::uint32_t glow = add_material(scene, std::move(panel));
+  const std::uint32_t glow = add_material(
+      scene, {.name = "ceiling panel", .base_color = Vec3(0.8f), .emission = 1700.0f * Vec3(1, 0.93f, 0.82f)});
   const std::uint32_t metal = add_diffuse(scene, "luminaire", Vec3(0.7f));
   const Vec2 half(0.8f, 0.4f);
   const float below = -0.06f, above = 0.01f;  // about the ceiling; the housing reaches into it
-  SampleMesh housing{"luminaire housing", metal, {}, {}, {}, {}};
+  SampleMesh housing{"luminaire housing", metal};
   add_box(housing, Vec3(-half.x, below, -half.y), Vec3(half.x, above, half.y), kSides);
-  SampleMesh light{"luminaire panel", glow, {}, {}, {}, {}};
+  SampleMesh light{"luminaire panel", glow};
   add_quad(light, {Vec3(-half.x, below, -half.y), Vec3(2 * half.x, 0, 0), Vec3(0, 0, 2 * half.y)});
   const std::uint32_t housing_mesh = add_mesh(scene, std::move(housing)),
                       light_mesh = add_mesh(scene, std::move(light));
@@ -158,14 +143,12 @@ void add_lights(SampleScene& scene) {
 
 // The sky behind B's window: a bright panel that closes the opening near its outer side, and glazing bars before it.
 void add_window(SampleScene& scene) {
-  SampleMaterial sky;
-  sky.name = "sky";
-  sky.base_color = Vec3(0);
-  sky.emission = 1400.0f * Vec3(0.80f, 0.92f, 1);
-  SampleMesh panel{"window sky", add_material(scene, std::move(sky)), {}, {}, {}, {}};
+  SampleMesh panel{
+      "window sky",
+      add_material(scene, {.name = "sky", .base_color = Vec3(0), .emission = 1400.0f * Vec3(0.80f, 0.92f, 1)})};
   add_quad(panel, {Vec3(12.38f, 0.89f, 0.99f), Vec3(0, 0, 2.42f), Vec3(0, 1.62f, 0)});
   place(scene, std::move(panel));
-  SampleMesh bars{"window bars", add_diffuse(scene, "window frame", Vec3(0.75f)), {}, {}, {}, {}};
+  SampleMesh bars{"window bars", add_diffuse(scene, "window frame", Vec3(0.75f))};
   for (const float z : {1.8f, 2.6f}) {
     add_box(bars, Vec3(12.30f, 0.89f, z - 0.025f), Vec3(12.35f, 2.51f, z + 0.025f), kSides);
   }

@@ -11,19 +11,15 @@ constexpr float kHeight = 3.4f;  // of the rooms
 constexpr float kSunk = 0.01f;   // m: how far things reach into what they stand on or hang from
 constexpr float kHalfTurn = kPi, kQuarterTurn = kPi / 2;
 
-SampleMesh empty_mesh(std::string name, std::uint32_t material) {
-  return {std::move(name), material, {}, {}, {}, {}};
-}
-
 }  // namespace
 
 void add_columns(SampleScene& scene, std::uint32_t stone) {
   const std::uint32_t marble = add_diffuse(scene, "marble", Vec3(0.72f, 0.70f, 0.66f));
-  SampleMesh shaft = empty_mesh("column shaft", marble);
+  SampleMesh shaft{"column shaft", marble};
   FlutedShaft shape;
   shape.height = kHeight - 0.30f - 0.24f;
   add_fluted_shaft(shaft, Vec3(0, 0.24f, 0), shape);
-  SampleMesh ends = empty_mesh("column ends", stone);
+  SampleMesh ends{"column ends", stone};
   add_box(ends, Vec3(-0.31f, -kSunk, -0.31f), Vec3(0.31f, 0.10f, 0.31f), kSides | kTop);
   // A torus and a fillet below the shaft, an echinus above it; both reach into their neighbours.
   std::vector<Vec2> base;
@@ -68,19 +64,18 @@ void add_pictures(SampleScene& scene, std::uint32_t frame) {
   static constexpr std::array<Vec2, 4> kSizes{Vec2(1.2f, 1.2f), Vec2(1.8f, 1.1f), Vec2(1.0f, 1.0f), Vec2(1.6f, 0.9f)};
   std::array<std::uint32_t, 4> canvases{}, frames{};
   for (std::size_t i = 0; i < 4; ++i) {
-    SampleMaterial paint;
-    paint.name = std::string("painting ") + kTitles[i];
-    paint.base_color = Vec3(1);
-    paint.texture = first + static_cast<int>(i);
     const Vec2 size = kSizes[i];
-    SampleMesh canvas = empty_mesh(std::string("canvas ") + kTitles[i], add_material(scene, std::move(paint)));
+    SampleMesh canvas{std::string("canvas ") + kTitles[i],
+                      add_material(scene, {.name = std::string("painting ") + kTitles[i],
+                                           .base_color = Vec3(1),
+                                           .texture = first + static_cast<int>(i)})};
     // A little before the wall, and 5 mm into the frame's inner sides.
     add_quad(canvas, {Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
                       Vec3(0, size.y + 0.01f, 0)});
     project_uvs(canvas, Vec3(-size.x / 2 - 0.005f, size.y / 2 + 0.005f, 0), Vec3(1 / (size.x + 0.01f), 0, 0),
                 Vec3(0, -1 / (size.y + 0.01f), 0));
     canvases[i] = add_mesh(scene, std::move(canvas));
-    SampleMesh border = empty_mesh(std::string("frame ") + kTitles[i], frame);
+    SampleMesh border{std::string("frame ") + kTitles[i], frame};
     add_frame(border, size, 0.06f, 0.045f, kSunk);
     frames[i] = add_mesh(scene, std::move(border));
   }
@@ -106,43 +101,39 @@ void add_pictures(SampleScene& scene, std::uint32_t frame) {
 }
 
 void add_mirror_and_panel(SampleScene& scene, std::uint32_t frame) {
-  SampleMaterial silver;
-  silver.name = "mirror";
-  silver.base_color = Vec3(0.93f, 0.94f, 0.93f);
-  silver.metallic = 1;
-  silver.roughness = 0;
-  silver.specular = 1;
-  SampleMesh mirror = empty_mesh("mirror", add_material(scene, std::move(silver)));
+  SampleMesh mirror{
+      "mirror",
+      add_material(
+          scene,
+          {.name = "mirror", .base_color = Vec3(0.93f, 0.94f, 0.93f), .metallic = 1, .roughness = 0, .specular = 1})};
   const Vec2 size(2.4f, 1.8f);
   add_quad(mirror, {Vec3(-size.x / 2 - 0.005f, -size.y / 2 - 0.005f, 0.01f), Vec3(size.x + 0.01f, 0, 0),
                     Vec3(0, size.y + 0.01f, 0)});
   const Vec3 at(7.9f, 1.4f, 8);
   place(scene, std::move(mirror), at, kHalfTurn);
-  SampleMesh border = empty_mesh("mirror frame", frame);
+  SampleMesh border{"mirror frame", frame};
   add_frame(border, size, 0.05f, 0.03f, kSunk);
   place(scene, std::move(border), at, kHalfTurn);
 
-  SampleMaterial steel;
-  steel.name = "brushed metal";
-  steel.base_color = Vec3(0.77f, 0.74f, 0.70f);
-  steel.metallic = 1;
-  steel.roughness = 0.3f;
-  steel.specular = 1;
-  SampleMesh panel = empty_mesh("brushed panel", add_material(scene, std::move(steel)));
+  SampleMesh panel{"brushed panel", add_material(scene, {.name = "brushed metal",
+                                                         .base_color = Vec3(0.77f, 0.74f, 0.70f),
+                                                         .metallic = 1,
+                                                         .roughness = 0.3f,
+                                                         .specular = 1})};
   const Vec3 lower(-0.9f, -1.0f, -kSunk), upper(0.9f, 1.0f, 0.03f);
   add_box(panel, lower, upper, kFront);
   const Vec3 place_of_panel(3, 1.45f, 0);
   place(scene, std::move(panel), place_of_panel);
-  SampleMesh edge = empty_mesh("brushed panel edge", add_diffuse(scene, "panel edge", Vec3(0.35f)));
+  SampleMesh edge{"brushed panel edge", add_diffuse(scene, "panel edge", Vec3(0.35f))};
   add_box(edge, lower, upper, kSides & ~(kFront | kBack));
   add_box(edge, lower, upper, kTop | kBottom);
   place(scene, std::move(edge), place_of_panel);
 }
 
 void add_benches(SampleScene& scene, std::uint32_t wood) {
-  SampleMesh seat = empty_mesh("bench seat", wood);
+  SampleMesh seat{"bench seat", wood};
   add_rounded_box(seat, Vec3(0, 0.425f, 0), Vec3(0.46f, 0.07f, 1.7f), 0.02f, 6);
-  SampleMesh legs = empty_mesh("bench legs", add_diffuse(scene, "bench legs", Vec3(0.22f)));
+  SampleMesh legs{"bench legs", add_diffuse(scene, "bench legs", Vec3(0.22f))};
   for (const float z : {-0.62f, 0.62f}) {
     add_box(legs, Vec3(-0.18f, -kSunk, z - 0.04f), Vec3(0.18f, 0.40f, z + 0.04f), kSides);
   }
@@ -162,18 +153,18 @@ void add_benches(SampleScene& scene, std::uint32_t wood) {
 }
 
 void add_sculptures(SampleScene& scene, std::uint32_t stone) {
-  SampleMesh plinth = empty_mesh("plinth", stone);
+  SampleMesh plinth{"plinth", stone};
   add_box(plinth, Vec3(-0.25f, -kSunk, -0.25f), Vec3(0.25f, 0.9f, 0.25f), kSides | kTop);
   const std::uint32_t plinth_mesh = add_mesh(scene, std::move(plinth));
   const Vec3 in_a(5.2f, 0, 4.95f), in_c(9.2f, 0, -4.4f), on_platform(11.0f, 0.75f, 6.6f);
   place(scene, plinth_mesh, "A plinth", in_a);
   place(scene, plinth_mesh, "C plinth", in_c);
 
-  SampleMesh ball = empty_mesh("C ball", add_diffuse(scene, "blue glaze", Vec3(0.10f, 0.20f, 0.42f)));
+  SampleMesh ball{"C ball", add_diffuse(scene, "blue glaze", Vec3(0.10f, 0.20f, 0.42f))};
   add_sphere(ball, Vec3(0, 0.9f + 0.28f, 0), 0.285f, 48, 24);
   place(scene, std::move(ball), in_c);
 
-  SampleMesh stack = empty_mesh("A rings", add_diffuse(scene, "ochre", Vec3(0.66f, 0.40f, 0.10f)));
+  SampleMesh stack{"A rings", add_diffuse(scene, "ochre", Vec3(0.66f, 0.40f, 0.10f))};
   std::vector<Vec2> rings{Vec2(0, 0.89f)};
   constexpr int kSegments = 8;
   for (int ring = 0; ring < 4; ++ring) {
@@ -188,7 +179,7 @@ void add_sculptures(SampleScene& scene, std::uint32_t stone) {
   add_lathe(stack, Vec3(0), rings, 40);
   place(scene, std::move(stack), in_a);
 
-  SampleMesh vase = empty_mesh("B vase", add_diffuse(scene, "celadon", Vec3(0.34f, 0.52f, 0.44f)));
+  SampleMesh vase{"B vase", add_diffuse(scene, "celadon", Vec3(0.34f, 0.52f, 0.44f))};
   std::vector<Vec2> profile{Vec2(0.13f, -kSunk)};
   for (int i = 0; i <= 20; ++i) {
     const float t = static_cast<float>(i) / 20.0f;

@@ -77,14 +77,12 @@ struct Palette {
 Palette make_palette(SampleScene& scene) {
   const auto add = [&](std::string name, const Vec3& color, float metallic, float roughness, float specular,
                        const Vec3& emission = Vec3(0)) {
-    SampleMaterial m;
-    m.name = std::move(name);
-    m.base_color = color;
-    m.metallic = metallic;
-    m.roughness = roughness;
-    m.specular = specular;
-    m.emission = emission;
-    return add_material(scene, std::move(m));
+    return add_material(scene, {.name = std::move(name),
+                                .base_color = color,
+                                .metallic = metallic,
+                                .roughness = roughness,
+                                .specular = specular,
+                                .emission = emission});
   };
   Palette p{};
   p.furniture = {
@@ -145,7 +143,7 @@ void add_building(SampleScene& scene, const Palette& palette, int reflectors) {
 }
 
 void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
-  SampleMesh x_pane{"window x", palette.sky, {}, {}, {}, {}}, z_pane{"window z", palette.sky, {}, {}, {}, {}};
+  SampleMesh x_pane{"window x", palette.sky}, z_pane{"window z", palette.sky};
   const Vec3 size(kDoorX1 - kDoorX0, kDoorY - kSillY, kDoorZ1 - kDoorZ0);
   const float reach = 0.01f;  // into the reveals
   // Both about the middle of the opening's lower edge, facing +z; the second as wide as z openings.
@@ -154,8 +152,7 @@ void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
   add_quad(z_pane,
            {Vec3(-size.z / 2 - reach, -reach, 0), Vec3(size.z + 2 * reach, 0, 0), Vec3(0, size.y + 2 * reach, 0)});
   const std::uint32_t on_z = add_mesh(scene, std::move(x_pane)), on_x = add_mesh(scene, std::move(z_pane));
-  SampleMesh panel{"ceiling panel", palette.panel, {}, {}, {}, {}},
-      housing{"panel housing", palette.trim, {}, {}, {}, {}};
+  SampleMesh panel{"ceiling panel", palette.panel}, housing{"panel housing", palette.trim};
   add_quad(panel, {Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.9f, 0, 0), Vec3(0, 0, 0.9f)});
   add_box(housing, Vec3(-0.45f, -0.05f, -0.45f), Vec3(0.45f, 0.01f, 0.45f), kSides);
   const std::uint32_t panel_mesh = add_mesh(scene, std::move(panel)),
@@ -179,7 +176,7 @@ void add_windows_and_lights(SampleScene& scene, const Palette& palette) {
 
 void add_stairs(SampleScene& scene, const Palette& palette) {
   const Vec3 c = Room{1, 1, 0}.corner();
-  SampleMesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
+  SampleMesh stairs{"stairs", palette.furniture[static_cast<std::size_t>(Upholstery::kWood)]};
   const float rise = kStorey / static_cast<float>(kRisers), reach = 0.01f;
   const float near = kRoomZ - kStairWidth + reach, far = kRoomZ + reach;  // a joint to the slab, and into the wall
   // Each step is a block down to the floor; only what shows: riser, tread, the side to the room. The last riser is the
@@ -195,7 +192,7 @@ void add_stairs(SampleScene& scene, const Palette& palette) {
   add_quad(stairs, {c + Vec3(kStairX1 + reach, -reach, far), Vec3(0, 0, near - far), Vec3(0, top + reach, 0)});
   place(scene, std::move(stairs));
   // The parapet around the opening above.
-  SampleMesh parapet{"parapet", palette.trim, {}, {}, {}, {}};
+  SampleMesh parapet{"parapet", palette.trim};
   const Vec3 up = c + Vec3(0, kStorey, 0);
   const float z0 = kRoomZ - kStairWidth;
   add_box(parapet, up + Vec3(kHoleX0 - 0.06f, -reach, z0 - 0.06f), up + Vec3(kStairX1, 0.9f, z0 - 0.01f),
@@ -241,7 +238,7 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
     }
   }
   const auto add_top = [&](std::string name, std::uint32_t material) {
-    SampleMesh top{std::move(name), material, {}, {}, {}, {}};
+    SampleMesh top{std::move(name), material};
     add_quad(top, {Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
                    Vec3(0, 0, -2 * kTableHalfWidth)});
     return add_mesh(scene, std::move(top));
@@ -262,7 +259,7 @@ void add_furniture(SampleScene& scene, const Palette& palette, double detail, in
 
 // On the -z wall, to the right of its opening.
 void add_mirrors(SampleScene& scene, const Palette& palette, int reflectors) {
-  SampleMesh glass{"mirror", palette.mirror, {}, {}, {}, {}}, frame{"mirror frame", palette.trim, {}, {}, {}, {}};
+  SampleMesh glass{"mirror", palette.mirror}, frame{"mirror frame", palette.trim};
   add_quad(glass, {Vec3(-0.455f, -0.655f, 0.01f), Vec3(0.91f, 0, 0), Vec3(0, 1.31f, 0)});
   add_frame(frame, {0.9f, 1.3f}, 0.05f, 0.03f, 0.01f);
   const std::uint32_t glass_mesh = add_mesh(scene, std::move(glass)), frame_mesh = add_mesh(scene, std::move(frame));
@@ -307,7 +304,7 @@ void add_cameras(SampleScene& scene) {
 void add_lawn(SampleScene& scene, double area_m2) {
   const auto side = static_cast<float>(std::sqrt(area_m2));
   const Vec3 middle(kRoomsX * (kRoomX + kWall) / 2, -kSlab / 2, kRoomsZ * (kRoomZ + kWall) / 2);
-  SampleMesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f)), {}, {}, {}, {}};
+  SampleMesh lawn{"lawn", add_diffuse(scene, "grass", Vec3(0.10f, 0.17f, 0.05f))};
   add_quad(lawn, {middle + Vec3(-side / 2, 0, side / 2), Vec3(side, 0, 0), Vec3(0, 0, -side)});
   place(scene, std::move(lawn));
 }

@@ -137,8 +137,7 @@ std::vector<SampleMesh> make_piece(Piece piece, double detail) {
   static constexpr std::array<const char*, kUpholsteries> kNames{"fabric", "wood", "ceramic", "linen", "metal"};
   std::vector<SampleMesh> meshes;
   for (std::size_t material = 0; material < kUpholsteries; ++material) {
-    SampleMesh mesh{
-        std::string(piece_name(piece)) + " " + kNames[material], static_cast<std::uint32_t>(material), {}, {}, {}, {}};
+    SampleMesh mesh{std::string(piece_name(piece)) + " " + kNames[material], static_cast<std::uint32_t>(material)};
     for (const Primitive& p : piece_primitives(piece)) {
       if (static_cast<std::size_t>(p.material) == material) add_primitive(mesh, p, detail);
     }

@@ -12,10 +12,6 @@ constexpr Vec3 kRoom{7, 2.8f, 6};  // from the origin
 constexpr float kDesk = 0.74f;     // height of desk tops
 constexpr unsigned kSeen = kSides | kTop;
 
-SampleMesh mesh_of(std::string name, std::uint32_t material) {
-  return {std::move(name), material, {}, {}, {}, {}};
-}
-
 void add_room(SampleScene& scene, std::uint32_t plaster) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   place_quad(scene, "floor", add_diffuse(scene, "carpet", {0.16f, 0.19f, 0.26f}), {Vec3(0), z, x});
@@ -33,7 +29,7 @@ void add_lamps(SampleScene& scene) {
   for (int i = 0; i < 2; ++i) {
     const Vec3 middle(i == 0 ? 1.9f : 5.1f, kRoom.y - half.y, 2.9f);
     const std::string name = "lamp " + std::to_string(i + 1);
-    SampleMesh sides = mesh_of(name + " housing", housing);
+    SampleMesh sides{name + " housing", housing};
     add_box(sides, middle - half, middle + half, kSides);
     place(scene, std::move(sides));
     place_quad(scene, name, glow, {middle - half, {2 * half.x, 0, 0}, {0, 0, 2 * half.z}});
@@ -103,21 +99,22 @@ void add_chair(SampleMesh& fabric, SampleMesh& dark) {
 }
 
 void add_workplaces(SampleScene& scene) {
-  SampleMaterial glass;
-  glass.name = "screen";
-  glass.base_color = Vec3(0.02f, 0.025f, 0.03f), glass.roughness = 0.04f, glass.specular = 1;
-  Workplace w{mesh_of("desk", add_diffuse(scene, "maple", {0.56f, 0.40f, 0.23f})),
-              mesh_of("legs", add_diffuse(scene, "grey", Vec3(0.35f))),
-              mesh_of("keys and lamp", add_diffuse(scene, "dark", Vec3(0.07f))),
-              mesh_of("chair", add_diffuse(scene, "fabric", {0.42f, 0.09f, 0.08f})),
-              mesh_of("monitor and drawers", add_diffuse(scene, "cream", {0.62f, 0.58f, 0.48f})),
-              mesh_of("screen", add_material(scene, std::move(glass))),
-              mesh_of("mug", add_diffuse(scene, "porcelain", Vec3(0.78f)))};
+  Workplace w{
+      SampleMesh{"desk", add_diffuse(scene, "maple", {0.56f, 0.40f, 0.23f})},
+      SampleMesh{"legs", add_diffuse(scene, "grey", Vec3(0.35f))},
+      SampleMesh{"keys and lamp", add_diffuse(scene, "dark", Vec3(0.07f))},
+      SampleMesh{"chair", add_diffuse(scene, "fabric", {0.42f, 0.09f, 0.08f})},
+      SampleMesh{"monitor and drawers", add_diffuse(scene, "cream", {0.62f, 0.58f, 0.48f})},
+      SampleMesh{
+          "screen",
+          add_material(
+              scene, {.name = "screen", .base_color = Vec3(0.02f, 0.025f, 0.03f), .roughness = 0.04f, .specular = 1})},
+      SampleMesh{"mug", add_diffuse(scene, "porcelain", Vec3(0.78f))}};
   add_desk(w);
   add_monitor(w);
   add_keyboard(w);
   add_desk_things(w);
-  SampleMesh chair_frame = mesh_of("chair frame", w.dark.material);
+  SampleMesh chair_frame{"chair frame", w.dark.material};
   add_chair(w.fabric, chair_frame);
   struct Placed {
     Vec3 at;
@@ -150,7 +147,7 @@ void add_books(SampleScene& scene, std::uint32_t wood) {
       add_diffuse(scene, "green book", {0.08f, 0.26f, 0.12f}), add_diffuse(scene, "white book", {0.7f, 0.66f, 0.55f})};
   for (int side = 0; side < 2; ++side) {
     const float z = side == 0 ? 1.9f : 3.9f;
-    SampleMesh shelf = mesh_of("bookcase " + std::to_string(side + 1), wood);
+    SampleMesh shelf{"bookcase " + std::to_string(side + 1), wood};
     for (const float end : {z, z + kWide - kBoard}) add_box(shelf, {0.002f, 0.002f, end}, {kDeep, 1.85f, end + kBoard});
     add_box(shelf, {0.003f, 0.06f, z + 0.5f * kBoard}, {0.012f, 1.84f, z + kWide - 0.5f * kBoard});
     for (int i = 0; i < 5; ++i) {
@@ -159,7 +156,7 @@ void add_books(SampleScene& scene, std::uint32_t wood) {
     }
     place(scene, std::move(shelf));
     for (std::size_t c = 0; c < covers.size(); ++c) {
-      SampleMesh books = mesh_of("books " + std::to_string(side + 1) + "." + std::to_string(c + 1), covers[c]);
+      SampleMesh books{"books " + std::to_string(side + 1) + "." + std::to_string(c + 1), covers[c]};
       for (int i = 0; i < 4 * kBooks; ++i) {
         const int shelf_of = i / kBooks, at = i % kBooks;
         if ((static_cast<std::uint32_t>(i + 4 * kBooks * side + 1) * 2654435761u >> 28) % covers.size() != c) continue;
@@ -174,17 +171,17 @@ void add_books(SampleScene& scene, std::uint32_t wood) {
 }
 
 void add_wall_things(SampleScene& scene, std::uint32_t grey, std::uint32_t wood) {
-  SampleMesh frame = mesh_of("whiteboard frame", grey);
+  SampleMesh frame{"whiteboard frame", grey};
   add_frame(frame, {2, 1}, 0.03f, 0.02f, 0);
   add_box(frame, {-0.8f, -0.56f, 0}, {0.8f, -0.54f, 0.08f}, kAllFaces & ~kBack);  // for pens
   const Vec3 middle(2.9f, 1.6f, 0);
   place(scene, std::move(frame), middle);
   place_quad(scene, "whiteboard", add_diffuse(scene, "enamel", Vec3(0.82f)),
              {middle + Vec3(-1, -0.5f, 0.005f), {2, 0, 0}, {0, 1, 0}});
-  SampleMesh door = mesh_of("door", wood), handle = mesh_of("door handle", grey);
+  SampleMesh door{"door", wood}, handle{"door handle", grey};
   add_box(door, {4.6f, 0, kRoom.z - 0.03f}, {5.5f, 2.05f, kRoom.z}, kLeft | kRight | kTop | kBack);
   add_box(handle, {4.68f, 1.02f, kRoom.z - 0.09f}, {4.82f, 1.04f, kRoom.z - 0.03f}, kAllFaces & ~kFront);
-  SampleMesh radiator = mesh_of("radiator", add_diffuse(scene, "lacquer", Vec3(0.72f)));
+  SampleMesh radiator{"radiator", add_diffuse(scene, "lacquer", Vec3(0.72f))};
   for (int i = 0; i < 24; ++i) {
     const float x = 1.4f + 0.06f * static_cast<float>(i);
     add_box(radiator, {x, 0.12f, kRoom.z - 0.1f}, {x + 0.045f, 0.72f, kRoom.z - 0.02f}, kAllFaces & ~kFront);
@@ -196,10 +193,10 @@ void add_wall_things(SampleScene& scene, std::uint32_t grey, std::uint32_t wood)
 
 // A pot whose leaves lean outwards, each with two sides.
 void add_plant(SampleScene& scene) {
-  SampleMesh pot = mesh_of("pot", add_diffuse(scene, "clay", {0.5f, 0.22f, 0.12f}));
+  SampleMesh pot{"pot", add_diffuse(scene, "clay", {0.5f, 0.22f, 0.12f})};
   const std::array<Vec2, 4> profile{{{0.16f, 0}, {0.21f, 0.36f}, {0.18f, 0.36f}, {0, 0.33f}}};
   add_lathe(pot, Vec3(0), profile, 12);
-  SampleMesh leaves = mesh_of("leaves", add_diffuse(scene, "leaf", {0.06f, 0.22f, 0.05f}));
+  SampleMesh leaves{"leaves", add_diffuse(scene, "leaf", {0.06f, 0.22f, 0.05f})};
   for (int i = 0; i < 30; ++i) {
     const float turn = 2.4f * static_cast<float>(i), lean = 0.12f + 0.016f * static_cast<float>(i);
     const float height = 1.15f - 0.02f * static_cast<float>(i);
@@ -220,7 +217,7 @@ void add_plant(SampleScene& scene) {
 
 // Sheets and heaps of paper on the desks.
 void add_paper(SampleScene& scene, int sheets) {
-  SampleMesh paper = mesh_of("paper", add_diffuse(scene, "paper", Vec3(0.78f)));
+  SampleMesh paper{"paper", add_diffuse(scene, "paper", Vec3(0.78f))};
   for (int i = 0; i < sheets; ++i) {
     const float turn = 1.9f * static_cast<float>(i), at = 0.06f * static_cast<float>(i % 5);
     const Vec3 u = 0.21f * Vec3(std::cos(turn), 0, std::sin(turn)), v = 0.297f * Vec3(u.z, 0, -u.x) / 0.21f;

@@ -14,15 +14,8 @@ struct Paints {
   std::uint32_t wall, wood, board, trim, floor, carpet, canvas;
 };
 
-SampleMesh empty(std::string name, std::uint32_t material) {
-  return {std::move(name), material, {}, {}, {}, {}};
-}
-
 std::uint32_t add_glow(SampleScene& scene, std::string name, const Vec3& luminance) {
-  SampleMaterial m;
-  m.name = std::move(name);
-  m.emission = luminance;
-  return add_material(scene, std::move(m));
+  return add_material(scene, {.name = std::move(name), .emission = luminance});
 }
 
 // A rectangle around a hole that glows.
@@ -38,7 +31,7 @@ void place_around_light(SampleScene& scene, SampleMesh wall, SampleMesh light, c
 void add_walls(SampleScene& scene, const Paints& paints) {
   const Vec3 x(kRoom.x, 0, 0), y(0, kRoom.y, 0), z(0, 0, kRoom.z);
   const auto wall = [&](const char* name, std::uint32_t material, const Vec3& origin, const Vec3& u, const Vec3& v) {
-    SampleMesh mesh = empty(name, material);
+    SampleMesh mesh{name, material};
     add_quad(mesh, {origin, u, v});
     place(scene, std::move(mesh));
   };
@@ -46,11 +39,11 @@ void add_walls(SampleScene& scene, const Paints& paints) {
   wall("north wall", paints.wall, Vec3(0), x, y);
   wall("west wall", paints.wall, z, -z, y);
   wall("east wall", paints.wall, x, z, y);
-  SampleMesh window = empty("window", add_glow(scene, "daylight", Vec3(900, 960, 1000)));
-  place_around_light(scene, empty("south wall", paints.wall), std::move(window), {x + z, -x, y},
+  SampleMesh window{"window", add_glow(scene, "daylight", Vec3(900, 960, 1000))};
+  place_around_light(scene, SampleMesh{"south wall", paints.wall}, std::move(window), {x + z, -x, y},
                      {Vec2(0.1f, 0.3f), Vec2(0.9f, 0.8f)});
-  SampleMesh lamp = empty("lamp", add_glow(scene, "lamp", Vec3(1500, 1400, 1250)));
-  place_around_light(scene, empty("ceiling", paints.wall), std::move(lamp), {y, x, z},
+  SampleMesh lamp{"lamp", add_glow(scene, "lamp", Vec3(1500, 1400, 1250))};
+  place_around_light(scene, SampleMesh{"ceiling", paints.wall}, std::move(lamp), {y, x, z},
                      {Vec2(0.2f, 0.4f), Vec2(0.8f, 0.6f)});
 }
 
@@ -60,7 +53,7 @@ void add_sections(SampleScene& scene, const Paints& paints) {
     const float proud = 1e-3f * static_cast<float>(kProud_mm[i]), left = kSection * static_cast<float>(i) + kMargin,
                 right = left + kSection - 2 * kMargin;
     const auto box = [&](const char* name, std::uint32_t material, const Vec3& low, const Vec3& high, unsigned faces) {
-      SampleMesh mesh = empty(fmt::format("{} {} mm", name, kProud_mm[i]), material);
+      SampleMesh mesh{fmt::format("{} {} mm", name, kProud_mm[i]), material};
       add_box(mesh, low, high, faces);
       place(scene, std::move(mesh));
     };
@@ -73,16 +66,15 @@ void add_sections(SampleScene& scene, const Paints& paints) {
 
 void add_things(SampleScene& scene, const Paints& paints) {
   // Along the north wall, from wall to wall.
-  SampleMesh cornice = empty("cornice", paints.trim);
+  SampleMesh cornice{"cornice", paints.trim};
   add_box(cornice, Vec3(0, kRoom.y - kCornice, 0), Vec3(kRoom.x, kRoom.y, kCornice), kFront | kBottom);
   place(scene, std::move(cornice));
-  SampleMesh carpet = empty("carpet", paints.carpet);
+  SampleMesh carpet{"carpet", paints.carpet};
   add_box(carpet, Vec3(2.5f, 0, 1.2f), Vec3(5, 0.008f, 2.8f), kSides | kTop);
   place(scene, std::move(carpet));
   for (const auto& [name, size, z] :
        {std::tuple{"picture 1", Vec2(0.9f, 0.6f), 1.3f}, {"picture 2", Vec2(0.5f, 0.7f), 2.7f}}) {
-    SampleMesh frame = empty(std::string(name) + " frame", paints.wood),
-               canvas = empty(std::string(name) + " canvas", paints.canvas);
+    SampleMesh frame{std::string(name) + " frame", paints.wood}, canvas{std::string(name) + " canvas", paints.canvas};
     add_frame(frame, size, 0.05f, 0.025f, 0.01f);
     // Before the wall, and a little into the frame's inner sides.
     const Vec2 half = 0.5f * size + 0.004f;
@@ -93,7 +85,7 @@ void add_things(SampleScene& scene, const Paints& paints) {
   }
   // Set back by 5 cm all around under the cupboard, which stands 1 cm off the east wall.
   const float back = kRoom.x - 0.01f;
-  SampleMesh cupboard = empty("cupboard", paints.board), plinth = empty("plinth", paints.trim);
+  SampleMesh cupboard{"cupboard", paints.board}, plinth{"plinth", paints.trim};
   add_box(cupboard, Vec3(back - 0.5f, 0.08f, 1.3f), Vec3(back, 0.95f, 2.7f));
   add_box(plinth, Vec3(back - 0.45f, 0, 1.35f), Vec3(back - 0.05f, 0.08f, 2.65f), kSides);
   place(scene, std::move(cupboard));

@@ -67,18 +67,16 @@ void add_furniture(SampleScene& scene) {
       mesh.material = covers[mesh.material];
       place(scene, std::move(mesh), placed.position, placed.yaw_rad);
     }
-  SampleMesh top{"table top", covers[static_cast<std::size_t>(Upholstery::kWood)], {}, {}, {}, {}};
+  SampleMesh top{"table top", covers[static_cast<std::size_t>(Upholstery::kWood)]};
   add_quad(top, {Vec3(-kTableHalfWidth, kTableHeight, kTableHalfWidth), Vec3(2 * kTableHalfWidth, 0, 0),
                  Vec3(0, 0, -2 * kTableHalfWidth)});
   place(scene, std::move(top), kPlaced[1].position);
 }
 
 void add_lamp(SampleScene& scene) {
-  SampleMaterial glow;
-  glow.name = "ceiling panel";
-  glow.emission = 2500.0f * Vec3(1, 0.93f, 0.82f);
-  SampleMesh panel{"ceiling panel", add_material(scene, std::move(glow)), {}, {}, {}, {}};
-  SampleMesh housing{"panel housing", add_diffuse(scene, "housing", Vec3(0.7f)), {}, {}, {}, {}};
+  SampleMesh panel{"ceiling panel",
+                   add_material(scene, {.name = "ceiling panel", .emission = 2500.0f * Vec3(1, 0.93f, 0.82f)})};
+  SampleMesh housing{"panel housing", add_diffuse(scene, "housing", Vec3(0.7f))};
   add_quad(panel, {Vec3(-0.6f, -0.05f, -0.6f), Vec3(1.2f, 0, 0), Vec3(0, 0, 1.2f)});
   add_box(housing, Vec3(-0.6f, -0.05f, -0.6f), Vec3(0.6f, 0.01f, 0.6f), kSides);
   const Vec3 middle(kRoom.x / 2, kRoom.y, kRoom.z / 2);
@@ -90,14 +88,11 @@ void add_lamp(SampleScene& scene) {
 // far edge. It reflects nothing, as sky domes are painted.
 void add_surroundings(SampleScene& scene) {
   const Vec3 middle(kRoom.x / 2, kGround, kRoom.z / 2);
-  SampleMesh ground{"ground", add_diffuse(scene, "paving", Vec3(kGroundReflectance)), {}, {}, {}, {}};
+  SampleMesh ground{"ground", add_diffuse(scene, "paving", Vec3(kGroundReflectance))};
   add_quad(ground, {Vec3(-kGroundSide / 2, 0, kGroundSide / 2), Vec3(kGroundSide, 0, 0), Vec3(0, 0, -kGroundSide)});
   place(scene, std::move(ground), middle);
-  SampleMaterial sky;
-  sky.name = "sky";
-  sky.base_color = Vec3(0);
-  sky.emission = Vec3(kSkyLuminance);
-  SampleMesh dome{"sky dome", add_material(scene, std::move(sky)), {}, {}, {}, {}};
+  SampleMesh dome{"sky dome",
+                  add_material(scene, {.name = "sky", .base_color = Vec3(0), .emission = Vec3(kSkyLuminance)})};
   constexpr int kRings = 16;
   constexpr float kRim = -0.02f * kDomeRadius;
   std::vector<Vec2> profile;  // from the top: its front is the inside

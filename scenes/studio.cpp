@@ -10,13 +10,8 @@ constexpr Vec3 kRoom{4, 2.7f, 5};  // from the origin
 constexpr float kPanel = 0.6f;     // side of the ceiling panel
 
 std::uint32_t metal(SampleScene& scene, std::string name, const Vec3& color, float roughness) {
-  SampleMaterial m;
-  m.name = std::move(name);
-  m.base_color = color;
-  m.metallic = 1;
-  m.roughness = roughness;
-  m.specular = 1;
-  return add_material(scene, std::move(m));
+  return add_material(
+      scene, {.name = std::move(name), .base_color = color, .metallic = 1, .roughness = roughness, .specular = 1});
 }
 
 void add_walls(SampleScene& scene) {
@@ -30,7 +25,7 @@ void add_walls(SampleScene& scene) {
   place_quad(scene, "east wall", add_diffuse(scene, "blue", Vec3(0.1f, 0.2f, 0.55f)), {x, z, y});
   // The ceiling around its panel: four strips, and the panel in the hole.
   const Vec3 low = 0.5f * (kRoom - kPanel), high = low + kPanel;
-  SampleMesh ceiling{"ceiling", white, {}, {}, {}, {}};
+  SampleMesh ceiling{"ceiling", white};
   const auto strip = [&](float x0, float z0, float x1, float z1) {
     add_quad(ceiling, {Vec3(x0, kRoom.y, z0), Vec3(x1 - x0, 0, 0), Vec3(0, 0, z1 - z0)});
   };
@@ -45,13 +40,13 @@ void add_walls(SampleScene& scene) {
 
 void add_balls(SampleScene& scene) {
   const auto ball = [&](std::string name, std::uint32_t material, const Vec3& centre, float radius) {
-    SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+    SampleMesh mesh{std::move(name), material};
     add_sphere(mesh, centre, radius, 96, 48);
     place(scene, std::move(mesh));
   };
   ball("mirror ball", metal(scene, "chrome", Vec3(0.9f), 0), Vec3(1.3f, 0.4f, 2), 0.4f);
   ball("brushed ball", metal(scene, "brass", Vec3(0.9f, 0.7f, 0.35f), 0.25f), Vec3(2.4f, 0.3f, 2.5f), 0.3f);
-  SampleMesh block{"block", add_diffuse(scene, "green", Vec3(0.15f, 0.45f, 0.18f)), {}, {}, {}, {}};
+  SampleMesh block{"block", add_diffuse(scene, "green", Vec3(0.15f, 0.45f, 0.18f))};
   add_box(block, Vec3(1.75f, 0, 1.2f), Vec3(2.15f, 0.7f, 1.6f), kSides | kTop);
   place(scene, std::move(block));
 }
@@ -59,12 +54,12 @@ void add_balls(SampleScene& scene) {
 // A standing lamp: foot and stem of satin steel, a glowing globe on top.
 void add_lamp(SampleScene& scene) {
   const Vec3 foot(3.2f, 0, 1);
-  SampleMesh stand{"lamp stand", metal(scene, "satin steel", Vec3(0.7f), 0.15f), {}, {}, {}, {}};
+  SampleMesh stand{"lamp stand", metal(scene, "satin steel", Vec3(0.7f), 0.15f)};
   const std::array<Vec2, 6> profile{
       {{0.16f, 0}, {0.16f, 0.02f}, {0.12f, 0.035f}, {0.02f, 0.05f}, {0.02f, 1.42f}, {0, 1.42f}}};
   add_lathe(stand, foot, profile, 32);
   place(scene, std::move(stand));
-  SampleMesh globe{"lamp globe", add_diffuse(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500)), {}, {}, {}, {}};
+  SampleMesh globe{"lamp globe", add_diffuse(scene, "globe", Vec3(0.8f), Vec3(3000, 2400, 1500))};
   add_sphere(globe, foot + Vec3(0, 1.54f, 0), 0.12f, 32, 16);
   place(scene, std::move(globe));
 }

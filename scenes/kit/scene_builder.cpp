@@ -38,11 +38,7 @@ void place(SampleScene& scene, std::uint32_t mesh, std::string name, const Vec3&
 }
 
 std::uint32_t add_diffuse(SampleScene& scene, std::string name, const Vec3& color, const Vec3& emission) {
-  SampleMaterial material;
-  material.name = std::move(name);
-  material.base_color = color;
-  material.emission = emission;
-  return add_material(scene, std::move(material));
+  return add_material(scene, {.name = std::move(name), .base_color = color, .emission = emission});
 }
 
 void scale_scene(SampleScene& scene, double factor) {

@@ -33,10 +33,10 @@ struct SampleMaterial {
 struct SampleMesh {
   std::string name;
   std::uint32_t material = 0;
-  std::vector<Vec3> positions;
-  std::vector<Vec3> normals;  // unit
-  std::vector<Vec2> uvs;
-  std::vector<std::uint32_t> indices;  // triangles, counter-clockwise from the front
+  std::vector<Vec3> positions = {};
+  std::vector<Vec3> normals = {};  // unit
+  std::vector<Vec2> uvs = {};
+  std::vector<std::uint32_t> indices = {};  // triangles, counter-clockwise from the front
 
   std::size_t triangle_count() const { return indices.size() / 3; }
 };

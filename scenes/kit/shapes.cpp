@@ -76,7 +76,7 @@ void add_corners(SampleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, 
 }
 
 void place_quad(SampleScene& scene, std::string name, std::uint32_t material, const Quad& quad) {
-  SampleMesh mesh{std::move(name), material, {}, {}, {}, {}};
+  SampleMesh mesh{std::move(name), material};
   add_quad(mesh, quad);
   place(scene, std::move(mesh));
 }

@@ -32,7 +32,7 @@ sample::SampleScene floor_under_lamp() {
     m.roughness = rough;
     m.specular = 1;
     m.emission = Vec3(nits);
-    sample::SampleMesh mesh{name, add_material(scene, m), {}, {}, {}, {}};
+    sample::SampleMesh mesh{name, add_material(scene, m)};
     add_corners(mesh, corner, corner + a, corner + a + b, corner + b);
     place(scene, std::move(mesh));
   };
@@ -58,7 +58,7 @@ sample::SampleScene polished_floor(float roughness) {
   const std::uint32_t metal = material("metal", 0.9f, 1, roughness);
   const std::uint32_t band[] = {material("bright", 0.9f, 0, 1), material("dark", 0.05f, 0, 1)};
   const auto quad = [&](const std::string& name, std::uint32_t m, const Vec3& corner, const Vec3& a, const Vec3& b) {
-    sample::SampleMesh mesh{name, m, {}, {}, {}, {}};
+    sample::SampleMesh mesh{name, m};
     add_corners(mesh, corner, corner + a, corner + a + b, corner + b);
     place(scene, std::move(mesh));
   };

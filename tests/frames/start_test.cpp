@@ -87,7 +87,7 @@ TEST_F(Start, AHouseIsSeenFromOneOfItsRooms) {
 TEST_F(Start, AnObjectAloneIsSeenFromOutside) {
   sample::SampleScene scene;
   scene.name = "vase";
-  sample::SampleMesh vase{"vase", sample::add_diffuse(scene, "clay", Vec3(0.6f, 0.4f, 0.3f)), {}, {}, {}, {}};
+  sample::SampleMesh vase{"vase", sample::add_diffuse(scene, "clay", Vec3(0.6f, 0.4f, 0.3f))};
   sample::add_sphere(vase, Vec3(0, 0.2f, 0), 0.2f, 24, 12);
   sample::place(scene, std::move(vase));
   DVec3 eye(0);

@@ -101,7 +101,7 @@ SampleScene one_quad() {
   SampleScene scene;
   scene.name = "quad";
   add_material(scene, SampleMaterial{});
-  SampleMesh mesh{"quad", 0, {}, {}, {}, {}};
+  SampleMesh mesh{"quad", 0};
   add_quad(mesh, {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   place(scene, std::move(mesh));
   return scene;

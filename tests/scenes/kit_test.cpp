@@ -42,7 +42,7 @@ TEST(Probe, SeesEachFault) {
   EXPECT_NE(fault(turned), "");
   SampleScene scene;
   add_material(scene, SampleMaterial{});
-  SampleMesh a{"a", 0, {}, {}, {}, {}}, b{"b", 0, {}, {}, {}, {}}, c{"c", 0, {}, {}, {}, {}};
+  SampleMesh a{"a", 0}, b{"b", 0, {}, {}, {}, {}}, c{"c", 0, {}, {}, {}, {}};
   add_quad(a, {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   add_quad(b, {Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   place(scene, a);
@@ -55,29 +55,29 @@ TEST(Probe, SeesEachFault) {
 
 TEST(Shapes, AreSoundAndFaceOutwards) {
   for (const int n : {1, 2, 3, 7, 40}) {
-    SampleMesh mesh{"box", 0, {}, {}, {}, {}};
+    SampleMesh mesh{"box", 0};
     add_rounded_box(mesh, Vec3(1, 2, 3), Vec3(1, 0.5f, 2), 0.1f, n);
     expect_sound(mesh);
     EXPECT_EQ(mesh.triangle_count(), static_cast<std::size_t>(12 * n * n));
     EXPECT_GT(volume(flatten(scene_of(mesh))), n < 3 ? 0.5 : 0.85) << n;
   }
-  SampleMesh sphere{"sphere", 0, {}, {}, {}, {}};
+  SampleMesh sphere{"sphere", 0};
   add_sphere(sphere, Vec3(0), 1, 64, 32);
   expect_sound(sphere);
   const auto ball = flatten(scene_of(sphere));
   EXPECT_NEAR(volume(ball), 4 * kPiD / 3, 0.03);
   EXPECT_EQ(open_edges(ball), 0u);
   for (const Vec3& p : sphere.positions) EXPECT_NEAR(glm::length(p), 1, 1e-6);
-  SampleMesh shaft{"shaft", 0, {}, {}, {}, {}};
+  SampleMesh shaft{"shaft", 0};
   add_fluted_shaft(shaft, Vec3(0), {});
   expect_sound(shaft);
-  SampleMesh frame{"frame", 0, {}, {}, {}, {}};
+  SampleMesh frame{"frame", 0};
   add_frame(frame, {1, 0.7f}, 0.05f, 0.03f, 0.01f);
   expect_sound(frame);
 }
 
 TEST(Shapes, AQuadThatIsNotPlanarIsFlatShaded) {
-  SampleMesh mesh{"bent", 0, {}, {}, {}, {}};
+  SampleMesh mesh{"bent", 0};
   add_corners(mesh, Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0.3f), Vec3(0, 1, 0));
   expect_sound(mesh);
   EXPECT_EQ(mesh.positions.size(), 6u);

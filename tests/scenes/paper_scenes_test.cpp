@@ -46,7 +46,7 @@ TEST(PaperScenes, AreSound) {
 
 TEST(PolygonCount, TellsQuadrilateralsFromTriangles) {
   SampleScene scene;
-  SampleMesh mesh{"mesh", 0, {}, {}, {}, {}};
+  SampleMesh mesh{"mesh", 0};
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 2, 0.5f}};
   mesh.indices = {0, 1, 2, 0, 2, 3, 3, 2, 4};  // a square, and what leans on it
   place(scene, std::move(mesh));
