@@ -94,7 +94,7 @@ class Studio {
       options_.look = i;
       const Camera camera = shot.camera_at && lens.shutter_s > 0 ? shot.camera_at(time_s) : shot.camera;
       const View view = lens_view(camera, size(), bounds_with_movers(scene_, options_.poses),
-                                  0.5f * lens.aperture_m * at.lens, focus_m, at.pixel);
+                                  {0.5f * lens.aperture_m * at.lens, focus_m, at.pixel});
       ORIEL_TRY(stats, renderer_.render(scene_, view, options_));
       mean.add(renderer_.read_frame());
     }

@@ -26,17 +26,16 @@ ExposurePoint exposure_point(std::uint32_t i, std::uint32_t n) {
           (static_cast<float>(i) + 0.5f) / static_cast<float>(n) - 0.5f};
 }
 
-View lens_view(const Camera& camera, const IVec2& size, const Bounds& bounds, const Vec2& place_m, float focus_m,
-               const Vec2& pixel) {
+View lens_view(const Camera& camera, const IVec2& size, const Bounds& bounds, const LensPlace& from) {
   View view = make_view(camera, size.x, size.y, bounds);
   const Vec2 picture(size);
-  Vec2 moved = pixel;
-  if (!view.orthographic && place_m != Vec2(0)) {
+  Vec2 moved = from.pixel;
+  if (!view.orthographic && from.aside_m != Vec2(0)) {
     const Mat4 pack_from_view = glm::inverse(view.view_from_pack);
     Camera aside = camera;
-    aside.eye += Vec3(pack_from_view * Vec4(place_m, 0, 0));
+    aside.eye += Vec3(pack_from_view * Vec4(from.aside_m, 0, 0));
     view = make_view(aside, size.x, size.y, bounds);
-    moved -= 0.5f * picture * place_m / (focus_m * view.tangents);
+    moved -= 0.5f * picture * from.aside_m / (from.focus_m * view.tangents);
   }
   return part_of(view, moved, size.x, size.y);
 }

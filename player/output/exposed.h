@@ -17,10 +17,14 @@ struct ExposurePoint {
 // Frame i of n. Even over each of them (Halton's sequence), the first of one alone in the middle.
 ExposurePoint exposure_point(std::uint32_t i, std::uint32_t n);
 
-// What the camera shows from a place of its lens, metres to the right and up: things at focus_m along the view (> 0)
-// stay where they are in the picture. pixel: by how much of a pixel it is moved. Orthographic cameras have no lens.
-View lens_view(const Camera& camera, const IVec2& size, const Bounds& bounds, const Vec2& place_m, float focus_m,
-               const Vec2& pixel);
+// Where a frame of a lens is taken from.
+struct LensPlace {
+  Vec2 aside_m{0};    // to the right and up, of the camera's eye
+  float focus_m = 1;  // > 0, along the view: things there stay where they are in the picture
+  Vec2 pixel{0};      // that the picture is moved by
+};
+// What the camera shows from there. Orthographic cameras have no lens.
+View lens_view(const Camera& camera, const IVec2& size, const Bounds& bounds, const LensPlace& from);
 
 // The mean of frames, RGBA as Renderer::take_light() takes it. What is shown as it is in all of them stays so.
 class FrameMean {

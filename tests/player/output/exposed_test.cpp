@@ -37,7 +37,7 @@ TEST(Exposed, WhatIsInFocusStays) {
   const Camera camera = look_at({3, 1, 2}, {4, 5, 3}, 1);
   const Bounds bounds{Vec3(-9), Vec3(9)};
   const IVec2 size(640, 360);
-  const View still = lens_view(camera, size, bounds, Vec2(0), 2, Vec2(0));
+  const View still = lens_view(camera, size, bounds, {});
   const Mat4 pack_from_view = glm::inverse(still.view_from_pack);
   const Vec2 place(0.03f, -0.02f);
   for (const float z : {0.7f, 2.0f, 6.0f}) {
@@ -46,11 +46,11 @@ TEST(Exposed, WhatIsInFocusStays) {
       const Vec4 clip = view.clip_from_pack * point;
       return Vec2(clip) / clip.w * 0.5f * Vec2(size);
     };
-    const Vec2 moved = pixel(lens_view(camera, size, bounds, place, 2, Vec2(0))) - pixel(still);
+    const Vec2 moved = pixel(lens_view(camera, size, bounds, {place, 2, Vec2(0)})) - pixel(still);
     const Vec2 wanted = -place * (1 / z - 0.5f) / still.tangents * 0.5f * Vec2(size);
     EXPECT_LT(glm::length(moved - wanted), 1e-2f) << z;
   }
-  const View beside = lens_view(camera, size, bounds, Vec2(0), 2, Vec2(0.25f, -0.5f));
+  const View beside = lens_view(camera, size, bounds, {Vec2(0), 2, Vec2(0.25f, -0.5f)});
   const Vec4 point = pack_from_view * Vec4(0.3f, -0.1f, -2, 1);
   const auto ndc = [&](const View& view) {
     return Vec2(view.clip_from_pack * point) / (view.clip_from_pack * point).w;
@@ -102,7 +102,7 @@ TEST_F(ExposedEdge, OutOfFocusIsAsWideAsTheCircleOfConfusion) {
   constexpr float kRadius = 0.2f;
   for (const float focus : {1.0f, 2.0f, kWall, 30.0f}) {
     const double found = spread([&](const ExposurePoint& at, const Bounds& bounds) {
-      return lens_view(camera_, kSize, bounds, kRadius * at.lens, focus, at.pixel);
+      return lens_view(camera_, kSize, bounds, {kRadius * at.lens, focus, at.pixel});
     });
     const double confusion = double{kRadius} * std::abs(1 / double{kWall} - 1 / double{focus}) * double{pixels_};
     if (focus == kWall)
@@ -118,7 +118,7 @@ TEST_F(ExposedEdge, AnEyeThatMovesAsideBlursByItsWay) {
     const double found = spread([&](const ExposurePoint& at, const Bounds& bounds) {
       Camera camera = camera_;
       camera.eye.x += way_m * at.time;
-      return lens_view(camera, kSize, bounds, Vec2(0), 1, at.pixel);
+      return lens_view(camera, kSize, bounds, {Vec2(0), 1, at.pixel});
     });
     const double way = double{way_m / kWall * pixels_};
     EXPECT_NEAR(found, std::sqrt(way * way / 12 + 1.0 / 6), 0.02 * found) << way_m;
