@@ -165,9 +165,11 @@ void separate_layers(Scene& scene, Context& context) {
       if (end - i < 2) continue;
       for (const Layer& layer : plane.layers(std::span(cells.planar).subspan(i, end - i))) {
         if (!done.insert(layer.triangles).second) continue;
-        const bool stands = plane.meets(layer, cells.other_side_of(layer)) && lifter.has_body(layer, one_place);
+        const std::uint32_t met = plane.met(layer, cells.other_side_of(layer));
+        if (layer.level == 0 && met == ~0u) continue;
+        const bool stands = met != ~0u && (layer.level == 0 || lifter.has_body(layer, one_place));
         lifter.move(plane, layer, stands ? -lift : layer.level * lift);
-        told.try_emplace(scene.triangle_surface[layer.triangles.front()], layer.below);
+        told.try_emplace(scene.triangle_surface[layer.triangles.front()], layer.level == 0 ? met : layer.below);
       }
     }
   }

@@ -28,20 +28,21 @@ PrimitiveDesc parse_primitive(const Json& value, std::size_t materials, const Do
   return p;
 }
 
-// A matrix that is no translation, rotation and scale (glTF-Validator: NODE_MATRIX_NON_TRS).
-bool decomposable(const DMat4& m) {
+// A matrix that puts something somewhere: affine, and no axis of no length.
+bool places(const DMat4& m) {
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return false;
-  const DVec3 axes[3] = {DVec3(m[0]), DVec3(m[1]), DVec3(m[2])};
-  double lengths[3];
-  for (int i = 0; i < 3; ++i) {
-    lengths[i] = std::hypot(axes[i].x, axes[i].y, axes[i].z);
-    if (!(lengths[i] > 0) || !std::isfinite(lengths[i])) return false;
-  }
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3;
-    if (std::abs(glm::dot(axes[i] / lengths[i], axes[k] / lengths[k])) > 1e-4) return false;
-  }
+  for (int i = 0; i < 3; ++i)
+    if (const double length = std::hypot(m[i].x, m[i].y, m[i].z); !(length > 0) || !std::isfinite(length)) return false;
   return true;
+}
+
+// A matrix that is no translation, rotation and scale (glTF-Validator: NODE_MATRIX_NON_TRS). Of one that places().
+bool shears(const DMat4& m) {
+  for (int i = 0; i < 3; ++i) {
+    const DVec3 a(m[i]), b(m[(i + 1) % 3]);
+    if (std::abs(glm::dot(a / std::hypot(a.x, a.y, a.z), b / std::hypot(b.x, b.y, b.z))) > 1e-4) return true;
+  }
+  return false;
 }
 
 void parse_transform(const Json& value, NodeDesc& node) {
@@ -64,8 +65,8 @@ void parse_transform(const Json& value, NodeDesc& node) {
   std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   matrix.numbers(m);
   for (std::size_t i = 0; i < 16; ++i) node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = m[i];
-  if (!decomposable(node.matrix))
-    matrix.error("found a matrix that shears or is singular, expected a translation, rotation and scale");
+  if (!places(node.matrix))
+    matrix.error("found a matrix that is singular or not affine, expected a translation, rotation and scale");
 }
 
 // Half of extras.oriel.angular_diameter_deg: how large a directional light appears.
@@ -258,10 +259,19 @@ void parse_nodes(const Json& root, Document& document) {
   for (std::size_t i = 0; i < lights.size(); ++i) document.lights.push_back(parse_light(lights.at(i), i, document));
   const std::size_t skins = root["skins"].size();
   bool skinned = false;
+  std::size_t sheared = 0, last_sheared = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     document.nodes.push_back(parse_node(nodes.at(i), nodes.size(), skins, document));
     skinned |= nodes.at(i)["skin"].present();
+    if (document.nodes.back().has_matrix && places(document.nodes.back().matrix) &&
+        shears(document.nodes.back().matrix))
+      ++sheared, last_sheared = i;
   }
+  if (sheared > 0)
+    document.warnings.push_back(
+        fmt::format("{}: {} matrices shear, which glTF does not allow, that of nodes[{}] among "
+                    "them; they are taken as they stand",
+                    document.file, sheared, last_sheared));
   if (skinned) document.warnings.push_back("skins are left out: meshes stand in their bind pose");
   check_tree(nodes, document);
   if (!root.document().status()) return;

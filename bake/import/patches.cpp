@@ -41,22 +41,29 @@ double shared_area(const std::array<DVec2, 3>& subject, const std::array<DVec2, 
 
 }  // namespace
 
+bool lets_through(const SceneMaterial& material) {
+  return material.alpha_mode != AlphaMode::kOpaque || material.transmission > 0;
+}
+
 std::vector<Layer> PlanePatches::layers(std::span<const Planar> triangles) {
   triangles_.assign(triangles.begin(), triangles.end());
   find_patches();
-  if (patches_.size() < 2) return {};
+  if (patches_.size() < 2 && !patches_.front().lets_through) return {};
   project();
   find_overlaps();
   return stack();
 }
 
-bool PlanePatches::meets(const Layer& layer, std::span<const Planar> others) const {
+std::uint32_t PlanePatches::met(const Layer& layer, std::span<const Planar> others) const {
   std::vector<Flat> patch;
   for (const std::uint32_t t : layer.triangles) patch.push_back(flattened(t));
-  return std::ranges::any_of(others, [&](const Planar& other) {
+  for (const Planar& other : others) {
+    const std::uint32_t s = scene_.triangle_surface[other.triangle];
+    if (lets_through(scene_.materials[scene_.surfaces[s].material])) continue;
     const Flat f = flattened(other.triangle);
-    return std::ranges::any_of(patch, [&](const Flat& p) { return overlap(p, f); });
-  });
+    if (std::ranges::any_of(patch, [&](const Flat& p) { return overlap(p, f); })) return s;
+  }
+  return ~0u;
 }
 
 bool PlanePatches::has_elsewhere(std::uint32_t vertex, std::uint32_t patch) const {
@@ -94,7 +101,7 @@ void PlanePatches::find_patches() {
     const std::uint32_t r = root(i);
     if (patch_of_[r] == ~0u) {
       patch_of_[r] = static_cast<std::uint32_t>(patches_.size());
-      patches_.emplace_back().lets_through = scene_.materials[surface(i).material].alpha_mode != AlphaMode::kOpaque;
+      patches_.emplace_back().lets_through = oriel::lets_through(scene_.materials[surface(i).material]);
     }
     patch_of_[i] = patch_of_[r];
     patches_[patch_of_[i]].members.push_back(i);
@@ -178,7 +185,7 @@ std::vector<Layer> PlanePatches::stack() {
       layer.below = scene_.triangle_surface[triangles_[patches_[other].members.front()].triangle];
     }
     level[p] = layer.level = std::min(layer.level, kMostLayers);
-    if (layer.level == 0) continue;
+    if (layer.level == 0 && !patches_[p].lets_through) continue;
     for (const std::uint32_t i : patches_[p].members) layer.triangles.push_back(triangles_[i].triangle);
     layers.push_back(std::move(layer));
   }

@@ -34,23 +34,28 @@ struct PlaceHash {
   }
 };
 
-// A patch that lies on others.
+// A patch that lies on others, or lets light through and may lie on what faces it.
 struct Layer {
   std::vector<std::uint32_t> triangles;
   std::uint32_t patch = 0;
   std::uint32_t below = 0;  // a surface that it lies on
-  int level = 0;            // layers below it
+  int level = 0;            // layers below it; 0: it lets light through
 };
+
+// Whether a surface of the material lets light through, all of it or by places.
+bool lets_through(const SceneMaterial& material);
 
 // What lies in one plane. one_place: of what is no further apart than that, metres, rays cannot tell which is in front.
 class PlanePatches {
  public:
   PlanePatches(const Scene& scene, double one_place) : scene_(scene), one_place_(one_place) {}
 
-  // The patches of these triangles that lie on others. They are of one cell, in the order of the scene.
+  // The patches of these triangles that lie on others or let light through. They are of one cell, in the order of the
+  // scene.
   std::vector<Layer> layers(std::span<const Planar> triangles);
-  // Of the last triangles: whether one of others overlaps one of the layer, seen along the plane's normal.
-  bool meets(const Layer& layer, std::span<const Planar> others) const;
+  // Of the last triangles: the first surface of others that lets no light through and of which a triangle overlaps one
+  // of the layer, seen along the plane's normal; ~0u: none.
+  std::uint32_t met(const Layer& layer, std::span<const Planar> others) const;
   // Likewise: whether a vertex is one of another patch.
   bool has_elsewhere(std::uint32_t vertex, std::uint32_t patch) const;
 

@@ -74,6 +74,25 @@ TEST(Coplanar, LayersLieOnEachOther) {
   EXPECT_LT(height(scene, 3), height(scene, 1)) << "what lets light through lies on top";
 }
 
+// A case of glass, a pane seen from both sides or a block, does not hide what it stands on.
+TEST(Coplanar, GlassStandsOnWhatItStandsOn) {
+  for (const bool block : {false, true}) {
+    std::uint32_t m = 0;
+    SceneParts parts = floor_of(&m);
+    SceneMaterial glass;
+    glass.transmission = 1, glass.metallic = 0, glass.roughness = 0;
+    glass.solid = block, glass.double_sided = !block;
+    parts.box("case", parts.add(glass), Vec3(-1, 0, -1), Vec3(0, 1, 0));
+    const Scene scene = separated(parts);
+    const Surface& box = scene.surfaces[1];
+    float lowest = 1;
+    for (std::uint32_t v = box.first_vertex; v < box.first_vertex + box.vertex_count; ++v)
+      lowest = std::min(lowest, scene.positions[v].y);
+    EXPECT_NEAR(lowest, 1e-4f * scene.radius(), 1e-6f);
+    EXPECT_EQ(height(scene, 0), 0);
+  }
+}
+
 // Tiles beside each other, a box on the floor, a sheet's other side and a roof of two sheets are not in each other's
 // way.
 TEST(Coplanar, NeighboursAndOppositeSidesStay) {

@@ -186,12 +186,26 @@ TEST(Nodes, MatricesMustDecompose) {
   ASSERT_TRUE(good.ok()) << good.error();
   EXPECT_NEAR(good.scene().origin.y, 7, 1e-9);
   for (const json& bad :
-       {json{1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, json{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
-        json{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, json{1, 2, 3},
-        json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x"}}) {
+       {json{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, json{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+        json{1, 2, 3}, json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x"}}) {
     matrix = bad;
     EXPECT_NE(import(g).error().find("nodes[0].matrix"), std::string::npos) << bad;
   }
+}
+
+// glTF forbids it, exporters of other formats write it, and every viewer shows it.
+TEST(Nodes, MatricesThatShearStandAsTheyAre) {
+  Gltf g = triangle();
+  g.doc["nodes"][0]["matrix"] = {1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  const Imported r = import(g);
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(broken_promise(r.scene()), "");
+  EXPECT_TRUE(r.warned("1 matrices shear"));
+  EXPECT_TRUE(r.warned("nodes[0]"));
+  float farthest = 0;  // of (0, 0), (1, 0) and (0, 1) along the diagonal: the second comes to (1, 1)
+  for (const Vec3& p : r.scene().positions)
+    farthest = std::max(farthest, p.x + p.y - r.scene().lower.x - r.scene().lower.y);
+  EXPECT_NEAR(farthest, 2, 1e-6);
 }
 
 TEST(Nodes, ScenesAreChosen) {
