@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kFlatTexels = 64;     // a flat region of less area (texels²) may join its neighbours
 constexpr double kSmoothCos = 0.966;   // 15°: a neighbour within it continues a surface smoothly
+constexpr double kNarrowTexels = 4;    // a strip of that width shaded like its neighbours is part of a curve
+constexpr float kAlikeCos = 0.9998f;   // of shading normals that are the same
 constexpr int kRegrowths = 4;          // of a curved chart, around the mean normal found so far, while it helps
 constexpr double kLargestStretch = 2;  // L∞ of a chart
 constexpr double kBoxFill = 0.6;       // of a large curved chart
@@ -136,20 +138,38 @@ class Grower {
     finish(std::move(region), {{}, true, true});
   }
 
-  // True where along most of the outline a neighbour goes on at nearly the same angle.
+  // True where along most of the outline a neighbour goes on at nearly the same angle. Of strips that are narrower than
+  // texels show a gradient on, as the sides of columns, shading tells instead.
   bool continues_smoothly(const Faces& region, const DVec3& normal) const {
-    double outline = 0, smooth = 0;
+    double outline = 0, smooth = 0, shaded = 0, area = 0;
     for (const std::uint32_t face : region) {
+      area += static_cast<double>(frame_[face].area);
       for_neighbours(face, [&](int neighbour, std::uint32_t edge) {
         if (neighbour >= 0 && visit_[static_cast<std::size_t>(neighbour)] == round_) return;
         const double length =
             glm::length(corner(face, static_cast<int>((edge + 1) % 3)) - corner(face, static_cast<int>(edge % 3)));
         outline += length;
-        if (neighbour >= 0 && glm::dot(normal_of(static_cast<std::uint32_t>(neighbour)), normal) >= kSmoothCos)
-          smooth += length;
+        if (neighbour < 0) return;
+        const auto to = static_cast<std::uint32_t>(neighbour);
+        if (glm::dot(normal_of(to), normal) >= kSmoothCos) smooth += length;
+        if (glm::dot(normal_of(to), normal) >= curved_cos_ && shaded_alike(face, to, edge)) shaded += length;
       });
     }
-    return smooth > 0.5 * outline;
+    const bool narrow = 2 * area < kNarrowTexels * options_.texel_m * outline;
+    return smooth > 0.5 * outline || (narrow && shaded > 0.5 * outline);
+  }
+
+  // Whether two faces have the same shading normals at both ends of their common edge.
+  bool shaded_alike(std::uint32_t face, std::uint32_t to, std::uint32_t edge) const {
+    const UVec3 &a = scene_.triangles[first_ + face], &b = scene_.triangles[first_ + to];
+    for (const std::uint32_t k : {edge % 3, (edge + 1) % 3}) {
+      bool alike = false;
+      for (int i = 0; i < 3; ++i)
+        alike |= scene_.positions[a[static_cast<int>(k)]] == scene_.positions[b[i]] &&
+                 glm::dot(scene_.normals[a[static_cast<int>(k)]], scene_.normals[b[i]]) >= kAlikeCos;
+      if (!alike) return false;
+    }
+    return true;
   }
 
   DVec3 mean_normal_of(const Faces& faces) const {

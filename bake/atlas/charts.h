@@ -40,8 +40,8 @@ inline Triangle3 triangle_corners(const Scene& scene, std::uint32_t triangle) {
 
 // Charts of every triangle of a surface, front sides only: a lightmap serves both sides of a double-sided one.
 //  1. Flat regions of at least 64 texels² are charts of their own, exactly to scale. A patch whose surroundings go on
-//     smoothly (within 15° along most of its outline) is a part of something curved and is left
-//     to 2.
+//     smoothly (within 15° along most of its outline) is a part of something curved and is left to 2. So is a strip of
+//     at most 4 texels with the shading normals of its neighbours, within the curved angle: a side of a column.
 //  2. The rest is grown outwards from its largest triangle, to all whose normals lie within the curved angle of the
 //     mean normal that the growths before it found, and across no sharper edge.
 //  3. Each region is laid flat (flatten.h). One that would fold, overlap itself or stretch too much is cut across its

@@ -184,6 +184,21 @@ TEST_P(CurvedShapes, AreSoundInFewCharts) {
   }
 }
 
+// Tall columns of few sides: a side is no chart where shading says that it is round. A texel of each side's own would
+// show the sides as steps.
+TEST(Atlas, SidesOfAColumnAreNoCharts) {
+  for (const std::uint32_t sides : {12u, 16u, 24u}) {
+    AtlasOptions options;
+    options.texel_m = 0.1f;
+    Scene round = shapes::empty_scene();
+    shapes::add_cylinder(round, "column", 0.2f, 12, sides, 1);
+    const Built built = build(round, options);
+    expect_sound(round, built);
+    EXPECT_LE(built.atlas.chart_count, 6u) << sides;  // with its ends
+    EXPECT_LE(built.atlas.report.l2_stretch, 1.1) << sides;
+  }
+}
+
 // A metre of a moulding that turns by 60 degrees in less than a texel.
 TEST(Atlas, AMouldingHasTexelsForTheSidesItTurnsTo) {
   for (const double radius : {0.06, 0.02}) {
