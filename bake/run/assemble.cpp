@@ -1,10 +1,20 @@
 #include "bake/run/assemble.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
 namespace oriel {
 namespace {
+
+bool same_coordinates(const TextureSlot& a, const TextureSlot& b) {
+  return a.texcoord == b.texcoord && a.image_from_uv == b.image_from_uv;
+}
+
+// Whose coordinates a material's surfaces have: its base colour's, or without one those of the picture it shines with.
+const TextureSlot& shown_slot(const SceneMaterial& m) {
+  return m.base_color_texture.image >= 0 ? m.base_color_texture : m.emission_texture;
+}
 
 // Copies vertices on demand, one for each (scene vertex, lightmap uv) pair.
 class VertexSplitter {
@@ -21,7 +31,7 @@ class VertexSplitter {
     mesh_.positions.push_back(scene_.positions[v]);
     scene_vertex_.push_back(v);
     mesh_.normals.push_back(scene_.normals[v]);
-    mesh_.uvs.push_back(texture_uv(material.base_color_texture, v));
+    mesh_.uvs.push_back(texture_uv(shown_slot(material), v));
     mesh_.lightmap_uvs.push_back(lightmap_uv);
     if (mapped_) {
       const bool own = material.normal_texture.image >= 0 && !scene_.tangents.empty();
@@ -143,6 +153,14 @@ void assemble_materials(const Scene& scene, const MaterialMaps& maps, Pack& pack
     m.kernel = maps.kernel[i];
     m.fresnel_map = maps.fresnel_map[i];
     m.base_color_texture = colors.index(in.base_color_texture);
+    if (in.emission_texture.image >= 0 && max_component(mean.emission) > 0 &&
+        same_coordinates(shown_slot(in), in.emission_texture)) {
+      Vec3 texel(0);
+      for (int c = 0; c < 3; ++c)
+        if (in.emission[c] > 0) texel[c] = std::min(mean.emission[c] / in.emission[c], 1.0f);
+      const auto texture = static_cast<std::uint32_t>(colors.index(in.emission_texture));
+      pack.emission_textures.push_back({static_cast<std::uint32_t>(i), texture, texel});
+    }
     m.normal_texture = normals.index(in.normal_texture);
     m.normal_scale = in.normal_scale;
     pack.materials.push_back(std::move(m));

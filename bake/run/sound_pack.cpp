@@ -24,6 +24,7 @@ void remove_directions(Pack& pack) {
 void remove_textures(Pack& pack) {
   pack.textures.clear();
   for (Material& m : pack.materials) m.base_color_texture = -1;
+  pack.emission_textures.clear();
 }
 
 void remove_normal_textures(Pack& pack) {
@@ -69,12 +70,13 @@ void remove_walk_grids(Pack& pack) {
   pack.reflected_sets = {};
 }
 
-const std::array<Removable, 13>& removables() {
-  static const std::array<Removable, 13> kAll = {{
+const std::array<Removable, 14>& removables() {
+  static const std::array<Removable, 14> kAll = {{
       {"directions of the lightmap", {}, remove_directions},
       {"textures", {kTextureSection}, remove_textures},
       {"normal maps", {kNormalTextureSection}, remove_normal_textures},
       {"solid glass", {kSolidSection}, [](Pack& pack) { pack.solids.clear(); }},
+      {"emission textures", {kEmissionTextureSection}, [](Pack& pack) { pack.emission_textures.clear(); }},
       {"radiance maps", {kReflectorSection, kRadianceMapSection, kMapMeshSection, kEmitterSection}, remove_reflectors},
       {"surround maps", {kCurvedReflectorSection, kSurroundMapSection}, remove_curved_reflectors},
       {"kernels", {kKernelSection}, remove_kernels},

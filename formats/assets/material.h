@@ -48,4 +48,12 @@ struct SolidGlass {
   Vec3 absorption{0};          // 1/m, >= 0: Beer and Lambert's law
 };
 
+// The picture that a material shines with: a screen, a light box. Its radiance is emission · texel / mean, texels
+// linear.
+struct EmissionTexture {
+  std::uint32_t material = 0;  // into Pack::materials
+  std::uint32_t texture = 0;   // into Pack::textures, by the same coordinates as the base colour's
+  Vec3 mean{1};                // of its texels over the material's surfaces, >= 0; 0 where it does not shine
+};
+
 }  // namespace oriel

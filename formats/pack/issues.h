@@ -94,6 +94,7 @@ void validate_light_field(const Pack& pack, IssueList& list);
 void validate_light_groups(const Pack& pack, IssueList& list);
 void validate_materials(const Pack& pack, IssueList& list);
 void validate_solids(const Pack& pack, IssueList& list);
+void validate_emission_textures(const Pack& pack, IssueList& list);
 void validate_textures(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_lightmaps(const Pack& pack, ImagePixels pixels, IssueList& list);
 void validate_reflectors(const Pack& pack, IssueList& list);

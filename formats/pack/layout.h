@@ -78,6 +78,7 @@ inline constexpr std::uint32_t kSceneSection = fourcc("SCNE");
 inline constexpr std::uint32_t kMeshSection = fourcc("MESH");
 inline constexpr std::uint32_t kMaterialSection = fourcc("MATL");
 inline constexpr std::uint32_t kSolidSection = fourcc("GLAS");
+inline constexpr std::uint32_t kEmissionTextureSection = fourcc("ETEX");
 inline constexpr std::uint32_t kTextureSection = fourcc("TEXR");
 inline constexpr std::uint32_t kLightmapSection = fourcc("LMAP");
 inline constexpr std::uint32_t kNormalTextureSection = fourcc("NTEX");
@@ -102,13 +103,14 @@ inline constexpr std::uint32_t kPageGroupsSection = fourcc("GLMP");
 inline constexpr std::uint32_t kDaySection = fourcc("DAYH");
 
 // In the order in which the writer puts them; unknown sections follow.
-inline constexpr std::array<SectionKind, 28> kSectionKinds = {{
+inline constexpr std::array<SectionKind, 29> kSectionKinds = {{
     {kProvenanceSection, "provenance", true, false, false},
     {kPlanSection, "plan", true, false, false},
     {kSceneSection, "scene", false, true, false},
     {kMeshSection, "mesh", false, true, false},
     {kMaterialSection, "materials", false, false, false},
     {kSolidSection, "solid glass", true, false, false},
+    {kEmissionTextureSection, "emission textures", true, false, false},
     {kTextureSection, "texture", false, false, true},
     {kLightmapSection, "lightmap page", false, false, true},
     {kNormalTextureSection, "normal texture", true, false, true},

@@ -42,7 +42,8 @@ struct Pack {
   Mesh mesh;
   Vec3 sky{0};  // constant sky radiance, cd/m²
   std::vector<Material> materials;
-  std::vector<SolidGlass> solids;  // by rising material
+  std::vector<SolidGlass> solids;                  // by rising material
+  std::vector<EmissionTexture> emission_textures;  // by rising material
   std::vector<Texture> textures;
   std::vector<Texture> normal_textures;
   std::vector<LightmapPage> lightmaps;

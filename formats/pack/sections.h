@@ -11,6 +11,7 @@ namespace oriel {
 void describe(Serial& s, Mesh& mesh);
 void describe(Serial& s, Material& material);
 void describe(Serial& s, SolidGlass& solid);
+void describe(Serial& s, EmissionTexture& emission);
 void describe(Serial& s, Texture& texture);
 void describe(Serial& s, LightmapPage& page);
 void describe(Serial& s, Reflector& reflector);
@@ -79,6 +80,7 @@ void visit_sections(P& pack, Visitor& v) {
   v.one(kMeshSection, pack.mesh, true);
   v.list(kMaterialSection, pack.materials);
   v.list(kSolidSection, pack.solids);
+  v.list(kEmissionTextureSection, pack.emission_textures);
   v.each(kTextureSection, pack.textures);
   v.each(kLightmapSection, pack.lightmaps);
   v.each(kNormalTextureSection, pack.normal_textures);

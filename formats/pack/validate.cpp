@@ -179,6 +179,21 @@ void validate_solids(const Pack& pack, IssueList& list) {
   }
 }
 
+void validate_emission_textures(const Pack& pack, IssueList& list) {
+  list.in_section(kEmissionTextureSection);
+  for (std::size_t i = 0; i < pack.emission_textures.size(); ++i) {
+    const EmissionTexture& e = pack.emission_textures[i];
+    if (e.material >= pack.materials.size() || e.texture >= pack.textures.size())
+      list.error(212, "emission texture {}: found material {} and texture {}, expected less than {} and {}", i,
+                 e.material, e.texture, pack.materials.size(), pack.textures.size());
+    if (i > 0 && e.material <= pack.emission_textures[i - 1].material)
+      list.error(212, "emission texture {}: found material {} after {}, expected rising ones", i, e.material,
+                 pack.emission_textures[i - 1].material);
+    if (!not_negative(e.mean) || max_component(e.mean) > 1)
+      list.error(213, "emission texture {}: found mean {}, expected 0 to 1", i, text_of(e.mean));
+  }
+}
+
 void validate_cameras(const Pack& pack, IssueList& list) {
   list.in_section(kCameraSection);
   for (std::size_t i = 0; i < pack.cameras.size(); ++i) validate_camera(i, pack.cameras[i], list);
@@ -213,6 +228,7 @@ std::vector<Issue> validate(const Pack& pack, ImagePixels pixels) {
   validate_mesh(pack, list);
   validate_materials(pack, list);
   validate_solids(pack, list);
+  validate_emission_textures(pack, list);
   validate_textures(pack, pixels, list);
   validate_lightmaps(pack, pixels, list);
   validate_reflectors(pack, list);

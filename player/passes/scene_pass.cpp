@@ -43,8 +43,9 @@ void set_material(const gpu::Program& program, const GpuScene& scene, std::uint3
   lightmap.detail.bind(kDetailUnit);
 }
 
-bool is_plain(const Material& m) {
-  return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit;
+bool is_plain(const GpuScene& scene, std::uint32_t material) {
+  const Material& m = scene.pack().materials[material];
+  return m.normal_texture < 0 && cutoff_of(m) < 0 && !m.unlit && scene.emission_texture(material) == nullptr;
 }
 
 // A see-through part, or a body of glass.
@@ -135,7 +136,7 @@ void ScenePass::draw_opaque(const FrameContext& context, std::span<const DrawBat
   for (const DrawBatch& batch : shown) {
     const bool twice = reflective.contains(batch.material);
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(m) && !change ? plain_opaque_ : opaque_;
+    const gpu::Program& program = is_plain(scene, batch.material) && !change ? plain_opaque_ : opaque_;
     program.use();
     state.cull = cull_of(m);
     state.blend = gpu::Blend::kNone;
@@ -170,7 +171,7 @@ void ScenePass::draw_reflected(const FrameContext& context, const MirroredScene&
   state.stencil_read = kReflectorBits;
   const auto draw = [&](const DrawBatch& batch, float undirected, float emission) {
     const Material& m = scene.pack().materials[batch.material];
-    const gpu::Program& program = is_plain(m) ? reflected_opaque_ : opaque_;
+    const gpu::Program& program = is_plain(scene, batch.material) ? reflected_opaque_ : opaque_;
     program.use();
     state.cull = cull_of(m);
     gpu::apply(state);

@@ -16,6 +16,11 @@ constexpr int kKernelTaps = 48, kCoarseTaps = 12;
 constexpr std::size_t kFewTriangles = 20000;  // that no device minds
 constexpr float kFewerPixels = 1;             // of a coarse frame, that fewer triangles are off by
 
+const EmissionTexture* find_emission_texture(const Pack& pack, std::uint32_t material) {
+  const auto found = std::ranges::lower_bound(pack.emission_textures, material, {}, &EmissionTexture::material);
+  return found != pack.emission_textures.end() && found->material == material ? &*found : nullptr;
+}
+
 // Where the images of ranges are seen.
 void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::function<Bounds(const Bounds&)>& placed,
               std::vector<ImageUse>& uses) {
@@ -26,6 +31,8 @@ void add_uses(const Pack& pack, std::span<const DrawRange> ranges, const std::fu
     const Material& m = pack.materials[range.material];
     add(ImageKind::kColor, m.base_color_texture, range);
     add(ImageKind::kNormal, m.normal_texture, range);
+    if (const EmissionTexture* e = find_emission_texture(pack, range.material))
+      add(ImageKind::kColor, static_cast<std::int32_t>(e->texture), range);
     add(ImageKind::kLight, range.lightmap_page, range);
   }
 }
@@ -300,6 +307,17 @@ void GpuScene::upload_images(std::shared_ptr<const DeferredImages> deferred, con
   images_ = std::make_unique<SceneImages>(ImageSource(pack_, std::move(deferred), std::move(elements)), uses, loading);
 }
 
+const EmissionTexture* GpuScene::emission_texture(std::uint32_t material) const {
+  return find_emission_texture(pack_, material);
+}
+
+Vec3 GpuScene::brightest_emission(std::uint32_t material) const {
+  Vec3 brightest = pack_.materials[material].emission;
+  if (const EmissionTexture* picture = emission_texture(material))
+    for (int c = 0; c < 3; ++c) brightest[c] = picture->mean[c] > 0 ? brightest[c] / picture->mean[c] : 0.0f;
+  return brightest;
+}
+
 const gpu::Texture2d& GpuScene::albedo(std::int32_t index) const {
   return index < 0 ? white_ : images_->color(static_cast<std::uint32_t>(index));
 }
@@ -322,7 +340,8 @@ bool GpuScene::fits_halves() const {
   constexpr float kLeastRadius = 0.1f;  // m: a near plane of a smaller scene is nearer than 1 / distance can say
   if (!(0.5f * glm::length(bounds_.upper - bounds_.lower) >= kLeastRadius)) return false;
   float most = max_component(pack_.sky);
-  for (const Material& m : pack_.materials) most = std::max(most, max_component(m.emission));
+  for (std::uint32_t m = 0; m < pack_.materials.size(); ++m)
+    most = std::max(most, max_component(brightest_emission(m)));
   for (std::uint32_t i = 0; i < pack_.lightmaps.size(); ++i)
     most = std::max(most, images_->light(i).scale * kOfScale / kPi);
   return most <= kMostInHalves;

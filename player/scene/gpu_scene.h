@@ -143,6 +143,10 @@ class GpuScene {
     glBindVertexArray(vertex_array_.name());
     (shown_buffer_ ? *shown_buffer_ : index_buffer_).bind(GL_ELEMENT_ARRAY_BUFFER);
   }
+  // cd/m² where its picture is white, or of the whole material.
+  Vec3 brightest_emission(std::uint32_t material) const;
+  // The picture that a material shines with; nothing where that is even.
+  const EmissionTexture* emission_texture(std::uint32_t material) const;
   // White where index is -1.
   const gpu::Texture2d& albedo(std::int32_t index) const;
   // Of Pack::normal_textures; one that tilts nothing where index is -1.

@@ -21,6 +21,7 @@ enum TextureUnit {
   kCellUnit = 9,     // of a lightmap
   kDetailUnit = 10,  // its finer light
   kPlaceUnit = 8,    // and where
+  kGlowUnit = 11,    // the picture that a surface shines with
   kSurfaceUnit = 0,  // of bright lights: what is seen
   kTakenUnit = 1,    // what movers take of them
   kShadowUnit = 6,   // shadow maps of movers
@@ -68,7 +69,8 @@ inline void set_distance_alpha(const gpu::Program& program, const View& view) {
   program.set("u_closest", kClosest);
 }
 
-// Albedo, reflectance, emission and normal map. normal_mapped: the mesh has coordinates for normal maps.
+// Albedo, reflectance, emission and its picture, and normal map. normal_mapped: the mesh has coordinates for normal
+// maps.
 inline void set_surface(const gpu::Program& program, const GpuScene& scene, std::uint32_t material,
                         bool normal_mapped) {
   const Material& m = scene.pack().materials[material];
@@ -78,7 +80,10 @@ inline void set_surface(const gpu::Program& program, const GpuScene& scene, std:
   program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
   program.set("u_diffuse_share", (1 - m.metallic) * (1 - m.transmission));
   program.set("u_transmission", m.transmission);
-  program.set("u_emission", m.emission);
+  const EmissionTexture* picture = scene.emission_texture(material);
+  program.set("u_emission", scene.brightest_emission(material));
+  program.set("u_emission_texture", kGlowUnit);
+  scene.albedo(picture != nullptr ? static_cast<std::int32_t>(picture->texture) : -1).bind(kGlowUnit);
   program.set("u_unlit", m.unlit ? 1 : 0);
   program.set("u_reflectance_row", m.fresnel_map);
   if (m.fresnel_map >= 0) {

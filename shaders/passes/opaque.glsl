@@ -14,7 +14,10 @@ const int u_alpha_kind = 0;
 uniform int u_alpha_kind;  // of o_light.a: 0 kind of light, 1 one over the distance from the eye, 2 over depth
 #endif
 uniform float u_diffuse_share;  // (1 - metallic) (1 - transmission)
-uniform vec3 u_emission;        // cd/m2
+uniform vec3 u_emission;        // cd/m2, of white texels
+#ifndef PLAIN
+uniform sampler2D u_emission_texture;
+#endif
 uniform vec4 u_depth_row;    // depth of a point of pack space = dot(row, point)
 uniform float u_closest;     // least 1 / distance that is stored
 uniform vec3 u_weights;  // of the diffuse part, the undirected reflection, the emission: 0 or 1
@@ -41,6 +44,10 @@ void main() {
   vec3 irradiance = irradiance_here(normal);
   vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
+#ifdef PLAIN
   light += u_weights.z * u_emission;
+#else
+  light += u_weights.z * u_emission * texture(u_emission_texture, v_uv).rgb;
+#endif
   o_light = vec4(light, alpha_of_light(1.0));
 }

@@ -8,6 +8,7 @@ uniform bool u_covers;         // alpha is coverage; else the surface is whole
 uniform float u_diffuse_share;
 uniform float u_transmission;
 uniform vec3 u_emission;
+uniform sampler2D u_emission_texture;
 uniform bool u_unlit;
 uniform float u_unlit_scale;  // cd/m2 of a white unlit surface
 uniform vec3 u_weights;
@@ -31,7 +32,7 @@ void main() {
   vec3 irradiance = irradiance_on(normal);
   vec3 light = u_weights.x * diffuse_light(base.rgb * u_diffuse_share, reflectance, irradiance);
   light += u_weights.y * ambient_reflection(reflectance, irradiance);
-  light += u_weights.z * u_emission;
+  light += u_weights.z * u_emission * texture(u_emission_texture, v_uv).rgb;
   if (u_unlit) light = u_weights.z * base.rgb * u_unlit_scale;
   o_light = vec4(coverage * light, 0.0);
 }

@@ -91,6 +91,31 @@ TEST_F(Shading, TexturesAreDecodedAndCutOut) {
   expect_light(draw(pack, facing_camera(), 4, 4).at(2, 2), p.at(2, 2));
 }
 
+// A screen of four colours: each pixel has its texel's share of the mean, in the open and through glass, dimmed or not.
+TEST_F(Shading, ScreensShowTheirPicture) {
+  for (const float transmission : {0.0f, 0.5f}) {
+    Pack pack = lit_quad(Vec3(0));
+    pack.materials[0].transmission = transmission;
+    pack.materials[0].emission = {100, 50, 0};
+    Texture picture;
+    picture.width = picture.height = 2;
+    picture.nearest = true;
+    picture.texels = {255, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255, 188, 188, 0, 255};
+    pack.textures = {picture};
+    const float grey = linear_from_srgb(188 / 255.0f);
+    pack.emission_textures = {{0, 0, Vec3(0.5f, 0.25f, 0)}};
+    FrameOptions options;
+    options.samples = 1;
+    const Picture p = draw(pack, facing_camera(), 8, 8, options);
+    expect_light(p.at(1, 1), {200, 0, 0}, 1e-3f);
+    expect_light(p.at(6, 1), {200, 200, 0}, 1e-3f);  // where the mean is 0 nothing shines
+    expect_light(p.at(1, 6), {0, 0, 0});
+    expect_light(p.at(6, 6), Vec3(200, 200, 0) * grey, 0.01f);
+    pack.emission_textures.clear();
+    expect_light(draw(pack, facing_camera(), 8, 8, options).at(1, 6), {100, 50, 0}, 1e-3f);
+  }
+}
+
 TEST_F(Shading, SeeThroughSurfacesDimAndAdd) {
   Pack pack;
   pack.sky = {64, 64, 64};

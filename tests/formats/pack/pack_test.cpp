@@ -50,6 +50,14 @@ TEST(Pack, SolidGlassComesBack) {
   EXPECT_EQ(out.solids[0].absorption, pack.solids[0].absorption);
 }
 
+TEST(Pack, EmissionTexturesComeBack) {
+  const Pack out = round_trip(tiny_mapped_pack());
+  ASSERT_EQ(out.emission_textures.size(), 1u);
+  EXPECT_EQ(out.emission_textures[0].material, 1u);
+  EXPECT_EQ(out.emission_textures[0].texture, 0u);
+  EXPECT_EQ(out.emission_textures[0].mean, Vec3(0.5f, 0.25f, 1));
+}
+
 TEST(Pack, TinyPackIsFreeOfIssues) {
   for (const Pack& pack : {tiny_pack(), tiny_mapped_pack()})
     for (const auto& issue : validate(pack)) ADD_FAILURE() << issue.section << ": " << issue.message;
