@@ -81,12 +81,11 @@ void print_omissions(const std::vector<Warning>& omissions, BakeSession& session
   constexpr std::size_t kShown = 8;
   std::vector<std::string> lines;
   std::size_t matte = 0;
-  for (const std::string& omission : texts_of(omissions)) {
-    if (omission.starts_with("material '"))
+  for (const Warning& omission : omissions)
+    if (omission.kind == WarningKind::kNoImage)
       ++matte;
     else
-      lines.push_back(omission);
-  }
+      lines.push_back(omission.text);
   if (matte > 0)
     lines.push_back(
         fmt::format("{} material{} baked and shown, but their reflections without an image: rough, faint or "

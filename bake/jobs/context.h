@@ -33,6 +33,7 @@ enum class WarningKind {
   kUnitGuessed,    // the file's numbers are no metres
   kEyesGuessed,    // people are of another size
   kTimeOver,       // something is left out for want of time
+  kNoImage,        // a material whose reflections are shown without an image
 };
 struct Warning {
   std::string text;

@@ -34,7 +34,7 @@ std::string excluded_because(const SceneMaterial& m, const ReflectorMaterial& r,
 }
 
 Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> materials,
-                       const ReflectorOptions& options, std::vector<std::string>& omitted) {
+                       const ReflectorOptions& options, std::vector<Warning>& omitted) {
   std::vector<std::string> reason(scene.materials.size());
   std::vector<char> used(scene.materials.size());
   for (std::size_t m = 0; m < reason.size(); ++m)
@@ -50,8 +50,9 @@ Groups group_triangles(const Scene& scene, std::span<const ReflectorMaterial> ma
   for (std::size_t m = 0; m < reason.size(); ++m)
     // A material without any specular lobe leaves nothing out.
     if (used[m] && !reason[m].empty() && (materials[m].f90 > 0 || max_component(materials[m].f0) > 0))
-      omitted.push_back(fmt::format("material '{}': baked and shown, but its reflections without an image: {}",
-                                    scene.materials[m].name, reason[m]));
+      omitted.emplace_back(fmt::format("material '{}': baked and shown, but its reflections without an image: {}",
+                                       scene.materials[m].name, reason[m]),
+                           WarningKind::kNoImage);
   return groups;
 }
 
@@ -78,7 +79,7 @@ float open_share(const Accel& accel, const PlanarPatch& patch, const DVec3& norm
     if (!hit) {
       open += max_component(scene.sky) > 0;
     } else {
-      const SceneMaterial& m = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+      const SceneMaterial& m = scene.material_of(hit.triangle);
       open += hit.distance > near && (hit.front || m.double_sided);
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/brdf/fresnel.h"
+#include "bake/jobs/context.h"
 #include "bake/trace/accel.h"
 #include "formats/assets/fields.h"
 #include "formats/assets/radiance_map.h"
@@ -62,7 +63,7 @@ inline void fields(Archive& archive, FoundReflector& f) {
 
 struct FoundReflectors {
   std::vector<FoundReflector> reflectors;  // most important first
-  std::vector<std::string> omitted;        // what reflects but was left out, and why; one line each
+  std::vector<Warning> omitted;            // what reflects but was left out, and why; one line each
   // Triangles whose material shows an image, but which lie in no planar patch that is large enough; ascending.
   std::vector<std::uint32_t> unplanar;
 };

@@ -39,7 +39,8 @@ std::vector<float> lobe_widths(const MaterialMaps& maps) {
   return out;
 }
 
-void append(std::vector<Warning>& lines, const std::vector<std::string>& more) {
+template <class Line>
+void append(std::vector<Warning>& lines, const std::vector<Line>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
 }
 

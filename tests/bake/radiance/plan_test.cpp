@@ -327,7 +327,7 @@ TEST(SeenReflectors, ThoseThatNobodySeesAreLeftOutWithAReason) {
   ASSERT_EQ(found.reflectors.size(), 1u);
   EXPECT_EQ(found.reflectors[0].reflector.name, "mirror");
   ASSERT_EQ(found.omitted.size(), 2u);
-  for (const std::string& line : found.omitted)
+  for (const std::string& line : texts_of(found.omitted))
     EXPECT_NE(line.find("from nowhere where people walk is anything seen in it"), std::string::npos) << line;
 }
 

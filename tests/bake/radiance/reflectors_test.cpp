@@ -135,7 +135,7 @@ TEST(Reflectors, RoughWeakAndEmissiveOnesAreLeftOutWithAReasonAndCurvedAndSmallO
   const FoundReflectors found = w.find();
   EXPECT_TRUE(found.reflectors.empty());
   std::string all;
-  for (const std::string& line : found.omitted) all += line + "\n";
+  for (const std::string& line : texts_of(found.omitted)) all += line + "\n";
   for (const char* expected : {"'rough': baked and shown, but its reflections without an image: its roughness 0.7",
                                "image: it reflects", "image: it emits"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
@@ -211,9 +211,10 @@ TEST(Reflectors, OnlyTheMostImportantAreKept) {
   ASSERT_EQ(found.reflectors.size(), 2u);
   EXPECT_EQ(found.reflectors[0].reflector.name, "q4");
   EXPECT_EQ(found.reflectors[1].reflector.name, "q3");
-  EXPECT_GE(std::count_if(found.omitted.begin(), found.omitted.end(),
-                          [](const std::string& s) { return s.find("less important than") != std::string::npos; }),
-            3);
+  EXPECT_GE(
+      std::count_if(found.omitted.begin(), found.omitted.end(),
+                    [](const Warning& line) { return line.text.find("less important than") != std::string::npos; }),
+      3);
 }
 
 TEST(Rectangle, IsTightAndPrefersTheGivenAxes) {
