@@ -28,7 +28,7 @@ struct SmallPlan {
 Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, Context& context) {
   const std::vector<FoundReflector>& found = in.reflections.found.reflectors;
   SmallPlan small{found, {}, 0, 0};
-  const WallClock clock;
+  const ElapsedTime clock;
   if (in.options.view_scheme == ViewScheme::kHemisphere) {
     small.maps = plan_views(in.prepared.scene(), small.reflectors, in.options.views).maps;
   } else {
@@ -41,7 +41,7 @@ Result<SmallPlan> plan_with_fewer(const CensusInput& in, std::uint32_t divisor, 
     ORIEL_TRY(ViewPlan plan, plan_views_for_eyes(surroundings, fewer, context, small.reflectors, known));
     small.maps = std::move(plan.maps);
   }
-  small.seconds = clock.seconds();
+  small.seconds = clock.spent();
   for (const RadianceMap& map : small.maps) small.pixels += pixels(map);
   return small;
 }
@@ -94,9 +94,9 @@ Result<Rate> capture_parts(const CensusInput& in, const BakedScene& coarse, cons
     rays += lobe_rays;
     return radiance;
   };
-  const WallClock clock;
+  const ElapsedTime clock;
   ORIEL_TRY_VOID(capture_maps({surroundings, outgoing}, {context, &rays}, strips));
-  const double seconds = clock.seconds(), count = kStrips * pixels(strips.front());
+  const double seconds = clock.spent(), count = kStrips * pixels(strips.front());
   ORIEL_TRY(const double bytes,
             stored_bytes(in, coarse, surroundings.reflectors()[whole.reflector].reflector, std::move(strips)));
   return Rate{seconds / count, static_cast<double>(rays) / count, bytes / count};

@@ -1,21 +1,11 @@
 // Small parts of a bake that its cost is told from.
 #pragma once
 
-#include <chrono>
-
 #include "bake/plan/predict.h"
 #include "bake/run/baked_light.h"
 #include "formats/pack/pack.h"
 
 namespace oriel {
-
-class WallClock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Mesh, materials and textures alone: whole with lightmaps for the atlas's pages.
 Pack pack_of_scene(const Scene& scene, const Atlas& atlas);

@@ -66,10 +66,10 @@ Result<LightmapPilot> bake_coarse(const CensusInput& in, double coarser, Context
   coarse.texel_m = static_cast<float>(coarser) * in.prepared.atlas.texel_m;
   ORIEL_TRY(pilot.atlas, build_atlas(in.prepared.scene(), coarse, context, in.prepared.demand));
   ORIEL_TRY(const auto texel_map, build_texel_map(pilot.atlas, context));
-  const WallClock clock;
+  const ElapsedTime clock;
   const Transport transport{*in.prepared.accel, in.lights, path_options(in.options)};
   ORIEL_TRY(pilot.radiosity, bake_radiosity({transport, pilot.atlas, texel_map}, pilot_options(in), context));
-  pilot.seconds = clock.seconds();
+  pilot.seconds = clock.spent();
   pilot.texels = texels_of(texel_map);
   ORIEL_TRY_VOID(weigh(in.prepared.scene(), pilot));
   return pilot;
@@ -168,7 +168,7 @@ TexelWork fit_work(const double (&n)[2], const double (&w)[2]) {
 
 Result<Prediction> predict(const CensusInput& in, const Census& census, double spent, Context& context) {
   Prediction p;
-  const WallClock clock;
+  const ElapsedTime clock;
   p.components.push_back({.name = "preparation", .seconds = spent});
   const bool light = std::any_of(census.stages.begin(), census.stages.end(),
                                  [](const StageCensus& s) { return s.name == "radiosity" && s.runs; });
@@ -189,7 +189,7 @@ Result<Prediction> predict(const CensusInput& in, const Census& census, double s
   for (const Component& c : p.components) p.seconds += c.seconds, p.bytes += c.bytes;
   add_limits(in, p);
   add_memory_limit(in, p);
-  p.pilot_seconds = clock.seconds();
+  p.pilot_seconds = clock.spent();
   return p;
 }
 
