@@ -16,7 +16,7 @@ ViewShares look_around(const Accel& accel, std::span<const Vec3> eyes, std::uint
     Sampler sampler(seed + 0x5ee, 0, i);
     const Hit hit = accel.intersect({eyes[i / kRays], square_to_sphere(sampler.next2())});
     if (!hit) continue;
-    const bool both = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].double_sided;
+    const bool both = scene.material_of(hit.triangle).double_sided;
     (hit.front || both ? shares.front : shares.back)[hit.triangle] += one;
   }
   return shares;

@@ -99,7 +99,7 @@ class ReflectedSurroundings::Walk {
 
   // True where the ray ends there.
   bool meets(const Hit& hit, const Vec3& p) {
-    const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    const SceneMaterial& material = scene_.material_of(hit.triangle);
     const bool back = !hit.front && !material.double_sided;
     const float cosine = std::abs(glm::dot(geometric_normal(scene_, hit.triangle), ray_.direction));
     if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them

@@ -96,7 +96,7 @@ class SurroundCapture {
 
   // Adds what a surface shows; the ray ends there unless it lets light pass.
   void meet(const Hit& hit, const Vec3& p, const Vec3& direction, SurroundSight& sight) {
-    const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    const SceneMaterial& material = scene_.material_of(hit.triangle);
     Vec3 through(0);
     float coverage = 1;
     if (may_transmit(material) && !material.unlit) {  // light passes unlit surfaces, but eyes see them

@@ -28,8 +28,7 @@ Vec3 direction_at(const LightmapPage& page, const Vec2& uv) {
 // Emission and diffuse reflection, and where wide_lobe the specular one too, as if its lobe were that wide.
 Vec3 shown_light(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface, bool wide_lobe) {
   const Scene& scene = baked.accel.scene();
-  if (scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material].unlit)
-    return surface.shade.base_color;
+  if (scene.material_of(seen.hit.triangle).unlit) return surface.shade.base_color;
   const Vec3 light = surface.emits && seen.emission ? surface.shade.emission : Vec3(0);
   if (!seen.hit.front) return light;  // lit backs have triangles of their own
   const Vec3 r = reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye));
@@ -67,7 +66,7 @@ Vec3 lobe_light(const BakedScene& baked, const SurfacePoint& surface, const Vec3
 bool shows_lobe(const BakedScene& baked, const SeenSurface& seen, const SurfacePoint& surface) {
   if (seen.mirror || seen.planar || seen.glossy) return seen.glossy;
   const Scene& scene = baked.accel.scene();
-  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[seen.hit.triangle]].material];
+  const SceneMaterial& material = scene.material_of(seen.hit.triangle);
   const float r = max_component(reflectance(surface.shade, glm::dot(surface.normal, seen.towards_eye)));
   return seen.hit.front && !material.unlit && r > max_component(surface.shade.diffuse) * (1 - r);
 }

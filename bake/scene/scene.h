@@ -186,6 +186,9 @@ struct Scene {
   int light_mirrors = 8;  // that point, spot and directional lights are followed by, at most (an option of the bake)
 
   std::uint32_t light_group(std::uint32_t triangle) const { return surfaces[triangle_surface[triangle]].light_group; }
+  const SceneMaterial& material_of(std::uint32_t triangle) const {
+    return materials[surfaces[triangle_surface[triangle]].material];
+  }
   float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 

@@ -7,10 +7,6 @@
 namespace oriel {
 namespace {
 
-const SceneMaterial& material_of(const Scene& scene, std::uint32_t triangle) {
-  return scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
-}
-
 template <class V>
 V interpolate(const std::vector<V>& values, const UVec3& t, const Vec2& b) {
   return (1 - b.x - b.y) * values[t.x] + b.x * values[t.y] + b.y * values[t.z];
@@ -93,7 +89,7 @@ void add_anisotropy(const Scene& scene, const SceneMaterial& m, std::uint32_t tr
 }  // namespace
 
 ShadePoint shade_point(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Footprint& f) {
-  const SceneMaterial& m = material_of(scene, triangle);
+  const SceneMaterial& m = scene.material_of(triangle);
   const Vec4 base = base_at(scene, m, triangle, b, f);
   ShadePoint p;
   p.base_color = Vec3(base);
@@ -154,7 +150,7 @@ Vec4 tangent_at(const Scene& scene, std::uint32_t triangle, const Vec2& b, const
 
 Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, const Vec3& normal,
                    const Footprint& footprint) {
-  const SceneMaterial& m = material_of(scene, triangle);
+  const SceneMaterial& m = scene.material_of(triangle);
   const TextureSlot& slot = m.normal_texture;
   if (slot.image < 0 || m.unlit) return normal;
   const Vec4 tangent = tangent_at(scene, triangle, b, normal, slot);
@@ -162,7 +158,7 @@ Vec3 mapped_normal(const Scene& scene, std::uint32_t triangle, const Vec2& b, co
 }
 
 Vec3 transmittance_at(const Scene& scene, std::uint32_t triangle, const Vec2& b) {
-  if (!may_transmit(material_of(scene, triangle))) return Vec3(0);
+  if (!may_transmit(scene.material_of(triangle))) return Vec3(0);
   const ShadePoint p = shade_point(scene, triangle, b);
   return glm::clamp(Vec3(1 - p.coverage) + p.coverage * (1 - max_component(p.f0)) * p.transmission, 0.0f, 1.0f);
 }
@@ -174,7 +170,7 @@ bool may_transmit(const SceneMaterial& material) {
 }
 
 Vec3 mean_emission(const Scene& scene, std::uint32_t triangle) {
-  const SceneMaterial& m = material_of(scene, triangle);
+  const SceneMaterial& m = scene.material_of(triangle);
   if (m.unlit || max_component(m.emission) <= 0) return Vec3(0);
   if (m.emission_texture.image < 0) return m.emission;
   // Midpoints of n² equal parts, about one a texel under the longest edge.

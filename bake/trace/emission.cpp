@@ -20,7 +20,7 @@ bool add_weight(double weight, std::vector<double>& cdf) {
 
 Sources::Sources(const Scene& scene, const LightSet& lights) : scene_(scene), lights_(lights) {
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[t]].material];
+    const SceneMaterial& material = scene.material_of(t);
     if (material.unlit || max_component(material.emission) <= 0) continue;
     const double exitance = kPiD * luminance(mean_emission(scene, t)) * (material.double_sided ? 2 : 1);
     if (add_weight(exitance * triangle_area(scene, t), near_cdf_)) near_.push_back({false, t});
@@ -71,7 +71,7 @@ Particle Sources::emit_near(Sampler& sampler) const {
 }
 
 Particle Sources::emit_triangle(std::uint32_t triangle, Sampler& sampler) const {
-  const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[triangle]].material];
+  const SceneMaterial& material = scene_.material_of(triangle);
   const Vec2 barycentric = square_to_triangle(sampler.next2());
   const bool front = !material.double_sided || sampler.next1() < 0.5f;
   const Vec3 normal = geometric_normal(scene_, triangle) * (front ? 1.0f : -1.0f);

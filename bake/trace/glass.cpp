@@ -31,7 +31,7 @@ std::optional<DVec3> refract_about(const DVec3& wo, const DVec3& h, double eta) 
 
 Vec3 Medium::passed(const Scene& scene, const Hit& hit) const {
   if (!hit.front) {
-    const SceneMaterial& m = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+    const SceneMaterial& m = scene.material_of(hit.triangle);
     if (m.solid) return beer(m.absorption, hit.distance);
   }
   return inside_ ? beer(absorption_, hit.distance) : Vec3(1);

@@ -16,7 +16,7 @@ constexpr std::uint64_t kSeed = 0x0e1e5;
 }  // namespace
 
 bool is_lamp(const Scene& scene, std::uint32_t triangle, bool front) {
-  const SceneMaterial& m = scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
+  const SceneMaterial& m = scene.material_of(triangle);
   return !m.unlit && max_component(m.emission) > 0 && (front || m.double_sided);
 }
 

@@ -38,7 +38,7 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
   // Seen from below its shading normal, a surface is shaded with its geometric one.
   if (glm::dot(s.normal, direction) >= 0) s.normal = s.geometric_normal;
   s.front = hit.front;
-  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+  const SceneMaterial& material = scene.material_of(hit.triangle);
   s.reflects = hit.front || material.double_sided || material.solid;
   return s;
 }
@@ -46,7 +46,7 @@ SurfacePoint geometry_at(const Scene& scene, const Hit& hit, const Vec3& directi
 SurfacePoint surface_at(const Scene& scene, const Hit& hit, const Vec3& direction, float width_m) {
   const Footprint footprint = width_m > 0 ? cone_footprint(scene, hit.triangle, direction, width_m) : Footprint();
   SurfacePoint s = geometry_at(scene, hit, direction);
-  const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+  const SceneMaterial& material = scene.material_of(hit.triangle);
   if (material.normal_texture.image >= 0) {
     const float side = hit.front ? 1.0f : -1.0f;
     s.normal =

@@ -40,7 +40,7 @@ class ProbeRays {
       const Hit hit = scene_.accel.intersect(ray);
       ++rays_;
       if (!hit) return seen;
-      const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+      const SceneMaterial& material = scene.material_of(hit.triangle);
       const bool back = !hit.front && !material.double_sided;
       Vec3 through(0);
       float coverage = 1;

@@ -42,7 +42,7 @@ class VertexRays {
       const Hit hit = object_.intersect(ray);
       ++rays;
       if (!hit) return {};
-      const SceneMaterial& material = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+      const SceneMaterial& material = scene_.material_of(hit.triangle);
       if (!hit.front && !material.double_sided) return {};
       if (!touches(hit.triangle)) {
         if (!may_transmit(material)) return Blocker{hit, passed};

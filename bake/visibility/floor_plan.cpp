@@ -49,7 +49,7 @@ class Searcher {
 
  private:
   bool is_floor(const Hit& hit) const {
-    const SceneMaterial& m = scene_.materials[scene_.surfaces[scene_.triangle_surface[hit.triangle]].material];
+    const SceneMaterial& m = scene_.material_of(hit.triangle);
     return (hit.front || m.double_sided) && std::abs(geometric_normal(scene_, hit.triangle).y) >= min_up_;
   }
 

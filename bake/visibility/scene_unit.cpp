@@ -40,7 +40,7 @@ class Probe {
     const std::uint32_t t = pick(kind, sampler.next2());
     const float slope = geometric_normal(scene_, t).y;
     if (std::abs(slope) < 0.9f) return {};
-    const bool two_sided = scene_.materials[scene_.surfaces[scene_.triangle_surface[t]].material].double_sided;
+    const bool two_sided = scene_.material_of(t).double_sided;
     const Vec2 at = square_to_triangle(sampler.next2());
     const float towards = slope > 0 || (two_sided && k % 2 == 0) ? 1.0f : -1.0f;
     const Vec3 way{0, towards, 0}, start = spawn_origin(scene_, t, at, way);

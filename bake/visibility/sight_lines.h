@@ -28,9 +28,7 @@ class SightLines {
   bool two_sided(std::uint32_t triangle) const { return material(triangle).double_sided; }
 
  private:
-  const SceneMaterial& material(std::uint32_t triangle) const {
-    return scene_.materials[scene_.surfaces[scene_.triangle_surface[triangle]].material];
-  }
+  const SceneMaterial& material(std::uint32_t triangle) const { return scene_.material_of(triangle); }
   // How far the line goes from its first hit on until something hides what is behind; endless where nothing does.
   float follow(Ray ray, Hit hit, std::size_t line, const std::function<void(std::size_t, std::uint32_t)>& seen) const;
   // Whether the line ends at the hit.

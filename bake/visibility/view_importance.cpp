@@ -40,7 +40,7 @@ void follow(const Accel& accel, Ray ray, Hit hit, Sampler& sampler, float neares
   for (int step = 0; hit; ++step) {
     way += hit.distance;
     out.push_back({hit.triangle, std::max(way, nearest)});
-    const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material];
+    const SceneMaterial& material = scene.material_of(hit.triangle);
     const bool may_mirror = !mirrored && !material.unlit && material.roughness * material.roughness <= kMirrorAlpha;
     if (step == kPanes || !(may_mirror || may_transmit(material))) return;
     const SurfacePoint surface = surface_at(scene, hit, ray.direction);

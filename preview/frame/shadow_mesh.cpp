@@ -39,7 +39,7 @@ struct HalfEdge {
 ShadowMesh::ShadowMesh(const Scene& scene) {
   std::vector<std::uint32_t> opaque;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-    if (!may_transmit(scene.materials[scene.surfaces[scene.triangle_surface[t]].material])) opaque.push_back(t);
+    if (!may_transmit(scene.material_of(t))) opaque.push_back(t);
   weld(scene, opaque);
   for (const UVec3& t : triangles_) {
     const DVec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);

@@ -70,8 +70,7 @@ class Frames : public testing::Test {
         const PixelRay ray =
             pixel_ray(*camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, kWidth, kHeight);
         const Hit hit = accel.intersect({ray.origin, ray.direction});
-        const SceneMaterial* m =
-            hit ? &r.scene.materials[r.scene.surfaces[r.scene.triangle_surface[hit.triangle]].material] : nullptr;
+        const SceneMaterial* m = hit ? &r.scene.material_of(hit.triangle) : nullptr;
         r.mirror.push_back(m && m->roughness == 0 && m->metallic == 1 && hit.front);
         r.gloss.push_back(m && m->roughness > 0 && m->metallic == 1 && hit.front);
       }

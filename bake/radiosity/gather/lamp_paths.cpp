@@ -101,7 +101,7 @@ class LampWalk {
   // frosted they find what it reflects too: that is half of the particles.
   bool passes_glass(const Hit& hit) {
     const Scene& scene = t_.accel.scene();
-    if (!material_of(hit.triangle).solid) return false;
+    if (!scene.material_of(hit.triangle).solid) return false;
     const ShadePoint point = shade_point(scene, hit.triangle, hit.barycentric);
     if (!(point.eta > 0)) return false;
     if (hit.front && is_frosted(point)) {
@@ -144,16 +144,12 @@ class LampWalk {
         t_.accel.dropped().add(hit.triangle);
     }
     // Textures are read only as often as what is reflected once more is worth it.
-    const SceneMaterial& material = material_of(hit.triangle);
+    const SceneMaterial& material = t_.accel.scene().material_of(hit.triangle);
     if (material.alpha_mode != AlphaMode::kOpaque || material.transmission > 0) return true;
     const float q = std::min(1.0f, kOften * (1 - texels_.diffuse_share[texel].at(cosine)));
     if (!(q > 0) || sampler_.next1() >= q) return false;
     power_ /= q;
     return true;
-  }
-  const SceneMaterial& material_of(std::uint32_t triangle) const {
-    const Scene& scene = t_.accel.scene();
-    return scene.materials[scene.surfaces[scene.triangle_surface[triangle]].material];
   }
 
   // The next ray, by all lobes but the diffuse one; weighted as paths weigh it that come the other way.

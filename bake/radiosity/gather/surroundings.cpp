@@ -25,7 +25,7 @@ Surroundings::Surroundings(const Transport& transport, const Texels& texels, boo
   survival_.assign(scene.materials.size(), 1.0f);
   kinds_.resize(scene.triangles.size());
   for (std::uint32_t t = 0; t < kinds_.size(); ++t) {
-    const SceneMaterial& material = scene.materials[scene.surfaces[scene.triangle_surface[t]].material];
+    const SceneMaterial& material = scene.material_of(t);
     const bool emits = max_component(material.emission) > 0;
     if (lets_nothing_through(material) && (closed_form || !emits))
       kinds_[t] = has_specular_layers(material) ? Kind::kLayered : Kind::kMatt;

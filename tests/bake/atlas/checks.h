@@ -99,7 +99,7 @@ inline void expect_sound(const Scene& scene, const Built& built) {
   }
   std::set<std::uint32_t> charts;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    if (scene.materials[scene.surfaces[scene.triangle_surface[t]].material].unlit) {
+    if (scene.material_of(t).unlit) {
       ASSERT_EQ(atlas.page[t], -1);
       continue;
     }

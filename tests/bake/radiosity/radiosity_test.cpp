@@ -75,7 +75,7 @@ TEST(Radiosity, EnergyBalances) {
   for (std::size_t p = 0; p < b.texel_map.size(); ++p)
     for (std::size_t i = 0; i < b.texel_map[p].texel.size(); ++i) {
       const TexelFragment& f = b.texel_map[p].fragments[b.texel_map[p].first[i]];
-      const Vec3 albedo = b.scene.materials[b.scene.surfaces[b.scene.triangle_surface[f.triangle]].material].base_color;
+      const Vec3 albedo = b.scene.material_of(f.triangle).base_color;
       double area = 0;
       for (std::uint32_t k = b.texel_map[p].first[i]; k < b.texel_map[p].first[i + 1]; ++k)
         area += b.texel_map[p].fragments[k].area;

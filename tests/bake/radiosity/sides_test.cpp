@@ -36,7 +36,7 @@ FoundSides find(const Scene& scene, int threads = 0) {
 Scene split(Scene scene, LitSides lit) {
   std::vector<LitSides> sides(scene.triangles.size(), LitSides::kFront);
   for (std::uint32_t t = 0; t < sides.size(); ++t)
-    if (scene.materials[scene.surfaces[scene.triangle_surface[t]].material].double_sided) sides[t] = lit;
+    if (scene.material_of(t).double_sided) sides[t] = lit;
   return split_sides(std::move(scene), sides);
 }
 

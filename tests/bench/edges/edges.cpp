@@ -52,8 +52,7 @@ std::vector<EdgePoint> edge_points(const Accel& accel, const Camera& camera, con
       hits.push_back(accel.intersect({ray.origin, ray.direction}));
     }
   const auto dark = [&](const Hit& hit) {
-    return hit && hit.front &&
-           scene.materials[scene.surfaces[scene.triangle_surface[hit.triangle]].material].emission == Vec3(0);
+    return hit && hit.front && scene.material_of(hit.triangle).emission == Vec3(0);
   };
   std::vector<EdgePoint> all, some;
   const auto add_edge = [&](const Hit& a, const Hit& b) {
