@@ -253,6 +253,26 @@ std::vector<PackedPage> pack_last(std::span<const TexelMask> masks, const PackLi
   return best;
 }
 
+std::vector<PackedPage> pack(std::span<const TexelMask> masks, const PackLimits& limits, bool compact,
+                             std::span<PackedChart> charts) {
+  std::vector<std::uint32_t> order = packing_order(masks);
+  std::vector<PackedPage> pages;
+  while (!order.empty()) {
+    if (pages.size() == limits.max_pages) return {};
+    const auto index = static_cast<std::uint32_t>(pages.size());
+    if (compact && area_of(masks, order, limits.padding) < static_cast<double>(limits.width) * limits.height) {
+      if (const auto last = pack_last(masks, limits, index, order, charts); !last.empty()) {
+        pages.push_back(last[0]);
+        return pages;
+      }
+    }
+    const std::size_t before = order.size();
+    pages.push_back(fill_page(masks, limits, index, !compact && index + 1 == limits.max_pages, order, charts));
+    if (order.size() == before) return {};  // a mask larger than a page
+  }
+  return pages;
+}
+
 }  // namespace
 
 void TexelMask::set_span(std::uint32_t first, std::uint32_t last, std::uint32_t y) {
@@ -281,38 +301,12 @@ double padded_area(std::span<const TexelMask> masks, std::uint32_t padding) {
 
 std::vector<PackedPage> pack_masks(std::span<const TexelMask> masks, const PackLimits& limits,
                                    std::span<PackedChart> charts) {
-  std::vector<std::uint32_t> order = packing_order(masks);
-  std::vector<PackedPage> pages;
-  while (!order.empty()) {
-    if (pages.size() == limits.max_pages) return {};
-    const std::size_t before = order.size();
-    const auto index = static_cast<std::uint32_t>(pages.size());
-    pages.push_back(fill_page(masks, limits, index, index + 1 == limits.max_pages, order, charts));
-    if (order.size() == before) return {};  // a mask larger than a page
-  }
-  return pages;
+  return pack(masks, limits, false, charts);
 }
 
 std::vector<PackedPage> pack_compact(std::span<const TexelMask> masks, const PackLimits& limits,
                                      std::span<PackedChart> charts) {
-  std::vector<std::uint32_t> order = packing_order(masks);
-  std::vector<PackedPage> pages;
-  while (!order.empty()) {
-    if (pages.size() == limits.max_pages) return {};
-    const auto index = static_cast<std::uint32_t>(pages.size());
-    const double room = static_cast<double>(limits.width) * limits.height;
-    if (area_of(masks, order, limits.padding) < room) {
-      const auto last = pack_last(masks, limits, index, order, charts);
-      if (!last.empty()) {
-        pages.push_back(last[0]);
-        return pages;
-      }
-    }
-    const std::size_t before = order.size();
-    pages.push_back(fill_page(masks, limits, index, false, order, charts));
-    if (order.size() == before) return {};
-  }
-  return pages;
+  return pack(masks, limits, true, charts);
 }
 
 }  // namespace oriel

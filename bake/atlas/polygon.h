@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/core/check.h"
+#include "formats/core/convex_hull.h"
 #include "formats/core/vec.h"
 
 namespace oriel {
@@ -28,9 +29,6 @@ struct ConvexPolygon {
   const DVec2& at(int i) const { return p[static_cast<std::size_t>(i)]; }
 };
 
-inline double cross2(const DVec2& a, const DVec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
 // Positive for counter-clockwise in (x, y).
 inline double signed_area(const Triangle2& t) {
   return 0.5 * cross2(t[1] - t[0], t[2] - t[0]);

@@ -2,35 +2,12 @@
 
 #include <algorithm>
 
+#include "formats/core/convex_hull.h"
+
 namespace oriel {
 namespace {
 
 constexpr std::size_t kMaxEdges = 256;  // of a hull that are tried: a finer one is round, and any side will do
-
-double cross(const DVec2& a, const DVec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-// Andrew's monotone chain, counter-clockwise, without collinear points.
-std::vector<DVec2> convex_hull(std::span<const DVec2> input) {
-  std::vector<DVec2> points(input.begin(), input.end());
-  std::sort(points.begin(), points.end(),
-            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<DVec2> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const DVec2& p : points) {
-      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 // Keeps the part of a polygon where sign * coordinate <= sign * limit.
 std::vector<DVec2> clip(const std::vector<DVec2>& polygon, int axis, double sign, double limit) {
@@ -60,7 +37,7 @@ Rectangle bounds_along(std::span<const DVec2> points, const DVec2& axis) {
 }
 
 Rectangle tight_rectangle(std::span<const DVec2> points, const DVec2& preferred) {
-  const std::vector<DVec2> hull = convex_hull(points);
+  const std::vector<DVec2> hull = convex_hull({points.begin(), points.end()});
   const Rectangle aligned = bounds_along(hull, preferred);
   Rectangle best = aligned;
   const std::size_t step = hull.size() / kMaxEdges + 1;
@@ -84,7 +61,8 @@ double clipped_area(const std::array<DVec2, 3>& triangle, const DVec2& lower, co
     polygon = clip(polygon, axis, -1, lower[axis]);
   }
   double twice = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    twice += cross2(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
   return 0.5 * std::abs(twice);
 }
 

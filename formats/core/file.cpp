@@ -16,6 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// By the system's error.
+tl::unexpected<Error> failed(const fs::path& path, const char* what) {
+  return fail(ErrorCode::kIo, path.string(), "{}: {}", what, std::strerror(errno));
+}
+
 Status check_file(const fs::path& path) {
   std::error_code ec;
   const auto status = fs::status(path, ec);
@@ -63,16 +68,12 @@ AtomicFile::~AtomicFile() {
   if (!path_.empty()) ::unlink(temporary_name(path_).c_str());
 }
 
-Status AtomicFile::failed(const char* what) const {
-  return fail(ErrorCode::kIo, path_.string(), "{}: {}", what, std::strerror(errno));
-}
-
 Status AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   const bool hole = offset >= size_ && all_zero(bytes);
   for (std::size_t done = 0; done < bytes.size() && !hole;) {
     const ssize_t n = ::pwrite(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return failed("cannot be written to its end");
+    if (n <= 0) return failed(path_, "cannot be written to its end");
     done += static_cast<std::size_t>(n);
   }
   size_ = std::max(size_, offset + bytes.size());
@@ -80,10 +81,10 @@ Status AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes)
 }
 
 Status AtomicFile::commit() {
-  if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) return failed("cannot be written to its end");
-  if (::fsync(fd_) != 0) return failed("cannot be flushed to disk");
-  if (::close(std::exchange(fd_, -1)) != 0) return failed("cannot be flushed to disk");
-  if (::rename(temporary_name(path_).c_str(), path_.c_str()) != 0) return failed("cannot be renamed into place");
+  if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) return failed(path_, "cannot be written to its end");
+  if (::fsync(fd_) != 0) return failed(path_, "cannot be flushed to disk");
+  if (::close(std::exchange(fd_, -1)) != 0) return failed(path_, "cannot be flushed to disk");
+  if (::rename(temporary_name(path_).c_str(), path_.c_str()) != 0) return failed(path_, "cannot be renamed into place");
   path_.clear();
   return {};
 }
@@ -95,12 +96,9 @@ Status write_file_atomically(const fs::path& path, std::span<const std::byte> by
 }
 
 Result<MappedFile> MappedFile::open(const fs::path& path) {
-  const auto failed = [&](const char* what) {
-    return fail(ErrorCode::kIo, path.string(), "{}: {}", what, std::strerror(errno));
-  };
   ORIEL_TRY_VOID(check_file(path));
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return failed("cannot be opened for reading");
+  if (fd < 0) return failed(path, "cannot be opened for reading");
   struct stat status {};
   const bool known = ::fstat(fd, &status) == 0;
   const auto size = static_cast<std::size_t>(status.st_size);
@@ -108,7 +106,7 @@ Result<MappedFile> MappedFile::open(const fs::path& path) {
   const int reason = errno;
   ::close(fd);  // the mapping stays
   errno = reason;
-  if (!known || at == MAP_FAILED) return failed("cannot be mapped");
+  if (!known || at == MAP_FAILED) return failed(path, "cannot be mapped");
   if (at) ::madvise(at, size, MADV_SEQUENTIAL);
   return MappedFile({static_cast<const std::byte*>(at), size});
 }
@@ -118,15 +116,12 @@ MappedFile::~MappedFile() {
 }
 
 Result<OpenFile> OpenFile::open(const fs::path& path) {
-  const auto failed = [&](const char* what) {
-    return fail(ErrorCode::kIo, path.string(), "{}: {}", what, std::strerror(errno));
-  };
   ORIEL_TRY_VOID(check_file(path));
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return failed("cannot be opened for reading");
+  if (fd < 0) return failed(path, "cannot be opened for reading");
   OpenFile file(path, fd, 0);
   struct stat status {};
-  if (::fstat(fd, &status) != 0) return failed("cannot be read");
+  if (::fstat(fd, &status) != 0) return failed(path, "cannot be read");
   file.size_ = static_cast<std::uint64_t>(status.st_size);
   return file;
 }

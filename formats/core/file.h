@@ -34,7 +34,6 @@ class AtomicFile {
 
  private:
   AtomicFile(const std::filesystem::path& path, int fd) : path_(path), fd_(fd) {}
-  Status failed(const char* what) const;
 
   std::filesystem::path path_;  // empty: committed or moved from
   int fd_ = -1;
