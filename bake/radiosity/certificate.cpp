@@ -82,8 +82,8 @@ class Verifier {
   Verifier(const LightmapScene& scene, const Question& question, Context& context)
       : t_(scene.transport), question_(question), asked2_(question.error * question.error), context_(context) {
     of_texels_.reserve(seeds_.size());
-    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k].seed = mix64(context.seed + seeds::kCertificate + k);
-    for (const Context& own : seeds_) of_texels_.emplace_back(scene, question.eyes, false, own);
+    for (std::uint64_t k = 0; k < seeds_.size(); ++k) seeds_[k] = mix64(context.seed + seeds::kCertificate + k);
+    for (const std::uint64_t seed : seeds_) of_texels_.emplace_back(scene, question.eyes, false, seed, context);
   }
 
   // How many paths an estimate may have, so that a batch stays within the rays.
@@ -135,7 +135,7 @@ class Verifier {
     const SurfacePoint point = point_on_side(t_.accel.scene(), h.pixel->triangle, h.pixel->barycentric);
     for (std::uint32_t k = 0; k < paths; ++k) {
       if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
-      Sampler sampler(seeds_[which].seed, h.number, k);
+      Sampler sampler(seeds_[which], h.number, k);
       own.add(sample_irradiance(t_, point, sampler, traced));
     }
     return own;
@@ -155,8 +155,8 @@ class Verifier {
   const Question question_;
   double asked2_;
   Context& context_;
-  std::array<Context, kEstimates + 1> seeds_;  // of the estimates and the foretelling
-  std::vector<TexelPaths> of_texels_;          // likewise
+  std::array<std::uint64_t, kEstimates + 1> seeds_;  // of the estimates and the foretelling
+  std::vector<TexelPaths> of_texels_;                // likewise
   std::uint32_t most_paths_ = kPilotPaths;
   std::atomic<std::uint64_t> rays_{0};
 };

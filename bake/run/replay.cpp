@@ -67,7 +67,7 @@ Result<std::string> replay_texel(const BakeOptions& options, const TexelAddress&
   const Transport transport{*prepared.accel, lights, path_options(options), &listener};
   const std::vector<Vec3> eyes = sample_eyes(prepared.region, kLightmapEyes, context.seed);
   const bool directional = choose_directional(prepared.scene(), options.directional, prepared.omissions);
-  const TexelPaths of_texel({transport, prepared.atlas, prepared.texel_map}, eyes, directional, context);
+  const TexelPaths of_texel({transport, prepared.atlas, prepared.texel_map}, eyes, directional, context.seed, context);
   TexelSums sums;
   std::uint64_t rays = 0;
   for (std::uint32_t k = paths.first; k < paths.first + paths.count; ++k) {

@@ -38,7 +38,7 @@ void store(const TexelSums& sums, std::uint32_t asked, LightmapPage& page, std::
 class PathEstimator : public LightEstimator {
  public:
   explicit PathEstimator(const RadiosityTask& task)
-      : task_(task), paths_(task, task.options.eyes, task.options.directional, task.context) {
+      : task_(task), paths_(task, task.options.eyes, task.options.directional, task.context.seed, task.context) {
     for (std::size_t p = 0; p < task.map.size(); ++p) {
       const std::size_t texels = task.map[p].texel.size();
       sums_.emplace_back(texels);

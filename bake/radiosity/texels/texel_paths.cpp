@@ -13,10 +13,10 @@ void TexelPaths::add(const MapTexel& texel, const PathNumbers& paths, TexelSums&
   if (part.covered()) return;
   for (std::uint32_t k = paths.first; k < paths.end; ++k) {
     if (k % 256 == 0 && context_.stopped()) break;  // the result is thrown away
-    Sampler sampler(context_.seed, stream, k);
+    Sampler sampler(seed_, stream, k);
     const Vec2 uv = sampler.next2();
     const SurfacePoint surface = point_of(texel, Vec3(uv, sampler.next1()));
-    if (mixed && is_buried(t_, surface, {context_.seed, stream, k}, rays)) continue;
+    if (mixed && is_buried(t_, surface, {seed_, stream, k}, rays)) continue;
     if (!part.holds(surface.triangle, surface.barycentric, rays)) continue;
     if (t_.listener) t_.listener->begin("irradiance, lux"), t_.listener->meet(surface, Vec3(1));
     sums.add(sample_irradiance(t_, surface, sampler, rays, directional_));
@@ -32,9 +32,9 @@ SurfacePoint TexelPaths::point_of(const MapTexel& texel, const Vec3& u) const {
 // answer with one ray a point.
 bool TexelPaths::any_buried(const MapTexel& texel, std::uint64_t stream, std::uint64_t& rays) const {
   for (std::uint32_t k = 0; k < 64; ++k) {
-    Sampler sampler(~context_.seed, stream, k);
+    Sampler sampler(~seed_, stream, k);
     const Vec2 uv = sampler.next2();
-    if (is_buried(t_, point_of(texel, Vec3(uv, sampler.next1())), {context_.seed, stream, ~k}, rays)) return true;
+    if (is_buried(t_, point_of(texel, Vec3(uv, sampler.next1())), {seed_, stream, ~k}, rays)) return true;
   }
   return false;
 }

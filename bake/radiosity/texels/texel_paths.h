@@ -47,8 +47,9 @@ struct PathNumbers {
 class TexelPaths {
  public:
   // directional: sample so that IrradianceSample's moments are known, too. eyes: as list_texels().
-  TexelPaths(const LightmapScene& scene, std::span<const Vec3> eyes, bool directional, const Context& context)
-      : t_(scene.transport), scene_(scene), eyes_(eyes), directional_(directional), context_(context) {}
+  TexelPaths(const LightmapScene& scene, std::span<const Vec3> eyes, bool directional, std::uint64_t seed,
+             const Context& context)
+      : t_(scene.transport), scene_(scene), eyes_(eyes), directional_(directional), seed_(seed), context_(context) {}
 
   // So many paths of a texel, numbered from `first`. Points inside other geometry (independent probes meet little but
   // back faces of one-sided materials) are left out, and so is what a thin wall cuts off the texel. Adds to rays.
@@ -62,6 +63,7 @@ class TexelPaths {
   LightmapScene scene_;
   std::span<const Vec3> eyes_;
   bool directional_;
+  std::uint64_t seed_;
   const Context& context_;
 };
 
