@@ -19,15 +19,15 @@ constexpr std::uint32_t kLampEyes = 48;      // points that the eye sees, by whi
 constexpr std::size_t kElementsOfPass = 36;  // four for each of 3 x 3 pixels; 64 at most fit the uniforms of a draw
 
 // Adds the time until it ends; waits for the device, whose work comes later otherwise.
-class Stage {
+class PassTime {
  public:
-  explicit Stage(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~Stage() {
+  explicit PassTime(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  ~PassTime() {
     glFinish();
     seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
   }
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
+  PassTime(const PassTime&) = delete;
+  PassTime& operator=(const PassTime&) = delete;
 
  private:
   double& seconds_;
@@ -112,17 +112,17 @@ View PreviewRenderer::view_of_pass(bool antialias) const {
 Result<PreviewStats> PreviewRenderer::pass(const PreviewOptions& options, Context& context) {
   PreviewStats stats;
   {
-    const Stage total(stats.total_s);
+    const PassTime total(stats.total_s);
     read_ = false;
     reflecting_.clear();
     view_ = view_of_pass(options.antialias);
     {
-      const Stage stage(stats.surfaces_s);
+      const PassTime stage(stats.surfaces_s);
       surface_pass_.draw(mesh_, view_, options.glossy, *surfaces_);
     }
     ORIEL_TRY_VOID(light(options, context, stats));
     if (options.traced) {
-      const Stage stage(stats.traced_s);
+      const PassTime stage(stats.traced_s);
       ORIEL_TRY_VOID(trace(context, stats));
     }
     add_pass(options);
@@ -144,7 +144,7 @@ Status PreviewRenderer::light(const PreviewOptions& options, Context& context, P
     if (!lamps.empty()) ORIEL_TRY_VOID(add_lamps(lamps, options, context, stats));
   }
   if (options.bounce) {
-    const Stage stage(stats.bounce_s);
+    const PassTime stage(stats.bounce_s);
     ORIEL_TRY_VOID(reflect(options, context));
   }
   return {};
@@ -171,7 +171,7 @@ Status PreviewRenderer::add_lamps(std::span<const LampPoint> lamps, const Previe
   const std::span<const LampPoint> traced = lamps.subspan(tries ? 1 : 0);
   read_seen();  // reflected light needs it too: no cost of these rays
   {
-    const Stage stage(stats.shadows_s);
+    const PassTime stage(stats.shadows_s);
     ORIEL_TRY_VOID(add_lamps_by_rays(traced, options, context, stats));
   }
   rays = stats.shadows_s / static_cast<double>(traced.size());
@@ -195,12 +195,12 @@ void PreviewRenderer::add_lamp(const LampPoint& point, bool volumes, const Previ
   light_.framebuffer.bind();
   light_here_.clear();
   if (volumes) {
-    const Stage stage(stats.shadows_s);
+    const PassTime stage(stats.shadows_s);
     const ShadowVolumes shadow = volumes_of(point, options.cap_rays);
     stats.shadow_quads += shadow.indices.size() / 6;
     volume_pass_.draw(shadow, point.place, view_);
   }
-  const Stage stage(stats.direct_s);
+  const PassTime stage(stats.direct_s);
   lamp_pass_.draw(point, mesh_, *surfaces_, volumes);
 }
 

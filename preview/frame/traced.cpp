@@ -48,8 +48,8 @@ class SpecularTracer {
     if (max_component(through) > 0) {
       const Ray behind{spawn_origin(surface, -wo), -wo};
       const Vec3 before = std::exchange(light, Vec3(0));
-      const PathLight seen =
-          trace_to_diffuse(transport_, behind, scene_.accel->intersect(behind), 0, sampler, rays, on_diffuse);
+      const Hit hit = scene_.accel->intersect(behind);
+      const PathLight seen = trace_to_diffuse(transport_, {behind, hit}, sampler, rays, on_diffuse);
       light = before + through * (light + seen.emitted + seen.sky + seen.scattered + seen.lamps);
     }
     if (!surface.reflects) return light;
