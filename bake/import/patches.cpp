@@ -71,34 +71,29 @@ bool PlanePatches::has_elsewhere(std::uint32_t vertex, std::uint32_t patch) cons
   return found != patch_of_vertex_.end() && found->second != patch;
 }
 
-std::uint32_t PlanePatches::root(std::uint32_t i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
-}
-
 // Triangles of a surface that have a corner in common.
-void PlanePatches::connect() {
-  parent_.resize(triangles_.size());
+DisjointSets PlanePatches::connected() const {
+  DisjointSets sets(triangles_.size());
   std::unordered_map<Vec3, std::uint32_t, PlaceHash> at;
   std::uint32_t of_surface = ~0u;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    parent_[i] = i;
     const std::uint32_t t = triangles_[i].triangle;
     if (scene_.triangle_surface[t] != of_surface) at.clear();
     of_surface = scene_.triangle_surface[t];
     for (int k = 0; k < 3; ++k) {
       const auto [found, is_new] = at.try_emplace(scene_.positions[scene_.triangles[t][k]], i);
-      if (!is_new) parent_[root(i)] = root(found->second);
+      if (!is_new) sets.join(i, found->second);
     }
   }
+  return sets;
 }
 
 void PlanePatches::find_patches() {
-  connect();
+  DisjointSets sets = connected();
   patches_.clear();
   patch_of_.assign(triangles_.size(), ~0u);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const std::uint32_t r = root(i);
+    const std::size_t r = sets.root(i);
     if (patch_of_[r] == ~0u) {
       patch_of_[r] = static_cast<std::uint32_t>(patches_.size());
       patches_.emplace_back().lets_through = oriel::lets_through(scene_.materials[surface(i).material]);

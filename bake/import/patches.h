@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bake/scene/scene.h"
+#include "formats/core/disjoint_sets.h"
 
 namespace oriel {
 
@@ -76,8 +77,7 @@ class PlanePatches {
   const Surface& surface(std::uint32_t member) const {
     return scene_.surfaces[scene_.triangle_surface[triangles_[member].triangle]];
   }
-  std::uint32_t root(std::uint32_t member);
-  void connect();
+  DisjointSets connected() const;
   void find_patches();
   void project();
   Flat flattened(std::uint32_t triangle) const;
@@ -91,7 +91,7 @@ class PlanePatches {
   double one_place_;
   int drop_ = 0;                   // the axis that the plane faces most
   std::vector<Planar> triangles_;  // in the order of the scene
-  std::vector<std::uint32_t> parent_, patch_of_;
+  std::vector<std::uint32_t> patch_of_;
   std::unordered_map<std::uint32_t, std::uint32_t> patch_of_vertex_;
   std::vector<Patch> patches_;
   std::vector<Flat> flat_;

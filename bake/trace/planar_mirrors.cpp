@@ -4,6 +4,7 @@
 #include <map>
 
 #include "bake/trace/albedo.h"
+#include "formats/core/convex_hull.h"
 
 namespace oriel {
 namespace {
@@ -25,26 +26,6 @@ bool is_flat(const Scene& scene, std::uint32_t triangle, const Vec3& normal) {
   for (int k = 0; k < 3; ++k)
     if (glm::dot(scene.normals[scene.triangles[triangle][k]], normal) < 1 - kFlat) return false;
   return true;
-}
-
-// Andrew's monotone chain, counter-clockwise.
-std::vector<DVec2> convex_hull(std::vector<DVec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<DVec2> hull;
-  const auto add = [&](const DVec2& p, std::size_t least) {
-    const auto turns_left = [&] {
-      const DVec2 a = hull[hull.size() - 2], b = hull.back();
-      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0;
-    };
-    while (hull.size() >= least + 2 && !turns_left()) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const DVec2& p : points) add(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-  hull.pop_back();
-  return hull;
 }
 
 struct Axes {

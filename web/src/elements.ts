@@ -2,8 +2,7 @@
 import { halfToFloat } from './bytes';
 import type { ByteReader } from './bytes';
 import type {
-  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround,
-} from './types';
+  Mesh, Material, Texture, Page, Reflector, Emitter, Slice, Kernel, Fresnel, Camera, Path, WalkGrid, LightGroup, PageGroups, Day, CurvedReflector, Surround, EmissionTexture } from './types';
 import type { Vec3 } from './vec';
 
 export const mostGroups = 64;
@@ -53,6 +52,7 @@ export function readMesh(r: ByteReader): Mesh {
   return mesh;
 }
 
+export const readEmissionTexture = (r: ByteReader): EmissionTexture => ({ material: r.u32(), texture: r.u32(), mean: r.floats(3) });
 export function readMaterial(r: ByteReader): Material {
   const name = r.text(), baseColor = r.floats(3), alpha = r.f32(), texture = r.i32();
   const alphaMode = r.choice(2, 'alpha mode'), doubleSided = r.choice(1, 'flag') > 0, unlit = r.choice(1, 'flag') > 0;

@@ -146,7 +146,7 @@ export class Renderer {
     for (const program of [plain, this.opaque]) this.setFrame(program, scene, view, distance);
     for (const range of shown) {
       const m = scene.data.materials[range.material]!, twice = reflective.has(range.material);
-      const program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit ? plain : this.opaque;
+      const program = m.normalTexture < 0 && cutoffOf(m) < 0 && !m.unlit && !scene.picture(range.material) ? plain : this.opaque;
       program.use();
       scene.setSurface(program, range);
       program.set('u_weights', [1, 1, 1]);

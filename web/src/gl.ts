@@ -4,7 +4,7 @@ import { assembleShader } from './shaders';
 /** A unit of its own for each sampler: what is bound for one pass stays for the next. */
 const units: Record<string, number> = {
   u_base_texture: 0, u_lightmap: 1, u_reflectance: 2, u_direction: 3, u_normal_texture: 4, u_change: 5, u_cells: 6, u_detail: 7,
-  u_surfaces: 8, u_image: 9, u_frame: 9, u_source: 9, u_blurred: 10, u_before: 10, u_taps: 11, u_polygons: 12, u_visibility: 13,
+  u_surfaces: 8, u_image: 9, u_frame: 9, u_source: 9, u_blurred: 10, u_before: 10, u_taps: 11, u_emission_texture: 11, u_polygons: 12, u_visibility: 13,
   u_seen: 14, u_lobes: 15,
   u_codes: 6, u_table: 7, u_light: 9, u_inverse_distance: 10, u_places: 12, u_normals: 13, u_shaded: 15,
 };

@@ -10,7 +10,7 @@ import { uploadSurround } from './surround';
 import { lobeRows, lobeTexels, makeTaps } from './kernel';
 import type { ReflectorEmitters } from './emitters';
 import type { GpuSurround } from './surround';
-import type { Emitter, Material, Page, PageGroups, Sections, Surround, Texture } from './sections';
+import type { Emitter, EmissionTexture, Material, Page, PageGroups, Sections, Surround, Texture } from './sections';
 import type { Bounds, Mat4, Vec3 } from './vec';
 
 export interface Range { first: number; count: number; material: number; page: number; bounds: Bounds; }
@@ -295,6 +295,9 @@ export class GpuScene {
   }
   bindBase(index: number): void { bind(this.device.gl, 'u_base_texture', this.textures[index] ?? this.white); }
 
+  /** That a material shines with, if any. */
+  picture(material: number): EmissionTexture | undefined { return this.data.emissionTextures.find((e) => e.material === material); }
+
   setReflectance(program: Program, material: number): void {
     const row = this.data.materials[material]!.fresnel;
     program.set('u_reflectance_row', row);
@@ -309,7 +312,9 @@ export class GpuScene {
     program.set('u_covers', m.alphaMode === 2);
     program.set('u_diffuse_share', (1 - m.metallic) * (1 - m.transmission));
     program.set('u_transmission', m.transmission);
-    program.set('u_emission', this.emission[range.material]!.map((e) => e * this.unit));
+    const picture = this.picture(range.material), glow = picture && this.textures[picture.texture];
+    program.set('u_emission', this.emission[range.material]!.map((e, c) => e * this.unit * (glow ? inverse(picture.mean[c]!) : 1)));
+    bind(gl, 'u_emission_texture', glow ?? this.white);
     program.set('u_unlit', m.unlit);
     this.setReflectance(program, range.material);
     this.bindBase(m.texture);
@@ -331,5 +336,7 @@ export class GpuScene {
     return p.scale * (0.2126 * halfToFloat(p.light[at]!) + 0.7152 * halfToFloat(p.light[at + 1]!) + 0.0722 * halfToFloat(p.light[at + 2]!));
   }
 }
+
+const inverse = (x: number): number => (x > 0 ? 1 / x : 0);
 
 export const cutoffOf = (m: Material): number => (m.alphaMode === 1 ? Math.max(m.cutoff, 0) : -1);

@@ -2,7 +2,7 @@
 import { decompress } from 'fzstd';
 import { ByteReader, PieceError } from './bytes';
 import {
-  readMesh, readMaterial, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
+  readMesh, readMaterial, readEmissionTexture, readTexture, readPage, readReflector, readEmitter, readKernel, readFresnel, readCamera, readPath, readGrid, readGroup, readPageGroups, readDay, readCurved, readSurround, list, mostGroups,
 } from './elements';
 import { readField, readMover } from './mover_elements';
 import type { LightField, Mover, Page, PageGroups, Sections } from './types';
@@ -16,6 +16,7 @@ function readSection(kind: string, count: number, r: ByteReader, out: Sections):
     case 'SCNE': out.sky = r.floats(3); break;
     case 'MESH': out.mesh = readMesh(r); break;
     case 'MATL': out.materials = list(r, count, readMaterial); break;
+    case 'ETEX': out.emissionTextures = list(r, count, readEmissionTexture); break;
     case 'TEXR': out.textures.push(...list(r, count, readTexture)); break;
     case 'NTEX': out.normals.push(...list(r, count, readTexture)); break;
     case 'LMAP': out.pages.push(...list(r, count, readPage)); break;
@@ -45,7 +46,7 @@ export function readPiece(bytes: Uint8Array, name: string): Sections {
   const fail = (text: string): never => { throw new PieceError(`${name}: ${text}`); };
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const out: Sections = {
-    sky: [0, 0, 0], materials: [], textures: [], normals: [], pages: [], reflectors: [], emitters: [], kernels: [],
+    sky: [0, 0, 0], materials: [], emissionTextures: [], textures: [], normals: [], pages: [], reflectors: [], emitters: [], kernels: [],
     fresnels: [], cameras: [], paths: [], grids: [], groups: [], pageGroups: [], curved: [], surrounds: [], movers: [],
   };
   if (bytes.length < 64 || magic.some((m, i) => bytes[i] !== m)) fail('is no piece of a pack');
@@ -90,6 +91,10 @@ export function checkScene(scene: Sections, textures: number, normals: number, s
     within(m.normalTexture, normals, 'normal texture');
     within(m.kernel, scene.kernels.length, 'kernel');
     within(m.fresnel, scene.fresnels.length, 'Fresnel map');
+  }
+  for (const e of scene.emissionTextures) {
+    within(e.material, scene.materials.length, 'material', 0);
+    within(e.texture, textures, 'texture', 0);
   }
   for (const r of scene.reflectors) {
     within(r.material, scene.materials.length, 'material', 0);

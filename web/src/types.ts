@@ -13,6 +13,8 @@ export interface Material {
   cutoff: number; metallic: number; transmission: number; emission: number[]; kernel: number; fresnel: number;
   normalTexture: number; normalScale: number;
 }
+/** The picture that a material shines with: its radiance is emission · texel / mean. */
+export interface EmissionTexture { material: number; texture: number; mean: number[]; }
 export interface Texture {
   width: number; height: number; wrapS: number; wrapT: number; nearest: boolean; texels: Uint8Array;
 }
@@ -74,7 +76,7 @@ export interface Sections {
   day?: Day;
   movers: Mover[]; field?: LightField;
   curved: CurvedReflector[]; surrounds: Surround[];
-  groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; textures: Texture[]; normals: Texture[]; pages: Page[];
+  groups: LightGroup[]; pageGroups: PageGroups[]; sky: number[]; mesh?: Mesh; materials: Material[]; emissionTextures: EmissionTexture[]; textures: Texture[]; normals: Texture[]; pages: Page[];
   reflectors: Reflector[]; emitters: Emitter[]; kernels: Kernel[]; fresnels: Fresnel[];
   cameras: Camera[]; paths: Path[]; grids: WalkGrid[];
 }
