@@ -231,7 +231,7 @@ class PreviewWindow {
 
   // A pass, or what paths there are; whatever is there is shown.
   Status draw_scene(const IVec2& window) {
-    const IVec2 size = moving_ && status_.pass_s * share(window) > kSlow_s ? glm::max(window / 2, IVec2(1)) : window;
+    const IVec2 size = hurries() && status_.pass_s * share(window) > kSlow_s ? glm::max(window / 2, IVec2(1)) : window;
     if (std::exchange(restart_, false) || size != size_) {
       paths_.stop();
       blended_.reset();
@@ -255,6 +255,9 @@ class PreviewWindow {
     return display_.draw_in_window(*frame, shown_ev100_, arguments_.curve, window, false);
   }
 
+  // The next frame is better soon than good.
+  bool hurries() const { return moving_ || fresh_; }
+
   // A scene that is being read may have the processors, unless one moves or sees nothing yet.
   bool gives_way() const { return live_.reading() && !moving_ && !fresh_ && renderer_.passes() > 0; }
 
@@ -263,7 +266,7 @@ class PreviewWindow {
     if (gives_way()) return false;
     const Interruptible leaves(context_, [this] { return gives_way(); });
     PreviewOptions options = options_;
-    options.shared |= moving_ || fresh_;
+    options.shared |= hurries();
     const auto stats = renderer_.pass(options, context_);
     if (!stats && stats.error().code == ErrorCode::kStopped && !context_.stop) return false;
     if (!stats) return tl::unexpected<Error>(stats.error());
