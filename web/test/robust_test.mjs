@@ -144,7 +144,7 @@ async function lights() {
   await browser.evaluate(`document.getElementById('view').focus()`);
   await browser.key('KeyO', 'o');
   await browser.until(`document.getElementById('lights').open`);
-  await browser.evaluate(`document.querySelector('#lights input').focus()`);
+  await browser.evaluate(`document.querySelector('#lights input[type=checkbox]').focus()`);
   const first = await browser.evaluate(`document.activeElement.getAttribute('aria-label')`);
   await browser.key('Space', ' ');
   assert.equal(await browser.evaluate(`document.activeElement.checked`), false, 'Space switches a lamp off');
