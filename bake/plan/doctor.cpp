@@ -7,7 +7,6 @@
 namespace oriel {
 namespace {
 
-constexpr double kSeenBack = 0.002;     // of what eyes see, before a wall is worth a word
 constexpr float kMostAlbedo = 0.9f;     // fresh snow; white paint has 0.85
 constexpr double kCoarsestStep = 0.01;  // of positions, in texels
 constexpr double kMostPages = 16;       // of texels
@@ -92,12 +91,11 @@ std::vector<Finding> findings_of_import(std::span<const Warning> warnings) {
 }
 
 void check_walls(const Scene& scene, const ViewShares& views, std::vector<Finding>& findings) {
-  for (const Surface& surface : scene.surfaces) {
-    double back = 0;
-    for (std::uint32_t i = 0; i < surface.triangle_count; ++i) back += views.back[surface.first_triangle + i];
-    if (back < kSeenBack) continue;
+  for (const SeenBack& seen : seen_backs(scene, views)) {
+    const Surface& surface = scene.surfaces[seen.surface];
     findings.push_back({FindingKind::kOneSidedWall, surface.name,
-                        fmt::format("{:.3g} % of what people see is its back, which is black", 100 * back),
+                        fmt::format("{:.3g} % of what people see is its back, where nothing is drawn and light ends",
+                                    100 * seen.share),
                         "walls that show their front wherever people are",
                         fmt::format("turn it over, mark material '{}' double-sided, or bake with --double-sided",
                                     scene.materials[surface.material].name)});

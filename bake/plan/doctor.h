@@ -1,15 +1,15 @@
 // What is likely wrong with a scene, before hours are spent on it: each finding with what would mend it.
 #pragma once
 
-#include "bake/plan/view_shares.h"
 #include "bake/run/options.h"
 #include "bake/run/prepare.h"
+#include "bake/visibility/view_shares.h"
 
 namespace oriel {
 
 // Numbers are stable: scripts may switch on them.
 enum class FindingKind {
-  kOneSidedWall = 1,  // seen from behind by people, and black there
+  kOneSidedWall = 1,  // seen from behind by people: nothing is drawn there
   kLightmapUv = 2,    // --atlas uv1: coordinates overlap or are missing
   kFlippedNormals = 3,
   kAlbedo = 4,         // reflects more than anything real
@@ -46,7 +46,7 @@ bool is_allowed(const Finding& finding, std::span<const AllowedFinding> allowed)
 std::vector<Finding> findings_of_import(std::span<const Warning> warnings);
 // Punctual lights, emitters and the sum of all of them beside the area that they light, m².
 void check_lights(const Scene& scene, const LightSet& lights, double area_m2, std::vector<Finding>& findings);
-// Surfaces of which the eyes see the black back.
+// Surfaces of which the eyes see the back.
 void check_walls(const Scene& scene, const ViewShares& views, std::vector<Finding>& findings);
 void check_albedos(const Scene& scene, std::span<const MaterialSummary> materials, std::vector<Finding>& findings);
 // How fine the texels are asked for, beside positions, page and surfaces. area_m2: of all surfaces.

@@ -1,15 +1,18 @@
 #include "bake/run/judge.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "bake/jobs/parallel.h"
 #include "bake/radiance/reproject.h"
+#include "bake/visibility/view_shares.h"
 
 namespace oriel {
 namespace {
 
 constexpr std::uint32_t kCameraSamples = 2048;
+constexpr std::size_t kMostBacks = 4;    // named
 constexpr float kSameDisparity = 0.03f;  // relative: of a sample and a pixel that holds it
 
 // Mean of the pixels around a place that hold the same surface, by their bilinear weights; none where none does.
@@ -104,6 +107,25 @@ void tell_dropped(const Accel& accel, std::vector<std::string>& findings) {
                         accel.scene().materials[surface.material].name);
   }
   findings.push_back(fmt::format("{} samples of light are left out, which are no numbers: {}", dropped.count(), place));
+}
+
+void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed,
+                std::vector<std::string>& findings) {
+  const Scene& scene = accel.scene();
+  std::vector<SeenBack> backs = seen_backs(scene, look_around(accel, eyes, seed));
+  if (backs.empty()) return;
+  std::stable_sort(backs.begin(), backs.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  const std::size_t told = std::min(backs.size(), kMostBacks);
+  std::string names;
+  for (std::size_t i = 0; i < told; ++i)
+    names += fmt::format("{}'{}' ({:.2g} %)", i == 0 ? "" : ", ", scene.surfaces[backs[i].surface].name,
+                         100 * backs[i].share);
+  if (backs.size() > told) names += fmt::format(" and {} more", backs.size() - told);
+  findings.push_back(
+      fmt::format("of what people see are backs of one-sided surfaces: {}; nothing is drawn there and "
+                  "light ends there: turn them over, mark their materials double-sided, or bake with "
+                  "--double-sided",
+                  names));
 }
 
 Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,

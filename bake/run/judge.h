@@ -25,6 +25,9 @@ Result<ReflectedError> judge_light(const LitSurroundings& lit, std::uint32_t ref
 // Samples that were left out, and where to look for the cause.
 void tell_dropped(const Accel& accel, std::vector<std::string>& findings);
 
+// One-sided surfaces whose backs the eyes (scene space) see: the most seen ones by name.
+void tell_backs(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed, std::vector<std::string>& findings);
+
 // What that of the cameras (scene space) which sees least of a reflector sees in its maps: a share of what it sees in
 // it. Error kStopped.
 Result<double> worst_seen(const ReflectedSurroundings& surroundings, std::uint32_t reflector,

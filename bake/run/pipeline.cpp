@@ -319,6 +319,7 @@ class Bake {
   // What the pack says of itself.
   void describe() {
     tell_dropped(accel(), result_.findings);
+    tell_backs(accel(), sample_eyes(prepared_.region, kLightmapEyes, context_.seed), context_.seed, result_.findings);
     judge_stages(result_, context_, result_.shortfalls);
     // With --time alone it goes on as long as that lasts: nobody asked for an error.
     const double asked = budget_.limited() && !options_.error_named ? 0 : options_.radiosity.error;

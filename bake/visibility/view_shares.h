@@ -16,4 +16,11 @@ struct ViewShares {
 // Rays from each eye in directions spread evenly over the sphere; eyes are in scene space. The same for the same seed.
 ViewShares look_around(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed);
 
+// One-sided surfaces whose backs are 0.2 % or more of what the eyes see: nothing is drawn there, and light ends there.
+struct SeenBack {
+  std::uint32_t surface;
+  double share;  // of all directions from all eyes, [0,1]
+};
+std::vector<SeenBack> seen_backs(const Scene& scene, const ViewShares& views);
+
 }  // namespace oriel

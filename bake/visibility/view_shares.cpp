@@ -1,11 +1,12 @@
-#include "bake/plan/view_shares.h"
+#include "bake/visibility/view_shares.h"
 
 #include "bake/trace/sampler.h"
 #include "bake/trace/warp.h"
 
 namespace oriel {
 namespace {
-constexpr std::uint32_t kRays = 8;  // an eye
+constexpr std::uint32_t kRays = 8;   // an eye
+constexpr double kSeenBack = 0.002;  // of what eyes see, before a wall is worth a word
 }  // namespace
 
 ViewShares look_around(const Accel& accel, std::span<const Vec3> eyes, std::uint64_t seed) {
@@ -20,6 +21,17 @@ ViewShares look_around(const Accel& accel, std::span<const Vec3> eyes, std::uint
     (hit.front || both ? shares.front : shares.back)[hit.triangle] += one;
   }
   return shares;
+}
+
+std::vector<SeenBack> seen_backs(const Scene& scene, const ViewShares& views) {
+  std::vector<SeenBack> seen;
+  for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+    double back = 0;
+    const Surface& surface = scene.surfaces[s];
+    for (std::uint32_t i = 0; i < surface.triangle_count; ++i) back += views.back[surface.first_triangle + i];
+    if (back >= kSeenBack) seen.push_back({s, back});
+  }
+  return seen;
 }
 
 }  // namespace oriel
