@@ -341,12 +341,10 @@ Status settle(BakeOptions& o, const Given& given) {
   if (maps_named && !given.has("--reflections")) o.ways = WaysWanted::kMaps;
   if (r.samples > 0) {
     r.error = 0;
-  } else if (o.time_s > 0) {
-    if (!given.has("--error")) r.error = kBestError;
-    r.samples = kMostTexelRays;
   } else {
-    r.samples = most_texel_rays(r);
-    if (!given.has("--error")) r.most_rays = kDefaultMostRays;
+    r.samples = kMostTexelRays;
+    if (!given.has("--error") && o.time_s > 0) r.error = kBestError;
+    if (!given.has("--error") && o.time_s <= 0) r.most_rays = kDefaultMostRays;
   }
   if (!o.memory_given) o.memory_bytes = free_memory() / 2;
   const DayOptions& day = o.import.day;

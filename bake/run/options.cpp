@@ -1,7 +1,6 @@
 #include "bake/run/options.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -99,16 +98,6 @@ Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     return fail(ErrorCode::kUsage, "", "found '{}', expected NODE=FILE such as lamp=downlight.ies", text);
   return std::pair{text.substr(0, equals), std::filesystem::path(text.substr(equals + 1))};
-}
-
-// 1024 at 2 %: what is noisier than that is a handful of texels in the dark, on which half of all rays would go, for
-// nothing that people see.
-std::uint32_t most_texel_rays(const RadiosityOptions& radiosity) {
-  constexpr std::uint32_t kLeast = 256;
-  constexpr double kNoisiest = 0.64;  // texel: of one gathered ray, relative, after the filter
-  if (radiosity.estimator == Estimator::kReference) return kMostTexelRays;
-  const double wanted = std::min(1e6, std::pow(kNoisiest / std::max(radiosity.error, 1e-6), 2));
-  return std::bit_ceil(std::clamp(static_cast<std::uint32_t>(wanted), kLeast, kMostTexelRays));
 }
 
 }  // namespace oriel

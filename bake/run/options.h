@@ -94,9 +94,6 @@ Result<SkyChoice> parse_sky(const std::string& text);
 // "lamp=profile.ies": the first = divides. Error kUsage.
 Result<std::pair<std::string, std::filesystem::path>> parse_ies_option(const std::string& text);
 
-inline constexpr std::uint32_t kMostTexelRays = 4096;  // a texel, however small the error asked for
-
-// Rays that one texel may take where an error is asked for.
-std::uint32_t most_texel_rays(const RadiosityOptions& radiosity);
+inline constexpr std::uint32_t kMostTexelRays = 4096;  // a texel, where an error is asked for
 
 }  // namespace oriel

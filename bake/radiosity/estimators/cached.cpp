@@ -48,7 +48,8 @@ class CachedEstimator : public LightEstimator {
         gathered_(texels_.count(), options_.directional, around_.groups()),
         lamps_(texels_.count(), options_.directional, around_.groups()),
         keep_beside_(texels_.count()),
-        frames_(task.pixels, task.map, texels_.has_light()) {}
+        frames_(task.pixels, task.map, texels_.has_light()),
+        most_rays_(options_) {}
 
   Status refine(const Goal& goal) override {
     if (shares_.empty()) ORIEL_TRY_VOID(begin(goal));
@@ -243,7 +244,7 @@ class CachedEstimator : public LightEstimator {
     return luminance(direct_.value[i] + estimate_.value[i]) < kDark * mean_luminance_;
   }
 
-  std::uint32_t most_gathered() const { return std::max(1u, options_.samples / kHalves); }
+  std::uint32_t most_gathered() const { return std::max(1u, most_rays_.of_both() / kHalves); }
 
   // Texels that time leaves none of the first rays keep the light of the bounces.
   Status first_gather() {
@@ -288,7 +289,7 @@ class CachedEstimator : public LightEstimator {
       double now = direct.mean + gathered.mean;
       if (const double stuck = direct.stuck + gathered.stuck; stuck > goal) now -= stuck;
       context_.foretell("refinement", left.done(refined(), now));
-      if (now <= goal) return {};
+      if (now <= goal && (direct.mean + gathered.mean <= goal || !most_rays_.raise())) return {};
       if ((ended_early_ = done()) || (out_of_rays_ = out_of_rays())) return {};
       const auto worst = [&](const Part& p) { return worst_of(beside_, not_kept(), shares_, p, now, goal, context_); };
       std::vector<std::uint32_t> list;
@@ -301,7 +302,7 @@ class CachedEstimator : public LightEstimator {
         ORIEL_TRY_VOID(refine_gathered(list));
       } else if (!(list = worst(direct)).empty()) {
         ORIEL_TRY_VOID(refine_direct(list, direct.most));
-      } else {
+      } else if (!most_rays_.raise()) {
         return {};
       }
     }
@@ -379,6 +380,7 @@ class CachedEstimator : public LightEstimator {
   Hash128 known_name_;
   KnownLight known_now_;  // for the next bake
   FrameError frames_;
+  MostRays most_rays_;
   std::vector<float> shares_;                        // of frames that a texel fills, as its surroundings tell
   std::vector<bool> little_seen_;                    // by texel
   float mean_luminance_ = 0;                         // of the light of texels that see any, lux

@@ -1,6 +1,8 @@
 #include "bake/radiosity/estimators/part.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace oriel {
 namespace {
@@ -8,8 +10,22 @@ namespace {
 // Of a part's squared error, so much is to go with each refinement: less would take long, more would leave the other
 // part no turn.
 constexpr double kLeastAtOnce = 0.1, kMostAtOnce = 0.5;
+constexpr double kNoisiest = 0.64;         // texel: of one gathered ray, relative, after the filter
+constexpr std::uint32_t kLeastMost = 256;  // rays
 
 }  // namespace
+
+MostRays::MostRays(const RadiosityOptions& options) : most_(options.samples), last_(options.samples) {
+  if (options.error <= 0) return;
+  const double wanted = std::min(1e6, std::pow(kNoisiest / std::max(options.error, 1e-6), 2));
+  most_ = std::min(last_, std::bit_ceil(std::max(static_cast<std::uint32_t>(wanted), kLeastMost)));
+}
+
+bool MostRays::raise() {
+  if (most_ >= last_) return false;
+  most_ = std::min(2 * most_, last_);
+  return true;
+}
 
 void Part::measure(std::span<const std::uint32_t> texels, const std::vector<float>& shares) {
   mean = stuck = 0;

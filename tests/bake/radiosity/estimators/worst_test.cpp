@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "bake/radiosity/estimators/part.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel {
@@ -75,6 +76,23 @@ TEST(ChartNeighbours, AreThereHoweverASurfaceBends) {
   }
   EXPECT_GT(alone, 0u);
   EXPECT_EQ(alone_beside, 0u);
+}
+
+TEST(MostRays, AreFewAtFirstAndRaisedToAllThereAre) {
+  RadiosityOptions options;
+  options.samples = 4096, options.error = 0.02;
+  MostRays most(options);
+  EXPECT_EQ(most.of_both(), 1024u);
+  EXPECT_TRUE(most.raise());
+  EXPECT_TRUE(most.raise());
+  EXPECT_EQ(most.of_both(), 4096u);
+  EXPECT_FALSE(most.raise());
+  options.error = 0;  // all samples are taken
+  EXPECT_EQ(MostRays(options).of_both(), 4096u);
+  options.error = 0.5, options.samples = 100;
+  EXPECT_EQ(MostRays(options).of_both(), 100u);
+  options.error = 1e-9, options.samples = 4000;
+  EXPECT_EQ(MostRays(options).of_both(), 4000u);
 }
 
 }  // namespace
