@@ -16,21 +16,6 @@ constexpr float kFar = 60;
 // Triangles that fill less than this of the sphere are sampled by area, sr.
 constexpr float kSmallSolidAngle = 0.02f;
 
-Vec3 mirrored(const Vec3& n, const Vec3& plane) {
-  return n - 2 * glm::dot(n, plane) * plane;
-}
-
-}  // namespace
-
-float incidence(const Receiver& r, const Vec3& direction) {
-  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
-  const float straight = std::max(0.0f, glm::dot(r.normal, direction));
-  if (r.normal == r.geometric_normal) return straight;
-  return straight + std::max(0.0f, glm::dot(mirrored(r.normal, r.geometric_normal), direction));
-}
-
-namespace {
-
 // Signed: positive where the receiver is on the front side.
 float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver& r) {
   ClippedPolygon all{{corners[0] - r.position, corners[1] - r.position, corners[2] - r.position}, 3};
@@ -38,7 +23,7 @@ float irradiance_of_triangle(const std::array<Vec3, 3>& corners, const Receiver&
   if (above.count < 3) return 0;
   if (r.normal == r.geometric_normal) return -glm::dot(polygon_vector(above), r.normal);
   float sum = 0;
-  for (const Vec3& n : {r.normal, mirrored(r.normal, r.geometric_normal)}) {
+  for (const Vec3& n : {r.normal, r.mirrored_normal()}) {
     const ClippedPolygon part = clip(above, n);
     if (part.count >= 3) sum -= glm::dot(polygon_vector(part), n);
   }
@@ -206,7 +191,7 @@ PolygonView::Triangle PolygonView::see(std::size_t k) const {
 }
 
 // One triangle, few of them by what they contribute, many by area; u.x is stretched to be used again.
-PolygonView::Triangle PolygonView::choose(Vec2& u, float& probability) const {
+const PolygonView::Triangle& PolygonView::choose(Vec2& u, float& probability, Triangle& other) const {
   const std::size_t count = light_.corners.size();
   if (count == 1) return seen_[0];
   std::size_t chosen = 0;
@@ -226,7 +211,7 @@ PolygonView::Triangle PolygonView::choose(Vec2& u, float& probability) const {
   u.x = std::clamp(static_cast<float>((target - (chosen > 0 ? cumulative[chosen - 1] : 0)) / area_of(chosen)), 0.0f,
                    0x1.fffffep-1f);
   probability = static_cast<float>(area_of(chosen) / light_.area_m2());
-  return count <= kFew ? seen_[chosen] : see(chosen);
+  return count <= kFew ? seen_[chosen] : other = see(chosen);
 }
 
 // Arvo 1995, "Stratified Sampling of Spherical Triangles".
@@ -252,7 +237,8 @@ std::optional<PolygonSample> PolygonView::sample(const Vec2& u) const {
   if (light_.double_sided ? height_ == 0 : height_ <= 0) return std::nullopt;
   Vec2 rest = u;
   float probability = 1;
-  const Triangle triangle = choose(rest, probability);
+  Triangle other;
+  const Triangle& triangle = choose(rest, probability, other);
   PolygonSample s;
   if (triangle.solid_angle > kSmallSolidAngle) {
     const float pdf = warp_by_cosines(triangle.cosine, rest);

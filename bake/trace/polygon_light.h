@@ -38,10 +38,17 @@ struct Receiver {
   Vec3 position{0};
   Vec3 normal{0, 0, 1};
   Vec3 geometric_normal{0, 0, 1};
+
+  Vec3 mirrored_normal() const { return normal - 2 * glm::dot(normal, geometric_normal) * geometric_normal; }
 };
 
 // The weight of light from ω (unit, above the real surface).
-float incidence(const Receiver& receiver, const Vec3& direction);
+inline float incidence(const Receiver& r, const Vec3& direction) {
+  if (glm::dot(r.geometric_normal, direction) <= 0) return 0;
+  const float straight = std::max(0.0f, glm::dot(r.normal, direction));
+  if (r.normal == r.geometric_normal) return straight;
+  return straight + std::max(0.0f, glm::dot(r.mirrored_normal(), direction));
+}
 
 // Unoccluded irradiance from a polygon over its radiance, steradians times cosine: [0, π]. Lambert's formula for the
 // polygon clipped at the horizon (Lambert 1760; Baum et al. 1989).
@@ -81,7 +88,8 @@ class PolygonView {
 
   float area_of(std::size_t k) const;
   Triangle see(std::size_t k) const;
-  Triangle choose(Vec2& u, float& probability) const;
+  // `other`: where the chosen one is put that is not kept.
+  const Triangle& choose(Vec2& u, float& probability, Triangle& other) const;
   static Vec3 on_sphere(const Triangle& triangle, const Vec2& u);
 
   const PolygonLight& light_;

@@ -1,9 +1,10 @@
-// Lamps of which a neighbourhood sees all, or nothing, get no further shadow rays.
+// Lamps of which a neighbourhood sees all, or nothing, get no further shadow rays, and faint ones few.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bake/radiosity/estimators/direct_light.h"
+#include "bake/radiosity/estimators/direct_pilot.h"
 #include "tests/bake/radiosity/listed.h"
 
 namespace oriel::test {
@@ -59,6 +60,53 @@ TEST(Pilot, LeavesPenumbraeToAllSamples) {
   const std::uint64_t rays = lit.rays;
   (void)lit.direct(8);
   EXPECT_GT(lit.rays, 2 * rays);
+}
+
+TEST(Pilot, SharesSamplesOutByWhatTheyTakeOffTheVariance) {
+  LightPilot pilot{.tallies = {}, .all = false, .none = false, .noise = 1};
+  EXPECT_EQ(samples_of(pilot, 1, 32), 32u) << "the noisiest";
+  pilot.noise = std::pow(2.0f, -2.4f);
+  EXPECT_EQ(samples_of(pilot, 1, 32), 32u);
+  pilot.noise = std::pow(2.0f, -2.6f);
+  EXPECT_EQ(samples_of(pilot, 1, 32), 16u) << "a half of the samples: 2^2.5 times as much to gain from one more";
+  pilot.noise = 0;
+  EXPECT_EQ(samples_of(pilot, 1, 32), 4u) << "at least";
+  pilot.all = true;
+  EXPECT_EQ(samples_of(pilot, 1, 32), 32u) << "closed forms at all points, without rays";
+  pilot.all = false, pilot.none = true;
+  EXPECT_EQ(samples_of(pilot, 1, 32), 2u);
+}
+
+// A floor of 3 m on which boards cast soft shadows of two lamps.
+Scene lamps_over_boards(float faint) {
+  SceneParts parts;
+  const auto matt = parts.diffuse(Vec3(0.5f));
+  parts.quad("floor", matt, {0, 0, 0}, {0, 0, 3}, {3, 0, 0});
+  parts.quad("lamp", parts.diffuse(Vec3(0), Vec3(100)), {0, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
+  parts.quad("faint lamp", parts.diffuse(Vec3(0), Vec3(faint)), {2, 2.5f, 1}, {1, 0, 0}, {0, 0, 1});
+  for (int k = 0; k < 3; ++k) {
+    const float x = static_cast<float>(k) + 0.3f;
+    parts.box("board", matt, {x, 1, 0}, {x + 0.4f, 1.1f, 3});
+  }
+  return parts.finish();
+}
+
+TEST(Pilot, GivesFaintLampsFewerRaysForTheSameLight) {
+  Lit bright(lamps_over_boards(100)), faint(lamps_over_boards(1));
+  (void)bright.direct(32);
+  const std::uint64_t rays = bright.rays;
+  const DirectSums some = faint.direct(32);
+  EXPECT_LT(faint.rays, 3 * rays / 4);
+  const DirectSums truth = faint.direct(512);
+  double light = 0, expected = 0, squares = 0, stated = 0;
+  for (const std::uint32_t i : faint.listed.floor) {
+    light += double{some.value[i].g}, expected += double{truth.value[i].g};
+    squares += std::pow(double{some.value[i].g - truth.value[i].g}, 2);
+    stated += double{some.variance[i].g} + double{some.uneven[i].g};
+  }
+  EXPECT_NEAR(light, expected, 3 * std::sqrt(squares)) << "texels' errors are independent";
+  EXPECT_LT(squares, 2 * stated) << "the error is stated";
+  EXPECT_GT(squares, 0.1 * stated);
 }
 
 }  // namespace
