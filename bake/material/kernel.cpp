@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "bake/brdf/quadrature.h"
-#include "bake/material/lobe.h"
 #include "formats/core/check.h"
 
 namespace oriel {
@@ -124,7 +123,7 @@ BrdfKernel make_kernel(float alpha, KernelModel model, float cos_theta, const Ke
   kernel.weights = {1.0f};
   if (a < kMirrorBelow) return kernel;
 
-  const LobeFunction lobe = microfacet_lobe(model, LobeForm::kLobe, a);
+  const LobeFunction lobe = microfacet_lobe(model, options.form, a);
   const std::vector<Node> nodes = tangent_nodes(lobe, a, c);
   const Extent extent = choose_extent(nodes, a, options);
   kernel.half_extent = static_cast<float>(extent.half_extent);

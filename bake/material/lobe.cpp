@@ -2,12 +2,19 @@
 
 namespace oriel {
 
-Microfacet microfacet(KernelModel model, double alpha) {
-  return {model == KernelModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann, alpha};
+double gaussian_d(double cos_theta, double alpha) {
+  if (cos_theta <= 0) return 0;
+  const double angle = std::acos(std::min(cos_theta, 1.0)) / alpha;
+  return std::exp(-angle * angle) / (kPiD * alpha * alpha);
 }
 
 LobeFunction microfacet_lobe(KernelModel model, LobeForm form, double alpha) {
-  const Microfacet facets = microfacet(model, alpha);
+  if (model == KernelModel::kGaussian)
+    return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) {
+      if (wi.z <= 0) return 0.0;
+      return gaussian_d(h.z, alpha) * (form == LobeForm::kD ? 1.0 : v_cavity_g(wo, wi, h)) / (4 * wo.z);
+    };
+  const Microfacet facets(model == KernelModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann, alpha);
   if (form == LobeForm::kLobe)
     return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) { return facets.f_cos(wo, wi, h); };
   return [=](const DVec3& wo, const DVec3& wi, const DVec3& h) {

@@ -210,11 +210,11 @@ Result<MaterialMaps> bake_materials(const Scene& scene, const MaterialOptions& o
   std::vector<FresnelMap> fresnel_maps(needs.fresnel_owner.size());
   UnitLoop kernels{.stage = "kernels", .count = maps.kernels.size(), .rays = kRaysAMap};
   kernels.inputs = [&](std::size_t i, Archive& key) {
-    key(widths.values[i], options.model, options.kernel, options.slices);
+    key(widths.values[i], options.model, options.kernel, options.slices, options.by_incidence);
   };
   kernels.compute = [&](std::size_t i) {
     maps.kernels[i] = make_kernel(widths.values[i], options.model, 1, options.kernel);
-    add_slices(maps.kernels[i], options.slices);
+    if (options.by_incidence) add_slices(maps.kernels[i], options.slices);
     return 0;
   };
   kernels.results = [&](std::size_t i, Archive& archive) { archive(maps.kernels[i]); };

@@ -33,6 +33,16 @@ float distance(const Vec3& a, const Vec3& b) {
   return max_component(glm::abs(a - b));
 }
 
+// Of layers that are smooth: Fresnel's factor alone.
+Vec3 smooth_fresnel(const SpecularLayers& layers, double cos_theta) {
+  const Vec3 coat = layers.coat > 0 ? layers.coat * specular_fresnel(layers.coat_lobe(), cos_theta) : Vec3(0);
+  return coat + (Vec3(1) - coat) * specular_fresnel(layers.base, cos_theta);
+}
+
+Vec3 equation_4(const SpecularLayers& layers, double cos_theta) {
+  return unit(smooth_fresnel(layers, cos_theta) / static_cast<float>(std::max(cos_theta * cos_theta, 1e-6)));
+}
+
 // Entries doubled until those between them are where interpolation puts them.
 std::vector<Vec3> make_table(const ExactLayers& exact, const FresnelMapOptions& options) {
   std::vector<Vec3> table;
@@ -83,7 +93,8 @@ FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOption
   for (std::uint32_t y = 0; y < map.sphere_size; ++y)
     for (std::uint32_t x = 0; x < map.sphere_size; ++x) {
       const Vec2 p = (Vec2(x, y) + 0.5f) / static_cast<float>(map.sphere_size) * 2.0f - 1.0f;
-      map.sphere.push_back(fresnel_lookup(map, sphere_map_cos_theta(glm::length(p))));
+      const float cos_theta = sphere_map_cos_theta(glm::length(p));
+      map.sphere.push_back(options.equation_4 ? equation_4(checked, cos_theta) : fresnel_lookup(map, cos_theta));
     }
   return map;
 }

@@ -12,14 +12,17 @@ struct FresnelMapOptions {
   std::uint32_t min_entries = 65;  // at least 2; doubled (2 n - 1) until the error is kept
   std::uint32_t max_entries = 1025;
   std::uint32_t sphere_size = 64;     // 0: no sphere map
+  bool equation_4 = false;            // what the sphere map holds, see make_fresnel_map
   std::uint32_t factor_entries = 65;  // at least 2; a mirror has none
 };
 inline void fields(Archive& archive, FresnelMapOptions& o) {
-  archive(o.error, o.min_entries, o.max_entries, o.sphere_size, o.factor_entries);
+  archive(o.error, o.min_entries, o.max_entries, o.sphere_size, o.equation_4, o.factor_entries);
 }
 
 // Both maps of R. Numbers outside their ranges are clamped, NaN counts as 0. alpha below kMirrorAlpha is a mirror: R is
-// Fresnel's factor itself.
+// Fresnel's factor itself. The sphere map holds the same R, or with equation_4 what the paper says: F over the
+// denominator of equation (4), π N·L N·V, times k_s = π, so that a mirror seen straight reflects F; at most 1, as in a
+// texture. L is the mirror direction of V, so both cosines are θ's.
 FresnelMap make_fresnel_map(const SpecularLayers& layers, const FresnelMapOptions& options = {});
 
 // R at a direction, from the table: linear between entries; cos_theta is clamped to [0,1], NaN counts as 0. 0 for an

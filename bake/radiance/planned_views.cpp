@@ -24,12 +24,13 @@ std::vector<Vec3> candidates_for(const Scene& scene, const Reflector& r, const E
   const Vec3 centre(0.5f * (window.lower + window.upper), 0);
   const float radius = 0.5f * glm::length(window.upper - window.lower);
   std::vector<Vec3> out;
-  for (const Vec3& direction : hemisphere_directions(options.hemisphere)) {
+  for (const Vec3& direction : hemisphere_directions(options.hemisphere, Rings::kTo75)) {
     const Vec3 eye = centre + radius * direction;
     if (is_inside(scene, pack_from_reflector(r, mirrored(eye)), radius)) out.push_back(eye);
   }
   for (const float nearer : {0.5f, 0.25f, 0.125f})
-    for (const Vec3& direction : hemisphere_directions(16)) out.push_back(centre + nearer * radius * direction);
+    for (const Vec3& direction : hemisphere_directions(16, Rings::kTo75))
+      out.push_back(centre + nearer * radius * direction);
   const std::size_t hemisphere = out.size();
   for (const ReflectedSample& s : samples) {
     if (out.size() >= hemisphere + options.mirrored_eyes) break;

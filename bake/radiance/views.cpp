@@ -7,7 +7,11 @@
 namespace oriel {
 namespace {
 
-constexpr double kLowestRing = 75 * kPiD / 180;  // from the pole: views closer to the plane see it edge-on
+// Between rings and from the pole to the first.
+double arc_between(int rings, Rings which) {
+  return which == Rings::kTo75 ? 75 * kPiD / 180 / rings : 0.5 * kPiD / (rings + 0.5);
+}
+
 constexpr std::uint32_t kMinResolution = 16;
 
 struct Planner {
@@ -43,7 +47,7 @@ struct Planner {
   }
 
   std::uint64_t total_bytes(std::size_t count, std::uint32_t views, std::uint32_t divisor) const {
-    const std::vector<Vec3> directions = hemisphere_directions(views);
+    const std::vector<Vec3> directions = hemisphere_directions(views, Rings::kToRim);
     std::uint64_t bytes = 0, skipped = 0;
     for (std::size_t r = 0; r < count; ++r) bytes += reflector_maps(r, directions, divisor, nullptr, skipped);
     return bytes;
@@ -88,13 +92,13 @@ std::string memory_line(std::uint64_t wanted, std::uint64_t allowed) {
                      static_cast<double>(wanted) / (1 << 20), static_cast<double>(allowed) / (1 << 20));
 }
 
-std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
+std::vector<Vec3> hemisphere_directions(std::uint32_t count, Rings which) {
   std::vector<Vec3> directions{{0, 0, -1}};
   if (count <= 1) return directions;
   // Rings at θ_k = k Δ; their natural number of points is 2π sinθ_k / Δ. The number of rings whose natural total is
   // nearest to what is asked, its points then shared out in proportion.
-  const auto natural = [](int rings) {
-    const double arc = kLowestRing / rings;
+  const auto natural = [&](int rings) {
+    const double arc = arc_between(rings, which);
     double total = 0;
     for (int k = 1; k <= rings; ++k) total += 2 * kPiD * std::sin(k * arc) / arc;
     return total;
@@ -103,10 +107,11 @@ std::vector<Vec3> hemisphere_directions(std::uint32_t count) {
   int rings = 1;
   while (rings < 64 && std::abs(std::log(natural(rings + 1) / wanted)) < std::abs(std::log(natural(rings) / wanted)))
     ++rings;
+  const double arc = arc_between(rings, which);
   double sines = 0, before = 0;
-  for (int k = 1; k <= rings; ++k) sines += std::sin(k * kLowestRing / rings);
+  for (int k = 1; k <= rings; ++k) sines += std::sin(k * arc);
   for (int k = 1; k <= rings; ++k) {
-    const double theta = k * kLowestRing / rings;
+    const double theta = k * arc;
     const double until = before + std::sin(theta) / sines * wanted;
     const long points = (k == rings ? std::lround(wanted) : std::lround(until)) - std::lround(before);
     before = until;
@@ -138,7 +143,7 @@ ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors,
   ViewPlan plan;
   const Fit fit = fit_memory(planner, plan.omitted);
   plan.views_per_element = fit.views;
-  const std::vector<Vec3> directions = hemisphere_directions(fit.views);
+  const std::vector<Vec3> directions = hemisphere_directions(fit.views, Rings::kToRim);
   for (std::size_t r = 0; r < reflectors.size(); ++r) {
     Reflector& out = reflectors[r].reflector;
     std::uint64_t skipped = 0;

@@ -17,9 +17,13 @@ struct ViewOptions {
   std::uint64_t memory_bytes = std::uint64_t{128} << 20;  // of all maps, kMapBytesPerPixel each
 };
 
-// Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs down to 75° from it, each with points
-// at about the same spacing. Exactly `count` of them, at least 1.
-std::vector<Vec3> hemisphere_directions(std::uint32_t count);
+// How far from the pole the rings of a hemisphere go: to 75°, since views closer to the plane see it edge-on; or, as
+// published, over all of it: arcs end half a step above the rim, where a frustum is flat.
+enum class Rings { kTo75, kToRim };
+
+// Unit vectors with z < 0: the pole (0, 0, -1), then rings at evenly spaced arcs from it, each with points at about the
+// same spacing. Exactly `count` of them, at least 1.
+std::vector<Vec3> hemisphere_directions(std::uint32_t count, Rings rings);
 
 // Pixels of a map's longer side for a lobe of that roughness: a mirror 256, wider lobes fewer.
 std::uint32_t resolution_for(float roughness);
@@ -37,10 +41,11 @@ bool is_inside(const Scene& scene, const Vec3& p, float margin);
 // How an omission of maps that do not fit begins: "radiance maps would take … MiB of … MiB allowed: ".
 std::string memory_line(std::uint64_t wanted, std::uint64_t allowed);
 
-// Plans the maps of all reflectors that have maps and sets each one's elements_x, elements_y, first_map and map_count.
-// Left out are elements that the reflector's polygons do not cover and viewpoints whose mirror image is outside the
-// scene's bounds by more than the hemisphere's radius. Where memory_bytes does not suffice, views per element are
-// reduced for all, then resolution (down to 16), then the least important reflectors get no maps.
+// Plans the maps of all reflectors that have maps, from hemispheres to the rim, and sets each one's elements_x,
+// elements_y, first_map and map_count. Left out are elements that the reflector's polygons do not cover and viewpoints
+// whose mirror image is outside the scene's bounds by more than the hemisphere's radius. Where memory_bytes does not
+// suffice, views per element are reduced for all, then resolution (down to 16), then the least important reflectors get
+// no maps.
 ViewPlan plan_views(const Scene& scene, std::vector<FoundReflector>& reflectors, const ViewOptions& options);
 
 }  // namespace oriel

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/jobs/memory.h"
+#include "bake/run/method.h"
 #include "bake/run/option_values.h"
 #include "bake/trace/virtual_lights.h"
 #include "formats/core/text.h"
@@ -325,6 +326,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
                      "lamp), or a JSON file of groups and their nodes",
                      light_groups(o), Use::kEveryday, "light_groups", "lights.md"});
   append(options, reflection_options(o));
+  append(options, method_options(kReflections, o));
   options.push_back(mover_option(o.import));
   append(options, transfer_options(o));
   options.push_back(unit_option(o.import, o.guess_unit));
@@ -334,6 +336,7 @@ std::vector<Option> bake_options(BakeOptions& o) {
 
 Status settle(BakeOptions& o, const Given& given) {
   RadiosityOptions& r = o.radiosity;
+  ORIEL_TRY_VOID(settle_method(given, o));
   if (!o.transfer.shadowed) o.transfer.bounces = 0;
   o.error_named = given.has("--error");
   // Who says what maps are to be like wants maps.

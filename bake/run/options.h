@@ -27,6 +27,9 @@ enum class Directional { kAuto, kOn, kOff };
 // Which viewpoints radiance maps have: those that show most to the eye region, or uniform hemispheres.
 enum class ViewScheme { kPlanned, kHemisphere };
 
+// How reflections are baked: as Oriel does, or as Bastos et al. 1999 published it, for comparison.
+enum class Method { kOriel, kBastos1999 };
+
 // Whether what is seen from where is found: where it is likely to pay, always, never.
 enum class VisibleSetsWanted { kAuto, kOn, kOff };
 
@@ -44,6 +47,7 @@ struct BakeOptions {
   LightGroupOptions light_groups;
   RadiosityOptions radiosity;  // radiosity.directional follows from the next
   Directional directional = Directional::kAuto;
+  Method method = Method::kOriel;
   ReflectorOptions reflectors;
   WaysWanted ways = WaysWanted::kAuto;
   DrawnOn target = DrawnOn::kCpu;

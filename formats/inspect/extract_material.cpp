@@ -30,14 +30,16 @@ std::string radial_csv(const BrdfKernel& kernel) {
 }  // namespace
 
 Status Extraction::kernels() {
+  constexpr std::array kModels{"beckmann", "ggx", "gaussian"};
   for (std::size_t i = 0; i < pack_.kernels.size(); ++i) {
     const auto& kernel = pack_.kernels[i];
     const std::string name = fmt::format("brdf_kernel_{:02}", i);
     Json entry{{"kind", "brdf_kernel"},
                {"number", i},
                {"size", kernel.size},
-               {"model", kernel.model == KernelModel::kGgx ? "ggx" : "beckmann"},
-               {"lobe", "D G2 / (4 cos theta_o), G2 height-correlated Smith"},
+               {"model", kModels[static_cast<std::size_t>(kernel.model)]},
+               {"lobe",
+                kernel.slices.empty() ? "D G / (4 cos theta_o)" : "D G2 / (4 cos theta_o), G2 height-correlated Smith"},
                {"alpha", kernel.alpha},
                {"cos_theta", kernel.cos_theta},
                {"half_extent", kernel.half_extent},

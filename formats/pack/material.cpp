@@ -43,7 +43,7 @@ void describe(Serial& s, std::uint32_t size, KernelSlice& slice) {
 }  // namespace
 
 void describe(Serial& s, BrdfKernel& k) {
-  s.choice("kernel model", 1, k.model);
+  s.choice("kernel model", 2, k.model);
   s.reserved(3);
   s(k.alpha, k.cos_theta, k.half_extent, k.energy_kept, k.size);
   s.planes(k.weights, std::uint64_t{k.size} * k.size);

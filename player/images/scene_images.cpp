@@ -293,7 +293,7 @@ const LoadedLightmap& SceneImages::light(std::uint32_t index) const {
   return lights_[index].texture ? lights_[index] : some_light_;
 }
 
-Result<const gpu::Texture2d*> SceneImages::points(std::uint32_t radiance_map) {
+Result<const MapPoints*> SceneImages::points(std::uint32_t radiance_map) {
   const auto found = points_.find(radiance_map);
   if (found != points_.end()) return &found->second;
   ORIEL_TRY(const RadianceMap map, source_.radiance_map(radiance_map));
@@ -302,7 +302,8 @@ Result<const gpu::Texture2d*> SceneImages::points(std::uint32_t radiance_map) {
   map_bytes_ += data.bytes();
   points_bytes_ += data.bytes();
   plan_is_due_ = true;
-  return &points_.emplace(radiance_map, upload_texture(std::move(data))).first->second;
+  MapPoints points{upload_texture(std::move(data)), divide_points(map)};
+  return &points_.emplace(radiance_map, std::move(points)).first->second;
 }
 
 Result<const LightmapPage*> SceneImages::page(std::uint32_t index, const LightmapPage& in_pack) {

@@ -9,6 +9,7 @@
 #include "player/images/background.h"
 #include "player/images/image_source.h"
 #include "player/images/loading_state.h"
+#include "player/images/point_tree.h"
 #include "player/images/residency.h"
 
 namespace oriel {
@@ -31,6 +32,12 @@ struct ReflectorMaps {
 // How many times what was baked the light is on average that maps show: by reflector, by surround map.
 struct MapFactors {
   std::vector<Vec3> reflectors, surrounds;
+};
+
+// A radiance map to be drawn as points.
+struct MapPoints {
+  gpu::Texture2d texels;
+  std::vector<PointNode> nodes;
 };
 
 struct LoadingOptions {
@@ -81,7 +88,7 @@ class SceneImages {
   const ReflectorMaps& maps(std::uint32_t reflector) const { return maps_[reflector]; }  // that has() says are there
   const SurroundTextures& surround(std::uint32_t index) const { return surrounds_[index]; }
   // As points; null where there is no room for it. Uploaded when first asked for and kept.
-  Result<const gpu::Texture2d*> points(std::uint32_t radiance_map);
+  Result<const MapPoints*> points(std::uint32_t radiance_map);
   // A page with all that the bake knows of its texels, as lamps shine now, which only few ask for; in the background
   // null until it is there. in_pack: the pack's, which has it where it is not deferred.
   Result<const LightmapPage*> page(std::uint32_t index, const LightmapPage& in_pack);
@@ -152,7 +159,7 @@ class SceneImages {
   std::vector<ReflectorMaps> maps_;
   std::vector<SurroundTextures> surrounds_;
   MapFactors map_factors_;
-  std::map<std::uint32_t, gpu::Texture2d> points_;
+  std::map<std::uint32_t, MapPoints> points_;
   std::uint64_t points_bytes_ = 0;
   struct KnownPage {
     Result<LightmapPage> page = tl::unexpected<Error>(Error{});

@@ -5,6 +5,7 @@
 #include "player/passes/holes.h"
 #include "player/passes/mirrored_view.h"
 #include "player/reflections/reflected_view.h"
+#include "player/scene/pixel_kernel.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
@@ -35,6 +36,13 @@ float reflectance_of(const Pack& pack, std::uint32_t material) {
   if (row < 0) return 0;
   const auto& table = pack.fresnel_maps[static_cast<std::size_t>(row)].table;
   return table.empty() ? 0.0f : max_component(table[table.size() / 2]);
+}
+
+// Pixels of the frame along a side of one of an image that one kernel blurs.
+int even_reduction(const GpuScene& scene, const GpuReflector& reflector, const View& view) {
+  const std::int32_t kernel = scene.pack().materials[reflector.material].kernel;
+  return choose_reduction(scene.pack().kernels[static_cast<std::size_t>(kernel)],
+                          even_pixels_per_tangent(reflector, view));
 }
 
 bool shows_reflectors(const FrameOptions& options) {
@@ -127,32 +135,40 @@ Status ReflectionRenderer::draw(const ReflectionWork& work, const ReflectionTarg
     if (!there) return {};  // another reflector's took their room
   }
   const GpuKernel& kernel = scene.kernel(reflector.material, options.kernel, options.coarse);
-  const bool blurs = kernel.blurs() && options.blur != Blur::kOff && options.show != Show::kM;
-  const ImageRect rect =
-      choose_image(marked.screen, blurs ? kernel.median : 0.0f, view, device_.texture_size, options.coarse);
+  const bool lobe = kernel.blurs() && options.blur != Blur::kOff;
+  const bool blurs = lobe && options.show != Show::kM, even = lobe && options.blur == Blur::kConstant;
+  const int reduction = even ? even_reduction(scene, reflector, view) : 1;
+  const View drawn = reduction > 1 ? reduced_view(view, reduction) : view;
+  const ReflectionWork inner{{scene, drawn, options, stats}, work.scene_pass, work.mover_pass, work.movers};
+  ImageRect rect = choose_image(in_reduced_view(marked.screen, view, drawn, reduction),
+                                blurs && !even ? kernel.median : 0.0f, drawn, device_.texture_size, options.coarse);
+  rect.reduction = reduction;
   const auto level = static_cast<std::size_t>(target.mirrors);
   if (images_.size() <= level) images_.resize(level + 1);
   const bool halves = halves_ && (!maps || scene.fit_halves(reflector));
   ORIEL_TRY_VOID(ensure_image_target(images_[level], rect.width, rect.height, device_.texture_size, halves));
-  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps};
+  const ReflectedImage image{reflector, kernel, rect, *images_[level], blurs, maps, blurs && even};
   stats.image_pixels += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height);
   const bool counted = options.count_holes && marked.value > 0 && target.frame != nullptr;
   if (counted && !kernel.blurs() && maps && marches(options.reflections)) {
-    march_pass_.measure(work.context, image);
+    march_pass_.measure(inner.context, image);
     const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_sharp);
     stats.mirror_pixels += count.pixels;
     stats.sharp += count.counted;
   }
-  ORIEL_TRY_VOID(timed(clock, Pass::kReflect, [&] { return draw_image(work, target, marked, image); }));
+  ORIEL_TRY_VOID(timed(clock, Pass::kReflect, [&] { return draw_image(inner, target, marked, image); }));
   if (counted) {
     const PixelCount count = count_pixels(*target.frame, marked.value, image.target, rect, is_hole);
     stats.reflected_pixels += count.pixels;
     stats.holes += count.counted;
   }
-  if (blurs || maps) timed(clock, Pass::kFill, [&] { fill_pass_.draw(rect, image.target, blurs, stats); });
+  if ((maps && options.fill) || (blurs && !even))
+    timed(clock, Pass::kFill, [&] { fill_pass_.draw(rect, image.target, blurs && !even, stats); });
+  if (image.even) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw_even(inner.context, image); });
   if (rect.coarse > 1) timed(clock, Pass::kConvolve, [&] { convolve_pass_.draw(work.context, image); });
   target.bind(view);
-  timed(clock, blurs ? Pass::kConvolve : Pass::kCompose, [&] { compose(work.context, target, marked, image); });
+  timed(clock, blurs && !even ? Pass::kConvolve : Pass::kCompose,
+        [&] { compose(work.context, target, marked, image); });
   const GLint value = target.frame != nullptr ? marked.value : kAdded;
   timed(clock, Pass::kEmitters, [&] { reflector_pass_.draw_emitters(work.context, reflector, value); });
   ++stats.reflectors;
@@ -164,7 +180,7 @@ void ReflectionRenderer::compose(const FrameContext& context, const ReflectionTa
   // Of what mostly mirrors, the image's depth counts, as in radiance maps: it is what blurs it in another reflector.
   const bool mirrors = reflectance_of(context.scene.pack(), marked.reflector->material) > kMirroring;
   const GLint value = target.frame != nullptr ? marked.value : mirrors ? kAddedWithDistance : kAdded;
-  if (image.blurs) {
+  if (image.blurs && !image.even) {
     reflector_pass_.draw_convolved(context, image, value);
   } else {
     reflector_pass_.draw_light(context, image, value);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "player/gpu/raster_state.h"
+#include "player/scene/pixel_kernel.h"
 
 namespace oriel {
 namespace {
@@ -45,9 +46,9 @@ ImageRect choose_image(const NdcRect& screen, float median, const View& view, in
 
 namespace {
 
-// What the published kernel's one width stands for: the share of the lobe's angle that something at the mean distance
-// behind the reflector's middle spans for the eye (or metres, seen orthographically).
-float constant_footprint(const GpuReflector& reflector, const View& view) {
+// The share of a lobe's angle that something at the mean distance behind the reflector's middle spans for the eye (or
+// metres, seen orthographically).
+float mean_footprint(const GpuReflector& reflector, const View& view) {
   const Vec3 middle = 0.5f * (reflector.corners[0] + reflector.corners[2]);
   if (view.orthographic) return reflector.mean_distance;
   const float to_plane = glm::length(Vec3(view.eye) - middle);
@@ -56,8 +57,30 @@ float constant_footprint(const GpuReflector& reflector, const View& view) {
 
 }  // namespace
 
+float even_pixels_per_tangent(const GpuReflector& reflector, const View& view) {
+  return pixels_per_tangent(view) * mean_footprint(reflector, view);
+}
+
+View reduced_view(const View& view, int reduction) {
+  const auto up = [&](int size) { return (size + reduction - 1) / reduction; };
+  View out = part_of(view, Vec2(0), up(view.width) * reduction, up(view.height) * reduction);
+  out.width = up(view.width);
+  out.height = up(view.height);
+  return out;
+}
+
+NdcRect in_reduced_view(const NdcRect& screen, const View& view, const View& reduced, int reduction) {
+  const Vec2 share =
+      Vec2(view.width, view.height) / (Vec2(reduced.width, reduced.height) * static_cast<float>(reduction));
+  NdcRect out = screen;
+  out.lower = (screen.lower + 1.0f) * share - 1.0f;
+  out.upper = (screen.upper + 1.0f) * share - 1.0f;
+  return out;
+}
+
 Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
   ConvolvePass pass;
+  ORIEL_TRY(pass.even_, gpu::Program::create("screen_kernel", dialect));
   ORIEL_TRY(pass.program_, gpu::Program::create("screen_convolve", dialect));
   pass.no_vertices_ = gpu::make_vertex_array();
   return pass;
@@ -65,7 +88,6 @@ Result<ConvolvePass> ConvolvePass::create(gpu::Dialect dialect) {
 
 void set_blur_width(const gpu::Program& program, const FrameContext& context, const ReflectedImage& image) {
   const View& view = context.view;
-  const bool constant = context.options.blur == Blur::kConstant;
   const Mat4 view_from_reflector = view.view_from_pack * image.reflector.pack_from_reflector;
   const Vec3 normal = normalize_or(Vec3(view_from_reflector[2]), Vec3(0, 0, 1));
   const Vec2 aside = view.centre / view.tangents;
@@ -75,7 +97,6 @@ void set_blur_width(const gpu::Program& program, const FrameContext& context, co
   program.set("u_plane_normal", normal);
   program.set("u_plane_offset", glm::dot(normal, Vec3(view_from_reflector[3])));
   program.set("u_farthest", 1e4f * std::max(context.scene.bounds().radius(), 1e-12f));
-  program.set("u_constant_footprint", constant ? constant_footprint(image.reflector, view) : -1.0f);
   program.set("u_median", image.kernel.median);
   program.set("u_coarse", image.rect.coarse);
   program.set("u_pixels_per_tangent", pixels_per_tangent(view));
@@ -92,6 +113,28 @@ void set_convolution(const gpu::Program& program, const FrameContext& context, c
   program.set("u_taps", 2);
   program.set("u_tap_count", image.kernel.count);
   program.set("u_tap_rows", image.kernel.rows);
+}
+
+void ConvolvePass::draw_even(const FrameContext& context, const ReflectedImage& image) const {
+  const std::int32_t index = context.scene.pack().materials[image.reflector.material].kernel;
+  const PixelKernel kernel = make_pixel_kernel(context.scene.pack().kernels[static_cast<std::size_t>(index)],
+                                               even_pixels_per_tangent(image.reflector, context.view));
+  const int side = 2 * kernel.radius + 1;
+  const gpu::Texture2d weights(gpu::kR32f, side, side, kernel.weights.data());
+  image.target.level_framebuffer.bind();
+  image.target.level_framebuffer.attach_color_level(image.target.blurred, 0);
+  glViewport(0, 0, image.rect.width, image.rect.height);
+  gpu::apply({});
+  glBindVertexArray(no_vertices_.name());
+  even_.use();
+  even_.set("u_image", 0);
+  even_.set("u_kernel", 2);
+  even_.set("u_image_size", IVec2(image.rect.width, image.rect.height));
+  even_.set("u_radius", kernel.radius);
+  weights.bind(2);
+  image.shown(context.options).bind(0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  ++context.stats.draws;
 }
 
 void ConvolvePass::draw(const FrameContext& context, const ReflectedImage& image) const {

@@ -1,24 +1,41 @@
 #include "player/reflections/reproject_pass.h"
 
 #include <algorithm>
+#include <map>
 
+#include "player/gpu/buffer.h"
 #include "player/reflections/reflected_view.h"
 #include "player/scene/surface.h"
 
 namespace oriel {
 namespace {
 
-// Every step-th pixel of a map suffices where its pixels fall closer together than the image's (Step of eq. (3)).
-int pixel_step(const RadianceMap& map, const Vec4& eye, float pixels_per_tangent, bool orthographic) {
-  if (orthographic) return 1;
-  const Vec2 size = map.upper - map.lower;
-  const float per_tangent =
-      -map.eye.z * std::min(static_cast<float>(map.width) / size.x, static_cast<float>(map.height) / size.y);
-  const Vec3 center(0.5f * (map.lower + map.upper), 0);
-  const float nearer =
-      std::min(1.0f, glm::length(Vec3(eye) - center) / std::max(glm::length(map.eye - center), 1e-30f));
-  const float step = 0.6f * nearer * per_tangent / pixels_per_tangent;
-  return step >= 4 ? 4 : step >= 2 ? 2 : 1;
+// A node as the shader draws it.
+struct NodeInstance {
+  Vec4 node;
+  Vec2 step, box;
+};
+
+// The nodes that the image may show, by the number of their points.
+using Instances = std::map<int, std::vector<NodeInstance>>;
+
+Instances place_nodes(const std::vector<PointNode>& nodes, const MapFrame& map, const SplatView& view) {
+  Instances out;
+  for (const PointNode& node : nodes) {
+    if (is_culled(map, node, view)) continue;
+    const Vec2 size = point_size(map, node, view);
+    const UVec2 step = point_step(size), count = (UVec2(node.width, node.height) + step - 1u) / step;
+    out[static_cast<int>(count.x * count.y)].push_back({Vec4(node.x, node.y, node.width, node.height), Vec2(step),
+                                                        glm::max(splat_box(size * Vec2(step), view), Vec2(1))});
+  }
+  return out;
+}
+
+void set_attribute(GLuint location, int components, std::size_t offset) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, sizeof(NodeInstance),
+                        reinterpret_cast<const void*>(offset));
+  glVertexAttribDivisor(location, 1);
 }
 
 }  // namespace
@@ -26,7 +43,7 @@ int pixel_step(const RadianceMap& map, const Vec4& eye, float pixels_per_tangent
 Result<ReprojectPass> ReprojectPass::create(const gpu::Device& device) {
   ReprojectPass pass;
   ORIEL_TRY(pass.program_, gpu::Program::create("reproject", device.dialect));
-  pass.no_vertices_ = gpu::make_vertex_array();
+  pass.instances_ = gpu::make_vertex_array();
   pass.point_max_ = device.point_size_max;
   return pass;
 }
@@ -36,17 +53,17 @@ Status ReprojectPass::draw(const FrameContext& context, const ReflectedImage& im
   clear_image(image.target, image.rect);
   const ReflectedView reflected = reflect_view(image.reflector, view, image.rect, scene.bounds());
   const Mat4 image_from_reflector = reflected.image_from_view * reflected.view_from_reflector;
+  const SplatView splats{reflected.view_from_mirrored, reflected.image_from_view * reflected.view_from_mirrored,
+                         0.5f * static_cast<float>(view.height) / view.tangents.y, view.orthographic};
   program_.use();
-  program_.set("u_clip_from_mirrored", reflected.image_from_view * reflected.view_from_mirrored);
+  program_.set("u_clip_from_mirrored", splats.clip_from_mirrored);
   program_.set("u_mirrored_eye", reflected.mirrored_eye);
-  program_.set("u_viewport", Vec2(static_cast<float>(image.rect.width), static_cast<float>(image.rect.height)));
   program_.set("u_point_max", point_max_);
-  program_.set("u_bias_scale", view.orthographic ? scene.bounds().radius() : 1.0f);
   program_.set("u_closest", kClosest);
   program_.set("u_ortho", view.orthographic ? 1.0f : 0.0f);
   program_.set("u_depth_row", -glm::transpose(reflected.view_from_mirrored)[2]);
   program_.set("u_map", 0);
-  glBindVertexArray(no_vertices_.name());
+  glBindVertexArray(instances_.name());
   for (const ReflectorElement& element : image.reflector.elements) {
     const Vec2 lower = element.lower, upper = element.upper;
     const std::array<Vec3, 4> corners{Vec3(lower, 0), Vec3(upper.x, lower.y, 0), Vec3(upper, 0),
@@ -57,32 +74,32 @@ Status ReprojectPass::draw(const FrameContext& context, const ReflectedImage& im
     const std::size_t count = std::min(maps.size(), static_cast<std::size_t>(options.maps_per_element));
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t map = element.maps[maps[i].map];
-      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(context, image.reflector, map));
+      if (!scene.pack().radiance_maps[map].residual) ORIEL_TRY_VOID(draw_map(context, splats, map));
     }
   }
   return {};
 }
 
-Status ReprojectPass::draw_map(const FrameContext& context, const GpuReflector& reflector, std::uint32_t index) const {
-  const auto& [scene, view, options, stats] = context;
+Status ReprojectPass::draw_map(const FrameContext& context, const SplatView& view, std::uint32_t index) const {
+  const auto& [scene, unused, options, stats] = context;
   const RadianceMap& map = scene.pack().radiance_maps[index];
-  const float pixels_per_tangent = 0.5f * static_cast<float>(view.height) / view.tangents.y;
-  const int step = pixel_step(map, eye_in_reflector(reflector, view), pixels_per_tangent, view.orthographic);
-  const int width = static_cast<int>(map.width), height = static_cast<int>(map.height);
-  const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
-  ORIEL_TRY(const gpu::Texture2d* const points, scene.radiance_map(index));
+  ORIEL_TRY(const MapPoints* const points, scene.map_points(index));
   if (points == nullptr) return {};
-  points->bind(0);
-  program_.set("u_map_size", IVec2(width, height));
-  program_.set("u_step", step);
-  program_.set("u_columns", columns);
+  points->texels.bind(0);
+  program_.set("u_map_size", IVec2(points->texels.width(), points->texels.height()));
   program_.set("u_map_eye", map.eye);
   program_.set("u_lower", map.lower);
   program_.set("u_upper", map.upper);
-  glDrawArrays(GL_POINTS, 0, columns * rows);
-  ++stats.draws;
+  for (const auto& [count, nodes] : place_nodes(points->nodes, map_frame(map), view)) {
+    const gpu::Buffer buffer(GLenum{GL_ARRAY_BUFFER}, std::span<const NodeInstance>(nodes));
+    set_attribute(0, 4, offsetof(NodeInstance, node));
+    set_attribute(1, 2, offsetof(NodeInstance, step));
+    set_attribute(2, 2, offsetof(NodeInstance, box));
+    glDrawArraysInstanced(GL_POINTS, 0, count, static_cast<GLsizei>(nodes.size()));
+    ++stats.draws;
+    stats.points += static_cast<std::uint64_t>(count) * nodes.size();
+  }
   ++stats.maps;
-  stats.points += static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
   return {};
 }
 

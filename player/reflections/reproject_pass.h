@@ -1,4 +1,4 @@
-// M: the mirrored world from a reflector's radiance maps, as points (Bastos et al. 1999, section 8.1.3).
+// M: the mirrored world from a reflector's radiance maps, as points in quadtrees (Bastos et al. 1999, section 8.1.3).
 #pragma once
 
 #include "player/gpu/program.h"
@@ -16,9 +16,9 @@ class ReprojectPass {
   Status draw(const FrameContext& context, const ReflectedImage& image) const;
 
  private:
-  Status draw_map(const FrameContext& context, const GpuReflector& reflector, std::uint32_t map) const;
+  Status draw_map(const FrameContext& context, const SplatView& view, std::uint32_t map) const;
   gpu::Program program_;
-  gpu::VertexArray no_vertices_;
+  gpu::VertexArray instances_;
   float point_max_ = 1;
 };
 

@@ -21,11 +21,13 @@ inline bool is_survey(Show show) {
   return show >= Show::kLux;
 }
 // How M is made: as the bake chose; by marching rays through radiance maps; by drawing the maps' meshes; from their
-// pixels as points, as published; by drawing the mirrored scene; or not at all. A reflector without maps is always
-// drawn as the mirrored scene.
+// pixels as points, as published, with boxes of equation (3); by drawing the mirrored scene; or not at all. A reflector
+// without maps is always drawn as the mirrored scene.
 enum class Reflections { kChosen, kMarch, kMesh, kPoints, kGeometry, kOff };
-// How wide K is: by the distance of what is reflected, one width for all as published, or a mirror's.
+// How wide K is: by the distance of what is reflected; one kernel for the whole image as published, which is then drawn
+// at reduced resolution; or a mirror's.
 enum class Blur { kDistance, kConstant, kOff };
+// R by the table at each pixel; or as published by the sphere map, at the reflected vectors of vertices.
 enum class Reflectance { kTable, kSphereMap };
 
 // How movers meet bright lights: with shadows of their own, without any, or as harmonics like all other light.
@@ -52,9 +54,11 @@ struct FrameOptions {
   int orders = 2;            // mirrors on the way of a reflection, where the mirrored scene is drawn
   int maps_per_element = 2;  // radiance maps blended for each reflector element in view; 0: none
   Selection selection = Selection::kAngle;
+  bool fill = true;  // pixels that no map tells of; else they stay black. Not with Blur::kDistance
   Blur blur = Blur::kDistance;
   KernelPlace kernel = KernelPlace::kLobe;
   Reflectance reflectance = Reflectance::kTable;
+  int sphere_cells = 16;     // along a side of a reflector, at whose corners its sphere map is looked up
   bool visible_sets = true;  // draws only what the eye's place may see, where the pack knows
   bool mipmaps = true;       // false: textures at full resolution at each pixel's centre, as a ray tracer samples them
   int samples = 1;           // of a pixel at edges, as many as the device has

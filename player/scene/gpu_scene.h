@@ -163,7 +163,7 @@ class GpuScene {
   // The same of a curved reflector: whether its map is there.
   Result<bool> bring_surround_map(std::uint32_t index);
   // As points, uploaded on first use and kept; null where there is no room.
-  Result<const gpu::Texture2d*> radiance_map(std::uint32_t index) { return images_->points(index); }
+  Result<const MapPoints*> map_points(std::uint32_t index) { return images_->points(index); }
   // To march through, of an element of the reflector; layers as its maps.
   const MapArray& map_array(const GpuReflector& reflector, std::size_t element) const {
     return images_->maps(reflector.index).elements[element];

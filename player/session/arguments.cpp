@@ -7,6 +7,7 @@
 #include "formats/core/text.h"
 #include "player/session/keys.h"
 #include "player/session/live_options.h"
+#include "player/session/method.h"
 #include "player/session/option_names.h"
 
 namespace oriel {
@@ -98,32 +99,6 @@ std::vector<Option> picture_options(PlayArguments& out) {
        "error (error), state (texels) or chart (charts) in colours; how many surfaces each pixel is drawn by "
        "(overdraw); or where reflections were planned for (zones)",
        choice(out.frame.show, kStages), Use::kEveryday, "show"},
-      {"--reflections", kPicture,
-       "What reflectors show: as the bake chose, rays marched through their radiance maps, the maps' pixels as points "
-       "as Bastos et al. published it, the mirrored scene drawn again, or nothing. Reflectors without maps always show "
-       "the mirrored scene",
-       choice(out.frame.reflections, kReflections), Use::kEveryday, "reflections"},
-      {"--orders", kPicture,
-       "Mirrors on the way of a reflection, where the mirrored scene is drawn: 1 shows a mirror in a mirror as its "
-       "diffuse light only",
-       number(out.frame.orders, 1, 16), Use::kRare, "orders"},
-      {"--maps", kPicture,
-       "Radiance maps blended for each reflector element in view: more fill more gaps and cost more time; 0 shows none",
-       number(out.frame.maps_per_element, 0, 64), Use::kRare, "maps"},
-      {"--select", kPicture,
-       "Which maps: taken from the direction nearest to the mirrored eye's, or from the nearest place",
-       choice(out.frame.selection, kSelections), Use::kRare, "select"},
-      {"--blur", kPicture,
-       "K's width in the image: by the distance of what is reflected, one for all distances as Bastos et al. published "
-       "it (of the reflector's mean one), or as sharp as a mirror. Lamps that a glossy reflector's maps leave out are "
-       "exact for the first two",
-       choice(out.frame.blur, kBlurs), Use::kRare, "blur"},
-      {"--kernel", kPicture,
-       "K as the lobe, which leaves the mirror direction at grazing angles, or centred on the mirror ray as Bastos et "
-       "al. published it; not of lamps that a glossy reflector's maps leave out",
-       choice(out.frame.kernel, kKernelPlaces), Use::kRare, "kernel"},
-      {"--fresnel", kPicture, "R from the exact table by angle, or from the sphere map as Bastos et al. published it",
-       choice(out.frame.reflectance, kReflectances), Use::kRare, "fresnel"},
       {"--pvs", kPicture,
        "Draw only what may be seen from where the eye stands, where the pack knows it; off: all that lies in the view, "
        "to compare with",
@@ -311,9 +286,9 @@ std::vector<Option> window_options(PlayArguments& out) {
 
 std::vector<Option> play_options(PlayArguments& out) {
   std::vector<Option> options = window_options(out);
-  for (auto&& more :
-       {offscreen_options(out), picture_options(out), light_options(out), mover_options(out),
-        live_options(kLights, out.frame.live), path_options(out), lens_options(kLens, out.lens), compare_options(out)})
+  for (auto&& more : {offscreen_options(out), picture_options(out), reflection_options(kPicture, out),
+                      light_options(out), mover_options(out), live_options(kLights, out.frame.live), path_options(out),
+                      lens_options(kLens, out.lens), compare_options(out)})
     append(options, more);
   return options;
 }
@@ -364,6 +339,8 @@ Status settle(const Given& given, PlayArguments& out) {
   if (out.panorama && !out.sized) out.width = kPanoramaWidth, out.height = kPanoramaWidth / 2;
   out.toned = given.has("--tonemap"), out.sampled = given.has("--samples"), out.divided = given.has("--split");
   out.frame.halves = out.makes_pictures();
+  if (const std::string complaint = settle_method(given, out); !complaint.empty())
+    return fail(ErrorCode::kUsage, "", "{}", complaint);
   if (const std::string complaint = contradiction(out); !complaint.empty())
     return fail(ErrorCode::kUsage, "", "{}", complaint);
   return {};

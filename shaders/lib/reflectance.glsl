@@ -10,8 +10,7 @@ vec3 reflectance_from_table(sampler2D tables, int row, int count, float cos_thet
 }
 
 // Where a direction at angle theta from the normal, with unit tangential direction `around`, lies in the sphere map: an
-// equal-area disk, r = sqrt(2) sin(theta / 2). sin^2(theta / 2) = (1 - cos theta) / 2. Kept half a texel from the rim.
-vec2 sphere_map_uv(float cos_theta, vec2 around, float size) {
-  float r = min(sqrt(max(1.0 - clamp(cos_theta, 0.0, 1.0), 0.0)), 1.0 - 1.5 / size);
-  return 0.5 + 0.5 * r * around;
+// equal-area disk, r = sqrt(2) sin(theta / 2). sin^2(theta / 2) = (1 - cos theta) / 2.
+vec2 sphere_map_uv(float cos_theta, vec2 around) {
+  return 0.5 + 0.5 * sqrt(1.0 - clamp(cos_theta, 0.0, 1.0)) * around;
 }

@@ -6,7 +6,6 @@ uniform float u_ortho;
 uniform vec3 u_plane_normal;   // view space, towards the eye's side
 uniform float u_plane_offset;  // dot(normal, point of the plane)
 uniform float u_farthest;      // metres: distances are cut off here
-uniform float u_constant_footprint;  // not negative: share of the angle (metres where orthographic) for all distances
 uniform float u_median;        // tangent of the radius that holds half of the lobe
 uniform float u_pixels_per_tangent;  // of the image, at its centre
 uniform int u_coarse;          // pixels of the image along a side of a coarse one
@@ -31,8 +30,6 @@ PlaneHit plane_hit(vec2 pixel) {
 
 // How far behind the plane lies what is seen at 1 / distance from the eye.
 float behind_plane(float inverse, float to_plane) {
-  if (u_constant_footprint >= 0.0)
-    return u_ortho > 0.5 ? u_constant_footprint : to_plane * u_constant_footprint / max(1.0 - u_constant_footprint, 1e-6);
   return max(1.0 / max(inverse, 1.0 / u_farthest) - to_plane, 0.0);
 }
 

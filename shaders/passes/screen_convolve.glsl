@@ -21,7 +21,7 @@ vec4 image_at(vec2 pixel, float level) {
 // How far behind the plane the pixel's image lies.
 float distance_behind(vec2 pixel, float to_plane) {
   float level = log2(max(0.25 * u_median * u_pixels_per_tangent / float(u_coarse), 1.0));
-  return behind_plane(u_constant_footprint >= 0.0 ? 1.0 : image_at(pixel, level).a, to_plane);
+  return behind_plane(image_at(pixel, level).a, to_plane);
 }
 
 float lobe_radius(vec2 pixel) {
@@ -54,9 +54,8 @@ vec4 convolved(vec2 pixel) {
     vec4 tap = kernel_tap(u_taps, i, row);
     vec3 direction = lobe_direction(from.view, across, along, tap.xy), at = from.at + behind * direction;
     if (dot(direction, u_plane_normal) >= 0.0 || (u_ortho < 0.5 && at.z >= -1e-6 * from.distance)) continue;
-    float weight = u_constant_footprint >= 0.0 ? 1.0 : tap.w;  // published: all directions weigh alike
-    sum += weight * image_at(pixel_of(at), log2(max(tap.z * to_pixels, 1.0))).rgb;
-    total += weight;
+    sum += tap.w * image_at(pixel_of(at), log2(max(tap.z * to_pixels, 1.0))).rgb;
+    total += tap.w;
   }
   return total > 0.0 ? vec4(sum / total, centre.a) : centre;
 }

@@ -50,6 +50,33 @@ TEST_F(Holes, AreCountedOverTheMirrorsPixels) {
   }
 }
 
+// As published what no map tells of stays black, and a kernel for all of the image reaches over its edge.
+TEST_F(Holes, StayBlackWhereTheyAreNotFilled) {
+  Pack half = mirror_pack();
+  RadianceMap& map = half.radiance_maps[0];
+  for (std::uint32_t i = 0; i < map.width * map.height; ++i) map.valid[i] = i % map.width >= map.width / 2;
+  BrdfKernel kernel;
+  kernel.size = 3;
+  kernel.weights.assign(9, 1.0f / 9);
+  kernel.half_extent = 0.2f;
+  const auto shown = [&](bool fill, Blur blur) {
+    FrameOptions options{.reflections = Reflections::kPoints, .fill = fill, .blur = blur};
+    options.show = Show::kMK;
+    const Camera camera{.name = "", .eye = {0, 0, 1}, .forward = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov_rad = 2.2f};
+    const Picture p = draw(half, camera, 120, 90, options);
+    return std::array{p.at(50, 45).x, p.at(59, 45).x, p.at(70, 45).x};
+  };
+  EXPECT_NEAR(shown(true, Blur::kOff)[0], 10, 0.01);
+  EXPECT_EQ(shown(false, Blur::kOff)[0], 0);
+  half.kernels.push_back(kernel);
+  half.materials[0].kernel = 0;
+  const auto [far, edge, known] = shown(false, Blur::kConstant);
+  EXPECT_EQ(far, 0);
+  EXPECT_GT(edge, 1);
+  EXPECT_LT(edge, 9);
+  EXPECT_NEAR(known, 10, 0.01);
+}
+
 // Through a pixel's middle the eye sees 2 tan(1.1) / 90 of a map pixel's 2 / size a metre away: a map pixel covers no
 // more than two where the plane is far enough.
 TEST_F(Holes, SharpIsWhereAMapPixelCoversNoMoreThanTwo) {

@@ -99,9 +99,8 @@ class Planner {
       add("views", "planned:" + views, {{"--views", "planned:" + views}}, {});
     for (const std::string& views : either({"16"}, {"4", "16", "64"}))
       add("views", "hemisphere:" + views, {{"--views", "hemisphere:" + views}}, {}, "uniform hemisphere (Bastos 1999)");
-    Settings published{{"--reflections", "points"}, {"--fresnel", "sphere"}, {"--select", "distance"}};
-    if (facts_.glossy) published.merge(Settings{{"--blur", "constant"}, {"--kernel", "centred"}});
-    add("as published", "", {{"--views", "hemisphere:16"}}, published, "all of Bastos 1999");
+    const Settings published{{"--method", "bastos1999"}};
+    add("as published", "", published, published, "all of Bastos 1999");
     for (const std::string& maps : either({"1"}, {"1", "4", "8"})) add("maps", maps, maps_baked, {{"--maps", maps}});
     if (!quick_) add("select", "distance", maps_baked, {{"--select", "distance"}}, "nearest eye (Bastos 1999)");
   }

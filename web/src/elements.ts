@@ -148,7 +148,7 @@ export function readSlice(r: ByteReader, size: number): Slice {
 }
 
 export function readKernel(r: ByteReader): Kernel {
-  r.choice(1, 'kernel model');
+  r.choice(2, 'kernel model');
   r.u8(), r.u8(), r.u8();
   r.floats(2);
   const halfExtent = r.f32();

@@ -191,6 +191,18 @@ TEST(FresnelMap, SphereMapHoldsTheSameReflectanceAsTheTable) {
   EXPECT_EQ(sphere_map_cos_theta(1.3f), 0);
 }
 
+// Bastos et al. 1999, equation (4): π F / (π N·L N·V), which is F seen straight, four times that at 60°, and 1 where it
+// would be more.
+TEST(FresnelMap, SphereMapHoldsEquationFourWhereAsked) {
+  const FresnelMap map = make_fresnel_map(schlick(Vec3(0.04f), 1, 0.3f), {.sphere_size = 256, .equation_4 = true});
+  const auto at = [&](double cos_theta) { return sphere_lookup(map, static_cast<float>(cos_theta)).g; };
+  EXPECT_NEAR(at(1), 0.04, 1e-3);
+  for (const double c : {0.9, 0.7, 0.5, 0.4})
+    EXPECT_NEAR(at(c), (0.04 + 0.96 * std::pow(1 - c, 5)) / (c * c), 5e-3) << c;
+  EXPECT_EQ(at(0.1), 1);
+  EXPECT_GT(at(0.5), 3 * fresnel_lookup(map, 0.5f).g) << "the table stays the directional albedo";
+}
+
 TEST(FresnelMap, BadNumbersAreClamped) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const FresnelMap map =

@@ -74,6 +74,26 @@ TEST(Kernel, IsSymmetricAtNormalIncidenceAndPeaksInTheMiddle) {
   }
 }
 
+// As published: Cook and Torrance's distributions with their G, at one incidence. Narrow, a Gaussian of angles is
+// Beckmann's of slopes; wide, its tail is longer. Seen straight their G is 1 but far from the normal.
+TEST(Kernel, PublishedFormsAreGaussianAndBeckmannWithG) {
+  const auto published = [](float alpha, KernelModel model) {
+    return make_kernel(alpha, model, 1, {.form = LobeForm::kDg});
+  };
+  for (const float alpha : {0.01f, 0.1f, 0.3f})
+    for (const KernelModel model : {KernelModel::kBeckmann, KernelModel::kGaussian}) {
+      EXPECT_EQ(broken_promise(published(alpha, model)), "") << alpha;
+      EXPECT_EQ(published(alpha, model).model, model);
+    }
+  const BrdfKernel narrow = published(0.01f, KernelModel::kGaussian), slopes = published(0.01f, KernelModel::kBeckmann);
+  ASSERT_EQ(narrow.size, slopes.size);
+  EXPECT_NEAR(narrow.half_extent, slopes.half_extent, 0.01f * slopes.half_extent);
+  for (std::size_t i = 0; i < narrow.weights.size(); ++i) EXPECT_NEAR(narrow.weights[i], slopes.weights[i], 1e-3);
+  const BrdfKernel smith = make_kernel(0.3f, KernelModel::kBeckmann);
+  EXPECT_GT(published(0.3f, KernelModel::kGaussian).half_extent, published(0.3f, KernelModel::kBeckmann).half_extent);
+  EXPECT_NE(published(0.3f, KernelModel::kBeckmann).weights, smith.weights) << "Smith's G2 is another";
+}
+
 // A narrow lobe at normal incidence has a closed form: half vectors with density D cosθ, tan of the reflected angle
 // twice that of the half vector's. Its share inside the disk of tangent 2 tanθh is 1 - exp(-tan²θh/α²) for Beckmann.
 TEST(Kernel, NarrowBeckmannLobeMatchesTheGaussian) {

@@ -19,7 +19,9 @@ inline double lobe_density(KernelModel model, double alpha, double cos_theta, co
 inline double lobe_albedo(KernelModel model, double alpha, double cos_theta) {
   double total = 0;
   for_each_reflection(cos_theta, alpha, 24, [&](const DVec3& wi, const DVec3& h, double solid_angle) {
-    total += microfacet(model, alpha).f_cos(direction_at(cos_theta), wi, h) * solid_angle;
+    total += Microfacet(model == KernelModel::kGgx ? FacetModel::kGgx : FacetModel::kBeckmann, alpha)
+                 .f_cos(direction_at(cos_theta), wi, h) *
+             solid_angle;
   });
   return total;
 }

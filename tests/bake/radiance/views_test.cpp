@@ -37,20 +37,38 @@ TEST(Views, GridsAreAsFineAsAskedAndNeverTooMany) {
 }
 
 TEST(Views, HemispheresHaveExactlyAsManyPointsWellApart) {
-  for (std::uint32_t count = 0; count <= 70; ++count) {
-    const std::vector<Vec3> d = hemisphere_directions(count);
+  for (std::uint32_t k = 0; k <= 2 * 70; ++k) {
+    const std::uint32_t count = k / 2;
+    const Rings rings = k % 2 ? Rings::kToRim : Rings::kTo75;
+    const std::vector<Vec3> d = hemisphere_directions(count, rings);
     ASSERT_EQ(d.size(), std::max(1u, count));
     EXPECT_EQ(d[0], Vec3(0, 0, -1));
     float nearest = 4;
     for (std::size_t i = 0; i < d.size(); ++i) {
       EXPECT_NEAR(glm::length(d[i]), 1, 1e-6);
-      EXPECT_LE(d[i].z, -0.258f);  // 75°
+      EXPECT_LE(d[i].z, rings == Rings::kTo75 ? -0.258f : -0.05f);
       for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, glm::length(d[i] - d[j]));
     }
     if (count > 1) {
       EXPECT_GT(nearest * nearest * static_cast<float>(count), 1.2f) << count;  // of at most about 2π · 2/√3
     }
   }
+}
+
+// The mean of a direction over a hemisphere is half its axis. Rings that end at 75° are turned towards the pole.
+TEST(Views, HemispheresToTheRimAreEven) {
+  const auto mean = [](Rings rings, std::uint32_t count) {
+    DVec3 sum(0);
+    for (const Vec3& d : hemisphere_directions(count, rings)) sum += DVec3(d) / double{1.0f * count};
+    return sum;
+  };
+  for (const std::uint32_t count : {16u, 64u, 256u, 1000u}) {
+    const DVec3 m = mean(Rings::kToRim, count);
+    EXPECT_NEAR(m.z, -0.5, 0.6 / std::sqrt(count)) << count;
+    EXPECT_NEAR(glm::length(DVec2(m)), 0, 0.02) << count;
+  }
+  EXPECT_NEAR(mean(Rings::kToRim, 1000).z, -0.5, 0.01);
+  EXPECT_LT(mean(Rings::kTo75, 1000).z, -0.6);
 }
 
 TEST(Views, EyesLieOnHemispheresThatTheElementsInscribe) {

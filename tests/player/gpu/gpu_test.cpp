@@ -203,22 +203,6 @@ TEST_F(SharedMaths, MapPoints) {
   }
 }
 
-TEST_F(SharedMaths, ScreenSteps) {
-  std::vector<Vec4> clips, steps;
-  for (int i = 0; i < 500; ++i) {
-    clips.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(0.1f, 2));
-    steps.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), random(-0.1f, 0.1f));
-  }
-  const auto found =
-      run_shader("lib/reprojection.glsl",
-                 "vec2 s = screen_step(a, b, vec2(640.0, 480.0));\no_value = vec4(s, covering_size(s, b.xy), 0.0);\n",
-                 clips, steps);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Vec2 s = screen_step(clips[i], steps[i], {640, 480});
-    expect_same(found[i], Vec4(s, covering_size(s, Vec2(steps[i])), 0), 1e3f + glm::length(s));
-  }
-}
-
 // A quad and a triangle around b.xyz with sides of b.w, above the surface, in lobes of a. The shader's quotient of
 // angle and sine is an interpolation: what it leaves out of the integral of a lobe is less than rounding does.
 TEST_F(SharedMaths, PolygonsInLobes) {
