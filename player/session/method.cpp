@@ -30,9 +30,8 @@ std::vector<Option> reflection_options(const char* group, PlayArguments& out) {
        choice(out.frame.selection, kSelections), Use::kRare, "select"},
       {"--blur", group,
        "K's width in the image: by the distance of what is reflected, one kernel for all of an image of fewer pixels "
-       "as "
-       "Bastos et al. published it (of the reflector's mean distance), or as sharp as a mirror. Lamps that a glossy "
-       "reflector's maps leave out are exact for the first two",
+       "as Bastos et al. published it (of the reflector's mean distance), or as sharp as a mirror. Lamps that a "
+       "glossy reflector's maps leave out are exact for the first two",
        choice(out.frame.blur, kBlurs), Use::kRare, "blur"},
       {"--fill", group,
        "Whether pixels of a reflected image that no map tells of are filled from beside; off: black, as published. Not "
@@ -79,8 +78,7 @@ std::string other_method(const Pack& pack, const PlayArguments& arguments) {
   const Json::json_pointer at("/options/method");
   if (provenance.is_object() && provenance.contains(at) && provenance[at] == "bastos1999") return {};
   return "the pack is not of oriel-bake --method bastos1999: its maps, kernels and sphere maps are not as published, "
-         "and "
-         "lamps are shown beside its maps";
+         "and lamps are shown beside its maps";
 }
 
 }  // namespace oriel

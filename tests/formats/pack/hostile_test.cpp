@@ -141,7 +141,7 @@ TEST(Hostile, CountsInsideSections) {
   expect_refusal(with_raw(kLightmapSection, 0, 32768u), "section LMAP 0 (lightmap page): its counts need more");
   expect_refusal(with_raw(kLightmapSection, 20, 113), "found scale exponent 113");
   expect_refusal(with_raw(kRadianceMapSection, 52, 31), "found disparity shift 31");
-  expect_refusal(with_raw(kKernelSection, 0, std::uint8_t{2}), "element 0: found kernel model 2");
+  expect_refusal(with_raw(kKernelSection, 0, std::uint8_t{3}), "element 0: found kernel model 3");
   expect_refusal(with_raw(kKernelSection, 20, ~0u), "section KERN (kernels): its counts need more");
   expect_refusal(with_raw(kFresnelSection, 8, ~0u), "section FRES (Fresnel maps): its counts need more");
 }
