@@ -1,7 +1,5 @@
 #include "bake/reference/reference.h"
 
-#include <optional>
-
 #include "bake/jobs/parallel.h"
 #include "bake/reference/glints.h"
 #include "bake/trace/albedo.h"
@@ -15,28 +13,14 @@ struct PixelLight {
   Vec3 direct{0}, indirect{0}, specular{0}, emission{0};
 };
 
-// The first surface that is shown along a ray from the eye. Backs of one-sided surfaces are not: glTF culls them, and
-// so does the player, though light ends there. None where the sky is seen.
-std::optional<Hit> first_shown(const Accel& accel, Ray ray, std::uint64_t& rays) {
-  const Scene& scene = accel.scene();
-  for (;;) {
-    ++rays;
-    const Hit hit = accel.intersect(ray);
-    if (!hit) return std::nullopt;
-    const SceneMaterial& material = scene.material_of(hit.triangle);
-    if (hit.front || material.double_sided || material.solid) return hit;
-    ray.origin = spawn_origin(scene, hit.triangle, hit.barycentric, ray.direction);
-  }
-}
-
 PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
   PixelLight light;
-  const std::optional<Hit> shown = first_shown(t.accel, ray, rays);
-  if (!shown) {
+  ++rays;
+  const Hit hit = t.accel.intersect(ray);
+  if (!hit) {
     light.emission = sky_radiance(t.accel.scene(), ray.direction);
     return light;
   }
-  const Hit& hit = *shown;
   SurfacePoint surface = surface_at(t.accel.scene(), hit, ray.direction);
   const auto begin = [&](const char* what) {
     if (t.listener) t.listener->begin(what), t.listener->meet(surface, Vec3(1));
@@ -67,9 +51,9 @@ PixelLight trace_pixel(const Transport& t, const Ray& ray, Sampler& sampler, std
   if (max_component(surface.shade.diffuse) > 0) {
     begin("irradiance for the diffuse lobe, lux");
     const IrradianceSample e = sample_irradiance(t, surface, sampler, rays);
-    const Vec3 reflected = coverage * left / kPi * surface.shade.diffuse;
-    light.direct = reflected * e.direct;
-    light.indirect = reflected * e.indirect;
+    const Vec3 shown = coverage * left / kPi * surface.shade.diffuse;
+    light.direct = shown * e.direct;
+    light.indirect = shown * e.indirect;
   }
   surface.shade.diffuse = surface.shade.transmission = Vec3(0);
   begin("radiance by the specular lobe, cd/m2");

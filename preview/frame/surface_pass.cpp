@@ -199,7 +199,6 @@ void PreviewMesh::set_material(const gpu::Program& program, std::uint32_t materi
   program.set("u_covers", m.alpha_mode == AlphaMode::kBlend ? 1 : 0);
   program.set("u_transmission", m.transmission);
   program.set("u_double_sided", m.double_sided ? 1 : 0);
-  program.set("u_shows_backs", m.double_sided || m.solid ? 1 : 0);
   program.set("u_normal_mapped", m.normal_texture.image >= 0 ? 1 : 0);
   program.set("u_normal_scale", m.normal_scale);
   program.set("u_dark", m.metal != Metal::kNone ? 1 : 0);

@@ -19,7 +19,7 @@ uniform vec3 u_emission;
 uniform float u_alpha_cutoff;  // < 0: none
 uniform bool u_covers;         // alpha is coverage
 uniform float u_transmission;
-uniform bool u_double_sided, u_shows_backs;
+uniform bool u_double_sided;
 uniform bool u_normal_mapped;
 uniform float u_normal_scale;
 uniform bool u_dark;             // a metal by its constants: no diffuse reflection
@@ -58,7 +58,6 @@ void main() {
   vec3 towards_eye = normalize(u_eye.w > 0.0 ? u_eye.xyz - v_position : u_eye.xyz);
   vec3 front = texelFetch(u_faces, ivec2(triangle % 4096, triangle / 4096), 0).xyz;
   float side = dot(front, towards_eye) >= 0.0 ? 1.0 : -1.0;
-  if (side < 0.0 && !u_shows_backs) discard;  // as in the player
   vec3 face = side * front;
   vec3 normal = shading_normal(face, side, towards_eye, uv_of(u_normal_set, u_normal_u, u_normal_v));
   if (base.a < u_alpha_cutoff) discard;

@@ -62,21 +62,6 @@ TEST(Reference, AnEyeInGlassSeesThroughIt) {
   expect_color(frame.total, 2.25f * Vec3(1, 1, (1 - r) * once / (1 - r * once * once)), 0.005, "total");
 }
 
-// Between the eye and a lit wall stands a sheet with its back to the eye: it is not shown, as in the player.
-TEST(Reference, BacksAreNotShown) {
-  const auto mean_of = [](bool double_sided) {
-    test::SceneParts parts;
-    parts.quad("wall", parts.diffuse(Vec3(0), Vec3(3)), {-9, -9, -3}, {18, 0, 0}, {0, 18, 0});
-    SceneMaterial sheet;
-    sheet.double_sided = double_sided;
-    parts.quad("sheet", parts.add(sheet), {-9, -9, -1}, {0, 18, 0}, {18, 0, 0});
-    const ReferenceFrame frame = render(parts.finish(), {.width = 16, .height = 9, .samples = 1});
-    return frame.emission.pixels[0];
-  };
-  EXPECT_FLOAT_EQ(mean_of(false), 3);
-  EXPECT_EQ(mean_of(true), 0);
-}
-
 TEST(Reference, PartsAddUp) {
   const ReferenceFrame frame = render(lamp(), {.width = 16, .height = 9, .samples = 16});
   for (std::size_t i = 0; i < frame.total.pixels.size(); ++i)
