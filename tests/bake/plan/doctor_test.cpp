@@ -5,6 +5,7 @@
 
 #include "bake/plan/doctor.h"
 #include "bake/plan/plan.h"
+#include "bake/run/judge.h"
 #include "bake/trace/sampler.h"
 #include "tests/bake/import/gltf_maker.h"
 #include "tests/bake/support/scene_parts.h"
@@ -57,6 +58,28 @@ TEST(Doctor, OneSidedWallsSeenFromBehind) {
   EXPECT_NE(found[0].found.find("nothing is drawn"), std::string::npos) << found[0].found;
   EXPECT_TRUE(walls_of(cube(true)).empty());
   EXPECT_TRUE(walls_of(cube(false, true)).empty());
+}
+
+TEST(TellBacks, NamesThoseSeenMostAndCountsTheRest) {
+  SceneParts parts;
+  for (int i = 0; i < 5; ++i) {  // one above the other below the eyes, their backs to these, each half as wide
+    SceneMaterial paint;
+    const float half = 1.0f / static_cast<float>(1 << i), far = 1 - 0.01f * static_cast<float>(i);
+    parts.quad("sheet " + std::to_string(i), parts.add(paint), {-half, -far, -half}, {2 * half, 0, 0},
+               {0, 0, 2 * half});
+  }
+  const Scene scene = parts.finish();
+  const Accel accel = *Accel::build(scene);
+  std::vector<std::string> findings;
+  tell_backs(accel, std::vector<Vec3>(1024, Vec3(0, -0.5f, 0)), 1, findings);
+  ASSERT_EQ(findings.size(), 1u);
+  // 4 asin 0.8 sr less what the next sheet fills, 4 asin 0.51.
+  EXPECT_NE(findings[0].find("'sheet 0' (12 %)"), std::string::npos) << findings[0];
+  EXPECT_LT(findings[0].find("'sheet 0'"), findings[0].find("'sheet 3'")) << findings[0];
+  EXPECT_NE(findings[0].find("%) and 1 more;"), std::string::npos) << findings[0];
+  findings.clear();
+  tell_backs(accel, std::vector<Vec3>(1024, Vec3(0, -2, 0)), 1, findings);
+  EXPECT_TRUE(findings.empty()) << "from below all are fronts";
 }
 
 TEST(Doctor, AlbedosAboveSnow) {
